@@ -1,0 +1,3 @@
+//! The command `asperity`.
+
+fn main() {}

@@ -1,0 +1,66 @@
+//! Regular grids and the fields on them.
+
+use crate::error::{Error, Result};
+use crate::units::{Metre, SquareMetre};
+
+/// Values on the cells of a [`Grid`], indexed `[ix, iy]`, `iy` fastest in memory.
+pub type Field = ndarray::Array2<f64>;
+
+/// A regular grid of rectangular cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of cells along x and y.
+    pub shape: [usize; 2],
+    /// Size of a cell along x and y.
+    pub pitch: [Metre; 2],
+}
+
+impl Grid {
+    /// A grid of `shape` cells of size `pitch`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there are no cells, or a pitch is not positive and finite.
+    pub fn new(shape: [usize; 2], pitch: [Metre; 2]) -> Result<Self> {
+        if shape.contains(&0) {
+            return Err(Error::OutOfRange {
+                quantity: "shape",
+                value: 0.0,
+                expected: "at least one cell along x and y",
+            });
+        }
+        if let Some(&value) = pitch.iter().find(|p| !(p.is_finite() && **p > 0.0)) {
+            return Err(Error::OutOfRange { quantity: "pitch", value, expected: "a positive length" });
+        }
+        Ok(Self { shape, pitch })
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Area ΔA of one cell.
+    pub fn cell_area(&self) -> SquareMetre {
+        self.pitch[0] * self.pitch[1]
+    }
+
+    /// Area of the whole grid: the apparent area of a contact on it.
+    pub fn area(&self) -> SquareMetre {
+        self.cell_area() * self.cells() as f64
+    }
+
+    /// Lengths of the grid along x and y.
+    pub fn extent(&self) -> [Metre; 2] {
+        [self.pitch[0] * self.shape[0] as f64, self.pitch[1] * self.shape[1] as f64]
+    }
+
+    /// Position of the centre of cell `index` along `axis`, from the grid's corner.
+    pub fn centre(&self, axis: usize, index: usize) -> Metre {
+        (index as f64 + 0.5) * self.pitch[axis]
+    }
+
+    /// A field of zeros on this grid.
+    pub fn zeros(&self) -> Field {
+        Field::zeros(self.shape)
+    }
+}

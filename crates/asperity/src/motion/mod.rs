@@ -1,0 +1,61 @@
+//! Two bodies in relative motion: positions, passes, the pair's geometry and its plastic change.
+
+pub mod record;
+
+pub use record::{PassRecord, StaticRecord, StepRecord};
+
+use crate::units::{Metre, MetrePerSecond, Newton};
+
+/// What is prescribed in the normal direction during the motion.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Control {
+    /// One approach for a whole pass, found so that the mean load over its positions is this.
+    PassLoad(Newton),
+    /// This load at every position.
+    StepLoad(Newton),
+    /// This approach at every position of every pass.
+    Approach(Metre),
+}
+
+/// How the bodies pass over each other.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Strategy {
+    /// The upper body enters on the left, passes over, leaves on the right; only what faces is solved.
+    Overlap,
+    /// Both height matrices are shifted circularly and the full problem is solved at each step.
+    Shift {
+        /// Speed of the lower surface along x; only the ratio of the two matters.
+        speed_lower: MetrePerSecond,
+        /// Speed of the upper surface along x.
+        speed_upper: MetrePerSecond,
+    },
+}
+
+/// When plastic deformation changes the geometry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlasticUpdate {
+    /// After the pass: each cell is lowered by its share of the largest plastic interference it saw.
+    Pass,
+    /// At every position, in sequence.
+    Step,
+}
+
+/// A motion: how often, how finely and under what the bodies pass over each other.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Motion {
+    /// Overlap or circular shift.
+    pub strategy: Strategy,
+    /// Number of passes, ≥ 1.
+    pub passes: usize,
+    /// Cells per step, ≥ 1.
+    pub stride: usize,
+    /// Load or approach.
+    pub control: Control,
+    /// When plastic deformation is applied.
+    pub plastic_update: PlasticUpdate,
+    /// Relative tolerance on the pass-mean load, > 0.
+    pub load_tolerance: f64,
+}

@@ -1,0 +1,98 @@
+//! The rows that a computation reports: one per static contact, per position, per pass.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, Second, SquareMetre};
+
+/// A static contact in numbers: `static` in `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StaticRecord {
+    /// Total normal force W.
+    pub load: Newton,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Area of the cells with p > 0.
+    pub contact_area: SquareMetre,
+    /// Area of the whole grid.
+    pub apparent_area: SquareMetre,
+    /// Largest pressure.
+    pub max_pressure: Pascal,
+    /// Mean deformed gap.
+    pub mean_gap: Metre,
+    /// ½ ΔA Σ p u.
+    pub elastic_energy: Joule,
+    /// Number of cells at the hardness.
+    pub plastic_cells: usize,
+    /// ΔA Σ w, w the interference left at the cells at the hardness.
+    pub plastic_volume: CubicMetre,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Convolutions, those on coarse grids counted by their cost.
+    pub convolutions: f64,
+    /// Scale-free complementarity residual η.
+    pub residual: f64,
+    /// Whether the residual is below the tolerance.
+    pub converged: bool,
+}
+
+/// One position of one pass: a row of `steps.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepRecord {
+    /// Pass, from 1.
+    pub pass: usize,
+    /// Position in the pass, from 1.
+    pub step: usize,
+    /// How far the upper body's left edge lies to the right of the lower body's.
+    pub offset: Metre,
+    /// Columns that face each other.
+    pub overlap_columns: usize,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Normal force at this position.
+    pub load: Newton,
+    /// Area of the cells with p > 0.
+    pub contact_area: SquareMetre,
+    /// Largest pressure.
+    pub max_pressure: Pascal,
+    /// Number of cells at the hardness.
+    pub plastic_cells: usize,
+    /// Iterations of the solver at the last approach tried.
+    pub iterations: usize,
+    /// Convolutions over all approaches tried.
+    pub convolutions: f64,
+    /// Scale-free complementarity residual η.
+    pub residual: f64,
+}
+
+/// One pass: a row of `passes.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PassRecord {
+    /// Pass, from 1.
+    pub pass: usize,
+    /// Rigid-body approach δ of the pass (mean over the positions under step load).
+    pub approach: Metre,
+    /// Mean load over the positions.
+    pub mean_load: Newton,
+    /// Smallest load.
+    pub min_load: Newton,
+    /// Largest load.
+    pub max_load: Newton,
+    /// Mean real contact area over the positions.
+    pub mean_contact_area: SquareMetre,
+    /// Largest pressure met.
+    pub max_pressure: Pascal,
+    /// Volume that the lower body lost in this pass.
+    pub plastic_volume_lower: CubicMetre,
+    /// Volume that the upper body lost in this pass.
+    pub plastic_volume_upper: CubicMetre,
+    /// Rms height of the lower surface after the pass.
+    pub sq_lower: Metre,
+    /// Rms height of the upper surface after the pass.
+    pub sq_upper: Metre,
+    /// Approaches tried.
+    pub outer_iterations: usize,
+    /// Convolutions of the pass.
+    pub convolutions: f64,
+    /// Time the pass took.
+    pub wall_time_s: Second,
+}

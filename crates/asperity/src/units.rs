@@ -1,0 +1,18 @@
+//! SI quantities: the aliases that name them in signatures, and their reading and writing with a unit.
+
+/// Length in metres.
+pub type Metre = f64;
+/// Area in square metres.
+pub type SquareMetre = f64;
+/// Volume in cubic metres.
+pub type CubicMetre = f64;
+/// Pressure, modulus or hardness in pascals.
+pub type Pascal = f64;
+/// Force in newtons.
+pub type Newton = f64;
+/// Energy in joules.
+pub type Joule = f64;
+/// Speed in metres per second.
+pub type MetrePerSecond = f64;
+/// Time in seconds.
+pub type Second = f64;
