@@ -1,1 +1,40 @@
-//! TODO
+//! Operators: pressure in, displacement out.
+
+mod direct_sum;
+mod free_fft;
+mod periodic_fft;
+
+pub use direct_sum::DirectSum;
+pub use free_fft::{FreeFamily, FreeFft};
+pub use periodic_fft::PeriodicFft;
+
+use crate::grid::{Field, Grid};
+use crate::units::Pascal;
+
+/// The composite normal displacement of a half-space pair under pressure: `u = C p`.
+///
+/// An operator owns its scratch; its answer never depends on it.
+pub trait Operator: Send {
+    /// The grid that it acts on.
+    fn grid(&self) -> &Grid;
+
+    /// The composite modulus E*.
+    fn modulus(&self) -> Pascal;
+
+    /// Whether the surface repeats itself beyond the grid.
+    fn periodic(&self) -> bool;
+
+    /// Displacement of a cell per unit pressure on the one `i` and `j` cells away, m/Pa; `[i, j]` inside the grid.
+    fn influence(&self, i: usize, j: usize) -> f64;
+
+    /// Writes the displacement under `pressure` into `displacement`. Both have the grid's shape.
+    fn apply(&mut self, pressure: &Field, displacement: &mut Field);
+
+    /// The same bodies on a grid of about half as many cells along each axis.
+    fn coarse(&self) -> Box<dyn Operator>;
+}
+
+/// The grid whose cells are 2 × 2 cells of `grid`, the last row or column hanging over where the number is odd.
+fn coarse_free_grid(grid: &Grid) -> Grid {
+    Grid { shape: grid.shape.map(|n| n.div_ceil(2)), pitch: grid.pitch.map(|p| 2.0 * p) }
+}

@@ -1,0 +1,101 @@
+//! The periodic boundary.
+
+use crate::grid::{Field, Grid};
+use crate::kernel::spectral::harmonic_displacement;
+use crate::math::{RealFft2, fft::angular_frequency};
+use crate::operator::Operator;
+use crate::units::Pascal;
+
+/// A half-space pair that repeats itself beyond the grid: û(q) = 2 p̂(q)/(E*|q|).
+///
+/// The mean displacement is free and taken as zero: under load it is part of the approach.
+pub struct PeriodicFft {
+    grid: Grid,
+    modulus: Pascal,
+    fft: RealFft2,
+    /// `[kx, ky]`, `ky ≤ ny/2`.
+    spectrum: Field,
+    /// Displacement per unit pressure on the cell at `[0, 0]`.
+    influence: Field,
+}
+
+impl PeriodicFft {
+    /// The operator on `grid` for the composite `modulus`.
+    pub fn new(grid: Grid, modulus: Pascal) -> Self {
+        let fft = RealFft2::new(grid.shape);
+        let [nx, ny] = grid.shape;
+        let spectrum = Field::from_shape_fn([nx, fft.half()], |(k, l)| {
+            let qx = angular_frequency(k, nx, grid.pitch[0]);
+            let qy = angular_frequency(l, ny, grid.pitch[1]);
+            harmonic_displacement(qx, qy, modulus)
+        });
+        let influence = fft.inverse(&spectrum.mapv(Into::into));
+        Self { grid, modulus, fft, spectrum, influence }
+    }
+}
+
+impl Operator for PeriodicFft {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn modulus(&self) -> Pascal {
+        self.modulus
+    }
+
+    fn periodic(&self) -> bool {
+        true
+    }
+
+    fn influence(&self, i: usize, j: usize) -> f64 {
+        self.influence[[i, j]]
+    }
+
+    fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
+        let mut spectrum = self.fft.forward(pressure);
+        spectrum.zip_mut_with(&self.spectrum, |p, c| *p *= *c);
+        displacement.assign(&self.fft.inverse(&spectrum));
+    }
+
+    fn coarse(&self) -> Box<dyn Operator> {
+        let shape = self.grid.shape.map(|n| n.div_ceil(2));
+        let extent = self.grid.extent();
+        let pitch = [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64];
+        Box::new(Self::new(Grid { shape, pitch }, self.modulus))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_sinusoidal_pressure_bends_the_surface_into_the_same_sinusoid() {
+        let grid = Grid::new([12, 10], [0.5, 0.25]).unwrap();
+        let mut operator = PeriodicFft::new(grid, 3.0);
+        let [lx, ly] = grid.extent();
+        let wave = Field::from_shape_fn(grid.shape, |(i, j)| {
+            (TAU * (2.0 * grid.centre(0, i) / lx + grid.centre(1, j) / ly)).cos()
+        });
+        let mut displacement = grid.zeros();
+        operator.apply(&(&wave + 5.0), &mut displacement);
+        let q = (2.0 * TAU / lx).hypot(TAU / ly);
+        for (u, w) in displacement.iter().zip(&wave) {
+            assert_relative_eq!(*u, 2.0 * w / (3.0 * q), epsilon = 1e-14);
+        }
+    }
+
+    #[test]
+    fn influence_is_the_displacement_under_one_cell() {
+        let grid = Grid::new([7, 6], [1.0, 1.0]).unwrap();
+        let mut operator = PeriodicFft::new(grid, 1.0);
+        let (mut pressure, mut displacement) = (grid.zeros(), grid.zeros());
+        pressure[[0, 0]] = 1.0;
+        operator.apply(&pressure, &mut displacement);
+        for ((i, j), u) in displacement.indexed_iter() {
+            assert_relative_eq!(*u, operator.influence(i, j), epsilon = 1e-14);
+        }
+    }
+}
