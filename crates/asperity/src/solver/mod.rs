@@ -1,1 +1,248 @@
-//! TODO
+//! The contact problem: pressures 0 ≤ p ≤ H that close the gap, under a load or at an approach.
+
+mod active_set;
+mod bounds;
+mod cascade;
+mod direct;
+mod polonsky_keer;
+mod preconditioner;
+mod residual;
+
+pub use residual::{Residual, residual};
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::operator::Operator;
+use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
+
+/// What is prescribed in the normal direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// The total normal force W, > 0.
+    Load(Newton),
+    /// The rigid-body approach δ.
+    Approach(Metre),
+}
+
+/// How the problem is solved. All methods solve the same problem to the same residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The direct method on small grids, the active set elsewhere.
+    #[default]
+    Auto,
+    /// Dense quadratic programming by block principal pivoting: exact to round-off; cost grows with the cube of
+    /// the number of cells in contact.
+    Direct,
+    /// The constrained conjugate gradient method of Polonsky and Keer, Wear 231, 206 (1999), as printed.
+    PolonskyKeer,
+    /// Preconditioned conjugate gradients on a predicted active set, from a cascade of coarse grids.
+    ActiveSet,
+}
+
+/// How accurately, and by what method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Params {
+    /// The method.
+    pub method: Method,
+    /// Scale-free complementarity residual η at which the answer is accepted, > 0; see [`residual`].
+    pub tolerance: f64,
+    /// Operator calls after which the iteration is given up.
+    pub max_convolutions: usize,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000 }
+    }
+}
+
+/// What an answer cost.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stats {
+    /// Iterations: conjugate gradient steps, or factorisations of the direct method.
+    pub iterations: usize,
+    /// Operator calls, those on coarser grids counted by their share of cells.
+    pub convolutions: f64,
+}
+
+/// A contact in equilibrium.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Pressure p, Pa; exactly 0 outside the contact, exactly the hardness at capped cells.
+    pub pressure: Field,
+    /// Composite displacement u = C p, m.
+    pub displacement: Field,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Scale-free complementarity residual η of this very pressure.
+    pub residual: f64,
+    /// What it cost.
+    pub stats: Stats,
+}
+
+impl Solution {
+    /// Load W = ΔA Σ p.
+    pub fn load(&self, cell_area: SquareMetre) -> Newton {
+        cell_area * self.pressure.sum()
+    }
+
+    /// Number of cells in contact, p > 0.
+    pub fn contact_cells(&self) -> usize {
+        self.pressure.iter().filter(|p| **p > 0.0).count()
+    }
+
+    /// Number of cells at the `hardness`.
+    pub fn plastic_cells(&self, hardness: Pascal) -> usize {
+        self.pressure.iter().filter(|p| **p >= hardness).count()
+    }
+
+    /// Largest pressure.
+    pub fn max_pressure(&self) -> Pascal {
+        self.pressure.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Deformed gap g = h + u − δ. It is negative where interference is left at capped cells.
+    pub fn gap(&self, initial_gap: &Field) -> Field {
+        initial_gap + &self.displacement - self.approach
+    }
+
+    /// Plastic interference w = δ − h − u ≥ 0 at the cells at the `hardness`, 0 elsewhere.
+    pub fn plastic_interference(&self, initial_gap: &Field, hardness: Pascal) -> Field {
+        let mut interference = -self.gap(initial_gap);
+        interference.zip_mut_with(&self.pressure, |w, p| *w = if *p >= hardness { w.max(0.0) } else { 0.0 });
+        interference
+    }
+
+    /// ΔA Σ w of the [`Solution::plastic_interference`].
+    pub fn plastic_volume(
+        &self,
+        initial_gap: &Field,
+        hardness: Pascal,
+        cell_area: SquareMetre,
+    ) -> CubicMetre {
+        cell_area * self.plastic_interference(initial_gap, hardness).sum()
+    }
+
+    /// Elastic energy ½ ΔA Σ p u (periodic: without that of the mean displacement, which is free).
+    pub fn elastic_energy(&self, cell_area: SquareMetre) -> Joule {
+        0.5 * cell_area * (&self.pressure * &self.displacement).sum()
+    }
+}
+
+/// A box-constrained contact problem, as every method sees it.
+#[derive(Clone, Copy)]
+struct Problem<'a> {
+    initial_gap: &'a Field,
+    hardness: Pascal,
+    control: Control,
+    /// Displacement of a cell per unit pressure on itself.
+    self_influence: f64,
+    cell_area: SquareMetre,
+}
+
+impl Problem<'_> {
+    /// Σ p under load control.
+    fn pressure_sum(&self) -> Option<f64> {
+        match self.control {
+            Control::Load(load) => Some(load / self.cell_area),
+            Control::Approach(_) => None,
+        }
+    }
+}
+
+/// Solves the frictionless contact of a half-space pair: 0 ≤ p ≤ H,
+///
+/// ```text
+/// p = 0 ⇒ g ≥ 0;   0 < p < H ⇒ g = 0;   p = H ⇒ g ≤ 0;   g = h + C p − δ
+/// ```
+///
+/// which minimises ½ pᵀCp − pᵀ(δ − h) over the box. `initial_gap` is h, `hardness` H (infinite: elastic), `start` a
+/// pressure near the answer, if one is known.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for input without meaning, [`Error::BeyondPlasticLimit`] for more load than H bears,
+/// [`Error::PeriodicFullContact`], [`Error::NotConverged`].
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
+pub fn solve_normal(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+) -> Result<Solution> {
+    let grid = *operator.grid();
+    let shape = (grid.shape[0], grid.shape[1]);
+    assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
+    assert!(start.is_none_or(|p| p.dim() == shape), "shape of the start");
+    validate(operator, initial_gap, hardness, control, params)?;
+    let problem = Problem {
+        initial_gap,
+        hardness,
+        control,
+        self_influence: operator.influence(0, 0),
+        cell_area: grid.cell_area(),
+    };
+    if let Some(solution) = no_contact(&problem) {
+        return Ok(solution);
+    }
+    match params.method {
+        Method::Direct => direct::solve(operator, &problem, start, params),
+        Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
+        Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
+        Method::Auto | Method::ActiveSet => match start {
+            Some(_) => active_set::solve(operator, &problem, start, params),
+            None => cascade::solve(operator, &problem, params),
+        },
+    }
+}
+
+/// Grids of up to so many cells are solved directly by [`Method::Auto`].
+const DIRECT_CELLS: usize = 400;
+
+fn validate(
+    operator: &dyn Operator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    control: Control,
+    params: &Params,
+) -> Result<()> {
+    let range = |quantity, value: f64, good: bool, expected| {
+        if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+    };
+    range("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
+    range("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
+    if let Some(&value) = initial_gap.iter().find(|h| !h.is_finite()) {
+        range("initial gap", value, false, "finite heights at every cell: fill missing data first")?;
+    }
+    match control {
+        Control::Load(load) => {
+            range("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+            let limit = hardness * operator.grid().area();
+            if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
+        }
+        Control::Approach(approach) => {
+            range("approach", approach, approach.is_finite(), "a finite approach")?;
+            let mean_gap = initial_gap.mean().unwrap_or(0.0);
+            if operator.periodic() && hardness.is_infinite() && approach >= mean_gap {
+                return Err(Error::PeriodicFullContact { approach, mean_gap });
+            }
+            Ok(())
+        }
+    }
+}
+
+/// The answer where the bodies do not reach each other.
+fn no_contact(problem: &Problem) -> Option<Solution> {
+    let Control::Approach(approach) = problem.control else { return None };
+    problem.initial_gap.iter().all(|h| *h >= approach).then(|| Solution {
+        pressure: Field::zeros(problem.initial_gap.raw_dim()),
+        displacement: Field::zeros(problem.initial_gap.raw_dim()),
+        approach,
+        residual: 0.0,
+        stats: Stats::default(),
+    })
+}

@@ -1,0 +1,74 @@
+//! A first guess from coarser and coarser grids.
+
+use crate::error::Result;
+use crate::grid::Field;
+use crate::operator::Operator;
+use crate::solver::{Params, Problem, Solution, active_set};
+
+/// Residual to which the coarse grids are solved.
+const COARSE_TOLERANCE: f64 = 3e-2;
+/// Coarse grids below the given one.
+const LEVELS: usize = 3;
+/// A grid with fewer cells than this along either axis is not coarsened.
+const LEAST_CELLS: usize = 32;
+
+/// Solves on a cascade of grids, each with twice the pitch of the one above it, from the coarsest upwards; the
+/// pressure of each is the first guess of the next.
+pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Params) -> Result<Solution> {
+    let (start, spent) = first_guess(operator, problem, params, LEVELS)?;
+    let mut solution = active_set::solve(operator, problem, start.as_ref(), params)?;
+    solution.stats.convolutions += spent;
+    Ok(solution)
+}
+
+/// The prolonged pressure of the next coarser grid and its cost in convolutions of this one.
+fn first_guess(
+    operator: &dyn Operator,
+    problem: &Problem,
+    params: &Params,
+    levels: usize,
+) -> Result<(Option<Field>, f64)> {
+    let shape = operator.grid().shape;
+    if levels == 0 || shape.iter().any(|n| *n < 2 * LEAST_CELLS) {
+        return Ok((None, 0.0));
+    }
+    let mut coarse = operator.coarse();
+    let gap = restrict(problem.initial_gap);
+    let share = coarse.grid().cells() as f64 / operator.grid().cells() as f64;
+    let coarse_problem = Problem {
+        initial_gap: &gap,
+        self_influence: coarse.influence(0, 0),
+        cell_area: coarse.grid().cell_area(),
+        ..*problem
+    };
+    if coarse_problem.hardness * coarse_problem.cell_area * (gap.len() as f64)
+        <= coarse_problem.pressure_sum().unwrap_or(0.0) * coarse_problem.cell_area
+    {
+        return Ok((None, 0.0));
+    }
+    let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params, levels - 1)?;
+    let loose = Params { tolerance: COARSE_TOLERANCE.max(params.tolerance), ..*params };
+    match active_set::solve(coarse.as_mut(), &coarse_problem, start.as_ref(), &loose) {
+        Ok(solution) => {
+            let spent = share * (spent + solution.stats.convolutions);
+            Ok((Some(prolong(&solution.pressure, shape)), spent))
+        }
+        // A guess that cannot be had is no guess.
+        Err(crate::Error::NotConverged { .. }) => Ok((None, share * spent)),
+        Err(other) => Err(other),
+    }
+}
+
+/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
+fn restrict(fine: &Field) -> Field {
+    let (nx, ny) = fine.dim();
+    Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
+        let block = fine.slice(ndarray::s![2 * i..nx.min(2 * i + 2), 2 * j..ny.min(2 * j + 2)]);
+        block.sum() / block.len() as f64
+    })
+}
+
+/// Each coarse value on the cells that it covers.
+fn prolong(coarse: &Field, shape: [usize; 2]) -> Field {
+    Field::from_shape_fn(shape, |(i, j)| coarse[[i / 2, j / 2]])
+}

@@ -1,0 +1,107 @@
+//! The constrained conjugate gradient method of Polonsky and Keer, with the cap on the pressure.
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::operator::Operator;
+use crate::solver::{Control, Params, Problem, Solution, Stats};
+
+/// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at the hardness
+/// leave the conjugate directions as those at zero do.
+pub(super) fn solve(
+    operator: &mut dyn Operator,
+    problem: &Problem,
+    start: Option<&Field>,
+    params: &Params,
+) -> Result<Solution> {
+    let Problem { initial_gap, hardness, .. } = *problem;
+    let mut pressure = match (start, problem.pressure_sum(), problem.control) {
+        (Some(start), ..) => start.clone(),
+        (None, Some(sum), _) => Field::from_elem(initial_gap.raw_dim(), sum / initial_gap.len() as f64),
+        (None, None, Control::Approach(delta)) => {
+            initial_gap.mapv(|h| (delta - h) / problem.self_influence * 0.3)
+        }
+        (None, None, Control::Load(_)) => unreachable!("a load has a pressure sum"),
+    };
+    problem.make_feasible(&mut pressure);
+    let mut displacement = Field::zeros(pressure.raw_dim());
+    let mut direction = Field::zeros(pressure.raw_dim());
+    let mut response = Field::zeros(pressure.raw_dim());
+    let mut stats = Stats::default();
+    let mut squared_before = f64::INFINITY;
+    loop {
+        operator.apply(&pressure, &mut displacement);
+        stats.convolutions += 1.0;
+        let state = problem.residual(&pressure, &displacement);
+        if state.eta < params.tolerance {
+            return Ok(Solution {
+                pressure,
+                displacement,
+                approach: state.approach,
+                residual: state.eta,
+                stats,
+            });
+        }
+        if stats.convolutions as usize >= params.max_convolutions {
+            return Err(Error::NotConverged {
+                iterations: stats.iterations,
+                residual: state.eta,
+                tolerance: params.tolerance,
+            });
+        }
+        let between = |p: f64| 0.0 < p && p < hardness;
+        let free = pressure.iter().filter(|p| between(**p)).count();
+        if free == 0 {
+            // Every cell at a bound and not in equilibrium: one step along the gap frees some.
+            ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
+                *p += 0.5 * (state.approach - h - u) / problem.self_influence;
+            });
+            problem.make_feasible(&mut pressure);
+            continue;
+        }
+        let mut gap = initial_gap + &displacement;
+        let datum = match problem.control {
+            Control::Approach(approach) => approach,
+            Control::Load(_) => mean_where(&gap, &pressure, between),
+        };
+        gap -= datum;
+        let squared: f64 = gap.iter().zip(&pressure).filter(|(_, p)| between(**p)).map(|(g, _)| g * g).sum();
+        let conjugate = squared / squared_before;
+        squared_before = squared;
+        ndarray::Zip::from(&mut direction).and(&gap).and(&pressure).for_each(|t, g, p| {
+            *t = if between(*p) { g + conjugate * *t } else { 0.0 };
+        });
+        operator.apply(&direction, &mut response);
+        stats.convolutions += 1.0;
+        if let Control::Load(_) = problem.control {
+            response -= mean_where(&response, &pressure, between);
+        }
+        let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
+        let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
+        let step = slope / curvature;
+        let mut reentered = false;
+        ndarray::Zip::from(&mut pressure).and(&direction).and(&gap).for_each(|p, t, g| {
+            *p = (*p - step * t).clamp(0.0, hardness);
+            if (*p == 0.0 && *g < 0.0) || (*p == hardness && *g > 0.0) {
+                *p -= step * g;
+                reentered = true;
+            }
+        });
+        problem.make_feasible(&mut pressure);
+        if reentered {
+            squared_before = f64::INFINITY;
+        }
+        stats.iterations += 1;
+    }
+}
+
+/// Mean of `values` over the cells whose pressure is `wanted`.
+fn mean_where(values: &Field, pressure: &Field, wanted: impl Fn(f64) -> bool) -> f64 {
+    let (mut sum, mut count) = (0.0, 0usize);
+    for (v, p) in values.iter().zip(pressure) {
+        if wanted(*p) {
+            sum += v;
+            count += 1;
+        }
+    }
+    sum / count as f64
+}
