@@ -31,8 +31,8 @@ impl HertzEllipse {
     /// The contact of relative radii `[Rx, Ry]`, positive and finite, composite modulus E* and load W > 0.
     pub fn new(radii: [Metre; 2], modulus: Pascal, load: Newton) -> Self {
         let [rx, ry] = radii;
-        let large = rx.max(ry);
-        let axis_ratio = axis_ratio(large / rx.min(ry));
+        let (large, small) = if rx >= ry { (rx, ry) } else { (ry, rx) };
+        let axis_ratio = axis_ratio(large / small);
         let integrals = CompleteElliptic::of_complement(axis_ratio);
         let major = (3.0 * load * large * integrals.difference / (PI * modulus)).cbrt();
         let minor = axis_ratio * major;

@@ -35,7 +35,7 @@ impl Westergaard {
 
     /// s = p̄/p*, no more than 1.
     fn closure(&self) -> f64 {
-        (self.mean_pressure / self.full_contact_pressure()).min(1.0)
+        (self.mean_pressure / self.full_contact_pressure()).clamp(f64::NEG_INFINITY, 1.0) // keeps a NaN
     }
 
     /// Half width a of each strip of contact; λ/2 in full contact.
