@@ -13,18 +13,18 @@
 //! height of its underside; the undeformed gap is `h = z₂ − z₁`.
 
 // A module may use those above it, never those below: `tests/module_order.rs` holds it.
+pub mod units;
 pub mod error;
 pub mod grid;
-pub mod io;
-pub mod kernel;
-pub mod material;
 pub mod math;
-pub mod motion;
-pub mod operator;
+pub mod material;
 pub mod reference;
-pub mod solver;
 pub mod surface;
-pub mod units;
+pub mod kernel;
+pub mod operator;
+pub mod solver;
+pub mod motion;
+pub mod io;
 
 pub use error::{Error, Result};
 pub use grid::{Field, Grid};

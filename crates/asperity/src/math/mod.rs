@@ -1,5 +1,6 @@
 //! Mathematics that several modules share.
 
+pub mod elliptic;
 pub mod fft;
 pub mod good_size;
 

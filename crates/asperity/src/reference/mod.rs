@@ -1,1 +1,26 @@
-//! TODO
+//! Closed forms: contacts whose answer is known, to judge a computation by.
+//!
+//! A contact is a struct of its data (geometry, composite modulus E*, load), its answers are methods. Lengths,
+//! moduli and loads are positive where nothing else is said; a value without meaning gives a NaN or an infinity,
+//! never a panic. Displacements u are the composite ones, positive where they open the gap, u = 0 far away.
+
+pub mod cattaneo;
+pub mod cell;
+pub mod cone;
+pub mod elliptic;
+pub mod hertz;
+pub mod line;
+pub mod punch;
+pub mod rough;
+pub mod westergaard;
+
+pub use cattaneo::CattaneoMindlin;
+pub use cone::Cone;
+pub use elliptic::HertzEllipse;
+pub use hertz::HertzSphere;
+pub use line::HertzLine;
+pub use punch::FlatPunch;
+pub use westergaard::Westergaard;
+
+#[cfg(test)]
+mod quadrature;

@@ -1,0 +1,104 @@
+//! Hertz: a cylinder along its line of contact.
+
+use std::f64::consts::PI;
+
+use crate::units::{Metre, Pascal};
+
+/// Frictionless contact of two parallel elastic cylinders in plane strain, taken as parabolas.
+///
+/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: there
+/// is none here. Johnson (1985), eqs. 4.43–4.45.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzLine {
+    /// Relative radius R: 1/R = 1/R₁ + 1/R₂.
+    pub radius: Metre,
+    /// Composite modulus E*.
+    pub modulus: Pascal,
+    /// Load P′ ≥ 0 per length of the line, N/m.
+    pub load_per_length: f64,
+}
+
+impl HertzLine {
+    /// Half width a of the contact.
+    pub fn half_width(&self) -> Metre {
+        (4.0 * self.load_per_length * self.radius / (PI * self.modulus)).sqrt()
+    }
+
+    /// Pressure p₀ on the centre line, aE*/2R.
+    pub fn peak_pressure(&self) -> Pascal {
+        0.5 * self.half_width() * self.modulus / self.radius
+    }
+
+    /// Pressure at distance `x` from the centre line; 0 outside the contact.
+    pub fn pressure(&self, x: Metre) -> Pascal {
+        let a = self.half_width();
+        if x.abs() < a { self.peak_pressure() * ((1.0 - x / a) * (1.0 + x / a)).sqrt() } else { 0.0 }
+    }
+
+    /// Deformed gap at distance `x` from the centre line; 0 in the contact.
+    ///
+    /// g = [x √(x² − a²) − a² acosh(x/a)]/2R for x > a, the integral of g′ = √(x² − a²)/R. Near the edge it
+    /// vanishes as (x − a)^{3/2} and is exact to about 1e-16 a²/R.
+    pub fn gap(&self, x: Metre) -> Metre {
+        let (a, x) = (self.half_width(), x.abs());
+        if x <= a {
+            return 0.0;
+        }
+        let bend = if a > 0.0 { a * a * libm::acosh(x / a) } else { 0.0 };
+        0.5 * (x * ((x - a) * (x + a)).sqrt() - bend) / self.radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quadrature::{integrate, integrate_to_edge};
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const LINE: HertzLine = HertzLine { radius: 3.0, modulus: 2.0, load_per_length: 0.7 };
+
+    #[test]
+    fn the_pressure_carries_the_load() {
+        let load = 2.0 * integrate_to_edge(LINE.half_width(), |x| LINE.pressure(x));
+        assert_relative_eq!(load, LINE.load_per_length, max_relative = 1e-12);
+        assert_relative_eq!(
+            LINE.peak_pressure(),
+            2.0 * LINE.load_per_length / (PI * LINE.half_width()),
+            max_relative = 1e-15
+        );
+    }
+
+    #[test]
+    fn the_gap_opens_as_flamants_solution_says() {
+        // u′ = −(2/πE*) ∫ p(s)/(x − s) ds on a half-plane, h′ = x/R.
+        let a = LINE.half_width();
+        let slope = |x: f64| {
+            let flamant = integrate_to_edge(a, |s| LINE.pressure(s) * 2.0 * x / ((x - s) * (x + s)));
+            x / LINE.radius - 2.0 / (PI * LINE.modulus) * flamant
+        };
+        for (near, far) in [(1.5 * a, 2.0 * a), (2.0 * a, 6.0 * a)] {
+            assert_relative_eq!(
+                LINE.gap(far) - LINE.gap(near),
+                integrate(near, far, slope),
+                max_relative = 1e-10
+            );
+        }
+    }
+
+    #[test]
+    fn the_gap_closes_smoothly_at_the_edge() {
+        let a = LINE.half_width();
+        assert_eq!(LINE.gap(a), 0.0);
+        for step in [1e-3, 1e-4] {
+            let edge = (2.0 * a).sqrt() * (step * a).powf(1.5) / (1.5 * LINE.radius);
+            assert_relative_eq!(LINE.gap((1.0 + step) * a), edge, max_relative = step);
+        }
+    }
+
+    #[test]
+    fn no_load_leaves_the_parabola() {
+        let idle = HertzLine { load_per_length: 0.0, ..LINE };
+        assert_relative_eq!(idle.gap(0.6), 0.06, max_relative = 1e-15);
+        assert_eq!(idle.pressure(0.0), 0.0);
+    }
+}
