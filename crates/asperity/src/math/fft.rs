@@ -73,7 +73,7 @@ impl RealFft2 {
             half.iter_mut().zip(columns.column(ix)).for_each(|(h, c)| *h = *c);
             // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
             half[0].im = 0.0;
-            if self.shape[1] % 2 == 0 {
+            if self.shape[1].is_multiple_of(2) {
                 half[self.shape[1] / 2].im = 0.0;
             }
             self.back_y.process(&mut half, &mut row).expect("lengths come from the plan");

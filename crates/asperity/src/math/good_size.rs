@@ -29,7 +29,7 @@ mod tests {
         assert_eq!(good_size(1025), 1152);
         for n in 1..2000 {
             let size = good_size(n);
-            assert!(size >= n && size % 2 == 0 && (n < 3 || size as f64 <= 1.34 * n as f64));
+            assert!(size >= n && size.is_multiple_of(2) && (n < 3 || size as f64 <= 1.34 * n as f64));
         }
     }
 }
