@@ -24,6 +24,42 @@ fn a_file_that_is_not_there_is_named() {
     assert!(error.to_string().starts_with("nowhere/case.toml: "), "{error}");
 }
 
+/// Pieces of good cases cut out, doubled and exchanged: most are refused, none upsets the reader, and the place of
+/// each error can be shown.
+#[test]
+fn a_damaged_case_never_panics() {
+    let good: Vec<_> = files("good").iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    arbtest::arbtest(|u| {
+        let mut text = u.choose(&good)?.clone();
+        for _ in 0..u.int_in_range(1..=3)? {
+            let place = |u: &mut arbtest::arbitrary::Unstructured<'_>, text: &str| {
+                let mut place = u.int_in_range(0..=text.len())?;
+                while !text.is_char_boundary(place) {
+                    place -= 1;
+                }
+                Ok(place)
+            };
+            let (a, b) = (place(u, &text)?, place(u, &text)?);
+            let piece: String = match u.int_in_range(0..=2)? {
+                0 => String::new(),
+                1 => (*u.choose(&["µ", "\"", "[", "=", "-", "1e999", "inf", "{", "\r\n", ".", "0"])?)
+                    .to_owned(),
+                _ => text[a.min(b)..a.max(b)].repeat(2),
+            };
+            let end = a.max(b).min(a.min(b) + 40);
+            let end = (a.min(b)..=end).rev().find(|end| text.is_char_boundary(*end)).unwrap();
+            text.replace_range(a.min(b)..end, &piece);
+        }
+        if let Err(error) = Case::parse(&text, Path::new("case.toml"), Path::new("")) {
+            let Error::Case(error) = error else { panic!("{error:?}") };
+            assert!(error.text.get(error.span.clone()).is_some(), "{error:?}");
+            assert!(error.line >= 1 && error.line <= text.lines().count() + 1, "{error:?}");
+        }
+        Ok(())
+    })
+    .budget_ms(500);
+}
+
 fn check(file: &Path) -> Result<(), String> {
     let name = file.file_name().unwrap().to_string_lossy();
     let found = match Case::load(file) {
