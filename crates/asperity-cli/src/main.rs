@@ -1,3 +1,6 @@
 //! The command `asperity`.
 
+#[expect(dead_code, reason = "called once there are commands")]
+mod report;
+
 fn main() {}

@@ -1,6 +1,10 @@
 //! The one error of the library: each variant carries the numbers needed to act on it.
 
+mod case;
+
 use std::path::PathBuf;
+
+pub use case::CaseError;
 
 use crate::units::{Metre, Newton};
 
@@ -37,6 +41,10 @@ pub enum Error {
 
     // ---- topography files --------------------------------------------------------------------------------
     // ---- case file ---------------------------------------------------------------------------------------
+    /// A case file says what has no meaning.
+    #[error(transparent)]
+    Case(Box<CaseError>),
+
     // ---- contact -----------------------------------------------------------------------------------------
     /// The load is more than the bodies can carry when every cell is at the hardness.
     #[error("load {load:.6e} N exceeds the plastic limit {limit:.6e} N (every facing cell at the hardness)")]

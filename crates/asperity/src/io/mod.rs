@@ -1,1 +1,3 @@
-//! TODO
+//! Files: case files.
+
+pub mod case;

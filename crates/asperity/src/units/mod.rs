@@ -1,5 +1,9 @@
 //! SI quantities: the aliases that name them in signatures, and their reading and writing with a unit.
 
+mod quantity;
+
+pub use quantity::{Dimension, UnitError, format, format_digits, parse};
+
 /// Length in metres.
 pub type Metre = f64;
 /// Area in square metres.

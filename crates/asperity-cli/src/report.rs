@@ -1,0 +1,140 @@
+//! Errors as the user sees them: what is wrong, where, and what to do about it; and the exit code.
+
+use std::io::{IsTerminal, Write};
+
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use asperity::Error;
+use asperity::error::CaseError;
+use asperity::units::{self, Dimension};
+
+/// Writes the error, its place and its hint to stderr.
+pub(crate) fn report(error: &Error) {
+    let stderr = std::io::stderr();
+    let colours = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
+    // Where stderr is closed nobody reads: the exit code remains.
+    let _ = writeln!(stderr.lock(), "{}", render(error, &renderer));
+}
+
+/// 1 where the computation failed, 2 where the input is bad, 130 after Ctrl-C.
+pub(crate) fn exit_code(error: &Error) -> u8 {
+    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied};
+    match error {
+        Error::BeyondPlasticLimit { .. } | Error::NotConverged { .. } | Error::PeriodicFullContact { .. } => {
+            1
+        }
+        Error::Interrupted => 130,
+        Error::File { source, .. } => match source.kind() {
+            NotFound | PermissionDenied | InvalidData | IsADirectory | NotADirectory => 2,
+            _ => 1,
+        },
+        _ => 2,
+    }
+}
+
+fn render(error: &Error, renderer: &Renderer) -> String {
+    let title = match error {
+        Error::Case(case) => Level::ERROR.primary_title(case.message.as_str()).element(place(case)),
+        other => Group::with_title(Level::ERROR.primary_title(other.to_string())),
+    };
+    let hint = hint(error).map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
+    renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
+}
+
+/// The faulty line, or the file alone where something is missing from it as a whole.
+fn place(case: &CaseError) -> annotate_snippets::Element<'_> {
+    let file = case.file.to_string_lossy();
+    if case.span == (0..0) {
+        return Origin::path(file).into();
+    }
+    let annotation = AnnotationKind::Primary.span(case.span.clone());
+    Snippet::source(case.text.as_str()).path(file).annotation(annotation).into()
+}
+
+fn hint(error: &Error) -> Option<String> {
+    use std::io::ErrorKind;
+    match error {
+        Error::Case(case) => case.hint.clone(),
+        Error::GridMismatch { .. } => {
+            Some("`resample` or `pitch` in a [….topography] brings a body onto another grid".to_owned())
+        }
+        Error::BeyondPlasticLimit { limit, .. } => Some(format!(
+            "give a load below {}, a greater hardness or larger surfaces",
+            units::format(*limit, Dimension::Force)
+        )),
+        Error::NotConverged { .. } => {
+            Some("raise `tolerance` in [contact], or try `method = \"polonsky-keer\"` there".to_owned())
+        }
+        Error::PeriodicFullContact { mean_gap, .. } => Some(format!(
+            "give an approach below {}, or a load, which also holds in full contact",
+            units::format(*mean_gap, Dimension::Length)
+        )),
+        Error::Interrupted => Some("continue with `--resume`".to_owned()),
+        Error::File { path, source } => match source.kind() {
+            ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {
+                Some("`asperity example` lists cases to start from".to_owned())
+            }
+            ErrorKind::NotFound => {
+                Some("the files of a case are looked for in the case file's folder".to_owned())
+            }
+            ErrorKind::InvalidData => Some("a case file is text in UTF-8".to_owned())
+                .filter(|_| path.extension().is_some_and(|extension| extension == "toml")),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use asperity::io::case::Case;
+
+    use super::*;
+
+    fn rendered(text: &str) -> String {
+        let error = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap_err();
+        render(&error, &Renderer::plain())
+    }
+
+    #[test]
+    fn a_mistake_is_shown_where_it_stands() {
+        let text = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\nhardness = \"2.4 GPb\"\n\n[upper]\n";
+        let expected = r#"
+error: unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"
+ --> case.toml:4:12
+  |
+4 | hardness = "2.4 GPb"
+  |            ^^^^^^^^^
+  |
+hint: did you mean `GPa`?"#;
+        assert_eq!(rendered(text), expected.trim_start());
+    }
+
+    #[test]
+    fn what_is_missing_altogether_names_the_file() {
+        assert_eq!(rendered("title = \"x\"\n"), "error: missing table [lower]\n--> case.toml");
+    }
+
+    #[test]
+    fn a_text_that_ends_too_early_is_shown_to_its_end() {
+        assert!(rendered("young = \"210").contains("case.toml:1:13"), "{}", rendered("young = \"210"));
+        assert!(rendered("[lower]\nyoung = ").contains("case.toml:2:"), "{}", rendered("[lower]\nyoung = "));
+    }
+
+    #[test]
+    fn other_errors_have_their_hint_and_code() {
+        let error = Error::BeyondPlasticLimit { load: 2.0, limit: 0.0123 };
+        let text = render(&error, &Renderer::plain());
+        assert!(text.starts_with("error: load 2.000000e0 N exceeds the plastic limit"), "{text}");
+        assert!(
+            text.ends_with("hint: give a load below 12.3 mN, a greater hardness or larger surfaces"),
+            "{text}"
+        );
+        assert_eq!(exit_code(&error), 1);
+        assert_eq!(exit_code(&Error::Interrupted), 130);
+        let missing = Case::load(Path::new("nowhere/case.toml")).unwrap_err();
+        assert_eq!(exit_code(&missing), 2);
+    }
+}

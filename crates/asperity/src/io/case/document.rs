@@ -1,0 +1,94 @@
+//! The text of a case file and where its keys stand in it.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::error::{CaseError, Error};
+
+/// What an error needs in order to show its place.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Document {
+    file: PathBuf,
+    text: String,
+    /// By dotted key: the value, or the header of a table.
+    spans: BTreeMap<String, Range<usize>>,
+}
+
+impl Document {
+    pub(super) fn new(file: PathBuf, text: &str) -> Self {
+        Self { file, text: text.to_owned(), spans: BTreeMap::new() }
+    }
+
+    /// Parses the text; the document then knows where each key stands.
+    pub(super) fn parse<'i>(&mut self, text: &'i str) -> Result<Spanned<DeTable<'i>>, Error> {
+        let root = DeTable::parse(text).map_err(|error| {
+            let quotes = error.message().contains("must be quoted");
+            let hint = quotes.then(|| "a quantity with a unit is a string: `\"210 GPa\"`".to_owned());
+            self.error("", error.span().unwrap_or_default(), error.message(), hint)
+        })?;
+        self.note(root.get_ref(), "");
+        Ok(root)
+    }
+
+    fn note(&mut self, table: &DeTable<'_>, path: &str) {
+        for (key, value) in table {
+            let path = join(path, key.get_ref());
+            self.spans.insert(path.clone(), value.span());
+            if let Some(table) = value.get_ref().as_table() {
+                self.note(table, &path);
+            }
+        }
+    }
+
+    pub(super) fn written(&self, span: Range<usize>) -> String {
+        let text = self.text.get(span).unwrap_or_default();
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    /// The place of a key or, where the file does not name it, of the table that would hold it.
+    pub(super) fn place(&self, key: &str) -> Range<usize> {
+        let mut key = key;
+        loop {
+            if let Some(span) = self.spans.get(key) {
+                return span.clone();
+            }
+            match key.rsplit_once('.') {
+                Some((table, _)) => key = table,
+                None => return 0..0,
+            }
+        }
+    }
+
+    pub(super) fn error(
+        &self,
+        key: &str,
+        span: Range<usize>,
+        message: impl Into<String>,
+        hint: Option<String>,
+    ) -> Error {
+        let mut start = span.start.min(self.text.len());
+        while !self.text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let before = &self.text[..start];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Error::Case(Box::new(CaseError {
+            file: self.file.clone(),
+            text: self.text.clone(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            span,
+            key: key.to_owned(),
+            message: message.into(),
+            hint,
+        }))
+    }
+}
+
+pub(super) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}

@@ -1,0 +1,254 @@
+//! Case files: one TOML file says which bodies meet, under what, and how they move.
+//!
+//! Everything is checked that the file alone can tell; each mistake is shown where it stands. A [`Case`] is in SI
+//! and serialises under the keys of the file, so that a summary holds the case that was computed.
+
+mod cursor;
+mod document;
+mod parse;
+mod source;
+
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+
+use self::document::Document;
+pub use self::source::{Amplitude, Axis, Fill, Form, Generate, Level, Source, TopographySpec};
+use crate::error::{Error, Result};
+use crate::material::Material;
+use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
+use crate::units::{Metre, Newton, Pascal, SquareMetre};
+
+/// A case, resolved to SI.
+#[derive(Debug, Clone, Serialize)]
+pub struct Case {
+    /// The file's name where it gives none.
+    pub title: String,
+    /// The body underneath.
+    pub lower: Body,
+    /// The body above.
+    #[serde(serialize_with = "with_mount")]
+    pub upper: Body,
+    /// What presses them together.
+    pub contact: Contact,
+    /// How they move; a static contact if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionSpec>,
+    /// What is kept.
+    pub output: Output,
+    #[serde(skip)]
+    document: Document,
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Body {
+    /// Its hardness is infinite where the file gives none.
+    #[serde(flatten, serialize_with = "with_infinities")]
+    pub material: Material,
+    /// Its surface.
+    pub topography: TopographySpec,
+    /// How the heights face: always [`Mount::AsIs`] for the lower body.
+    #[serde(skip)]
+    pub mount: Mount,
+}
+
+/// How the heights of a body become those of the case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mount {
+    /// Measured material side up, then turned over about y: mirrored in x, the sign of the heights changed.
+    TurnedOver,
+    /// The heights are those of the case already.
+    AsIs,
+}
+
+/// Load, boundary and solver.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Contact {
+    /// Exactly one of the three.
+    #[serde(flatten)]
+    pub prescribed: Prescribed,
+    /// At the rim of the grid.
+    pub boundary: Boundary,
+    /// The solver.
+    pub method: Method,
+    /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
+    pub tolerance: f64,
+}
+
+/// What holds the bodies together.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prescribed {
+    /// Total normal force, > 0.
+    Load(Newton),
+    /// Load over the apparent area, > 0.
+    MeanPressure(Pascal),
+    /// From the heights as prepared; of any sign.
+    Approach(Metre),
+}
+
+/// At the rim of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// Half-space, loaded on the grid alone.
+    Free,
+    /// The grid repeats itself.
+    Periodic,
+}
+
+/// The solver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The one that suits the size.
+    Auto,
+    /// Dense quadratic programme.
+    Direct,
+    /// The conjugate gradients of Polonsky and Keer.
+    PolonskyKeer,
+    /// Preconditioned conjugate gradients on an active set.
+    ActiveSet,
+}
+
+/// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MotionSpec {
+    /// Overlap or circular shift.
+    #[serde(flatten, serialize_with = "with_speeds")]
+    pub strategy: Strategy,
+    /// ≥ 1.
+    pub passes: usize,
+    /// Cells per step, ≥ 1.
+    pub stride: usize,
+    /// What [`Contact::prescribed`] holds: the mean over a pass, or each position.
+    pub control: ControlKind,
+    /// When plastic deformation is applied.
+    pub plastic_update: PlasticUpdate,
+    /// Relative, on the pass-mean load, 0 < tolerance < 1.
+    pub load_tolerance: f64,
+}
+
+/// A [`Control`] without its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ControlKind {
+    /// The mean load of a pass.
+    PassLoad,
+    /// The load at every position.
+    StepLoad,
+    /// The approach.
+    Approach,
+}
+
+/// What is kept of the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Output {
+    /// The pressure field of every n-th position; 0: of none.
+    pub pressure_every: usize,
+}
+
+impl Case {
+    /// Reads a case file; the files it names are looked for in its folder.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
+    pub fn load(path: &Path) -> Result<Self> {
+        let text =
+            std::fs::read_to_string(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
+        Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a case from its text. `file` is the name for its errors, `folder` where the files it names lie.
+    ///
+    /// # Errors
+    /// [`Error::Case`] if it has a mistake.
+    pub fn parse(text: &str, file: &Path, folder: &Path) -> Result<Self> {
+        parse::case(text, file, folder)
+    }
+
+    /// An error that the case shows only once it is put to work, at the place of a dotted `key`
+    /// (`upper.topography.file`), or of the table that would hold it.
+    pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
+        self.document.error(key, self.document.place(key), message, hint)
+    }
+
+    /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
+    pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
+        let spec = self.motion?;
+        let load = match self.contact.prescribed {
+            Prescribed::Load(load) => Ok(load),
+            Prescribed::MeanPressure(pressure) => Ok(pressure * apparent_area),
+            Prescribed::Approach(approach) => Err(approach),
+        };
+        let control = match (load, spec.control) {
+            (Ok(load), ControlKind::StepLoad) => Control::StepLoad(load),
+            (Ok(load), _) => Control::PassLoad(load),
+            (Err(approach), _) => Control::Approach(approach),
+        };
+        Some(Motion {
+            strategy: spec.strategy,
+            passes: spec.passes,
+            stride: spec.stride,
+            control,
+            plastic_update: spec.plastic_update,
+            load_tolerance: spec.load_tolerance,
+        })
+    }
+
+    /// The files that the case names.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.lower, &self.upper].into_iter().filter_map(|body| match &body.topography.source {
+            Source::File { path, .. } => Some(path),
+            _ => None,
+        })
+    }
+}
+
+/// JSON has no infinities: they are written as the case file writes them.
+fn with_infinities<S: Serializer>(
+    material: &Material,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(untagged)]
+    enum Number {
+        Finite(f64),
+        Infinite(&'static str),
+    }
+    #[derive(Serialize)]
+    struct Keys {
+        young: Number,
+        poisson: f64,
+        hardness: Number,
+    }
+    let number = |value: f64| if value.is_finite() { Number::Finite(value) } else { Number::Infinite("inf") };
+    let Material { young, poisson, hardness } = *material;
+    Keys { young: number(young), poisson, hardness: number(hardness) }.serialize(serializer)
+}
+
+fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        #[serde(flatten)]
+        body: &'a Body,
+        mount: Mount,
+    }
+    Keys { body: upper, mount: upper.mount }.serialize(serializer)
+}
+
+fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(tag = "strategy", rename_all = "kebab-case")]
+    enum Keys {
+        Overlap,
+        Shift { speed_lower: f64, speed_upper: f64 },
+    }
+    match *strategy {
+        Strategy::Overlap => Keys::Overlap,
+        Strategy::Shift { speed_lower, speed_upper } => Keys::Shift { speed_lower, speed_upper },
+    }
+    .serialize(serializer)
+}

@@ -1,0 +1,432 @@
+//! From text to [`Case`]. The tables are read in the order of the contract, each by one function.
+
+use std::path::Path;
+
+use super::cursor::{Entry, Table};
+use super::document::{Document, join};
+use super::{
+    Amplitude, Axis, Body, Boundary, Case, Contact, ControlKind, Fill, Form, Generate, Level, Method,
+    MotionSpec, Mount, Output, Prescribed, Source, TopographySpec,
+};
+use crate::error::Result;
+use crate::material::{self, Material};
+use crate::motion::{PlasticUpdate, Strategy};
+use crate::units::Dimension;
+
+/// The keys of each table, to tell where a misplaced one belongs.
+const TABLES: [(&str, &[&str]); 5] = [
+    ("lower", &["young", "poisson", "hardness", "topography"]),
+    ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
+    ("contact", &["load", "mean_pressure", "approach", "boundary", "method", "tolerance"]),
+    (
+        "motion",
+        &[
+            "strategy",
+            "speed_lower",
+            "speed_upper",
+            "passes",
+            "stride",
+            "control",
+            "plastic_update",
+            "load_tolerance",
+        ],
+    ),
+    ("output", &["pressure_every"]),
+];
+
+/// The keys that each kind of topography has beyond the common ones.
+const SOURCES: [(&str, &[&str]); 9] = [
+    ("file", &["file", "channel", "fill"]),
+    ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff"]),
+    ("generate = \"autocorrelation\"", &["generate", "shape", "seed", "sq", "correlation_length"]),
+    (
+        "generate = \"self-affine\"",
+        &["generate", "shape", "seed", "sq", "sdq", "hurst", "rolloff", "shortest"],
+    ),
+    ("form = \"sphere\"", &["form", "shape", "radius"]),
+    ("form = \"cylinder\"", &["form", "shape", "radius", "axis"]),
+    ("form = \"cone\"", &["form", "shape", "angle"]),
+    ("form = \"flat\"", &["form", "shape"]),
+    ("form = \"sinusoid\"", &["form", "shape", "amplitude", "wavelength"]),
+];
+
+/// The keys of every topography.
+const PREPARATION: [&str; 4] = ["pitch", "level", "resample", "window"];
+
+const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
+
+/// Beyond this no field fits into memory.
+const MOST_CELLS: usize = 1 << 32;
+
+pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
+    let mut document = Document::new(file.to_owned(), text);
+    let entries = document.parse(text)?;
+    let root = Table::root(&document, entries.get_ref());
+    root.known(&["title", "lower", "upper", "contact", "motion", "output"], |key| belongs(key, ""))?;
+    let title = match root.get("title") {
+        Some(title) => title.text()?.to_owned(),
+        None => file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
+    };
+    let lower = body(&root.required_table("lower")?, folder)?;
+    let upper_table = root.required_table("upper")?;
+    let upper = body(&upper_table, folder)?;
+    if material::composite_modulus(&lower.material, &upper.material).is_err() {
+        let hint = "give one of them a finite 'young'";
+        return Err(upper_table
+            .required("young", "\"210 GPa\"")?
+            .error("both bodies are rigid".to_owned(), Some(hint.to_owned())));
+    }
+    let contact_table = root.required_table("contact")?;
+    let contact = contact(&contact_table)?;
+    let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
+    let output = output(root.table("output")?.as_ref())?;
+    Ok(Case { title, lower, upper, contact, motion, output, document })
+}
+
+fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
+    let is_upper = table.path() == "upper";
+    known_in(table)?;
+    let young =
+        table.required("young", "\"210 GPa\"")?.positive_or_infinite(Dimension::Pressure, "a rigid body")?;
+    let poisson = table
+        .required("poisson", "0.3")?
+        .number(|value| (0.0..=0.5).contains(&value), "a number from 0 to 0.5")?;
+    let hardness = match table.get("hardness") {
+        Some(entry) => {
+            entry.positive_or_infinite(Dimension::Pressure, "an elastic body, as is leaving it out")?
+        }
+        None => f64::INFINITY,
+    };
+    let topography = topography(&table.required_table("topography")?, folder)?;
+    let mount = match table.get("mount") {
+        Some(entry) => entry.choice(&[("turned-over", Mount::TurnedOver), ("as-is", Mount::AsIs)])?,
+        None if is_upper => Mount::TurnedOver,
+        None => Mount::AsIs,
+    };
+    // Checked above, entry by entry: this can find nothing new.
+    let material = Material::new(young, poisson, hardness)?;
+    Ok(Body { material, topography, mount })
+}
+
+fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
+    let all: Vec<&str> = SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
+    table.known(&all, |key| belongs(key, table.path()))?;
+    let kind = table.exactly_one(
+        &["file", "generate", "form"],
+        "for example `file = \"disc.x3p\"`, `generate = \"low-pass\"` or `form = \"sphere\"`",
+    )?;
+    let level_choices = [
+        ("none", Level::None),
+        ("mean", Level::Mean),
+        ("plane", Level::Plane),
+        ("quadratic", Level::Quadratic),
+    ];
+    let (source, pitch) = match kind {
+        "file" => (file(table, folder)?, table.get("pitch").map(|entry| lengths(&entry)).transpose()?),
+        "generate" => (generate(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
+        _ => (form(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
+    };
+    let window = |entry: Entry<'_>| {
+        let expected = "four whole numbers [x0, y0, nx, ny]";
+        let window: [usize; 4] = entry.array(expected, |item| item.count(0))?;
+        if window[2..].contains(&0) {
+            return Err(entry.unexpected("a window [x0, y0, nx, ny] of at least one sample", None));
+        }
+        Ok(window)
+    };
+    Ok(TopographySpec {
+        source,
+        pitch,
+        level: table.get("level").map(|entry| entry.choice(&level_choices)).transpose()?.unwrap_or_default(),
+        resample: table.get("resample").map(|entry| shape(&entry)).transpose()?,
+        window: table.get("window").map(window).transpose()?,
+    })
+}
+
+fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
+    suits(table, "file")?;
+    let name = table.required("file", "\"disc.x3p\"")?;
+    let path = match name.text()? {
+        "" => return Err(name.unexpected("the name of a file", None)),
+        path => folder.join(path),
+    };
+    let fills = [("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)];
+    Ok(Source::File {
+        path,
+        channel: table.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
+        fill: table.get("fill").map(|entry| entry.choice(&fills)).transpose()?.unwrap_or_default(),
+    })
+}
+
+fn generate(table: &Table<'_>) -> Result<Source> {
+    #[derive(Clone, Copy)]
+    enum Kind {
+        LowPass,
+        Autocorrelation,
+        SelfAffine,
+    }
+    let kinds = [
+        ("low-pass", Kind::LowPass),
+        ("autocorrelation", Kind::Autocorrelation),
+        ("self-affine", Kind::SelfAffine),
+    ];
+    let method = table.required("generate", "\"low-pass\"")?;
+    let kind = method.choice(&kinds)?;
+    suits(table, &format!("generate = \"{}\"", method.text()?))?;
+    let sq = || table.required("sq", "\"0.2 um\"")?.positive(Dimension::Length);
+    let optional = |key| table.get(key).map(|entry| entry.positive(Dimension::Length)).transpose();
+    let generate = match kind {
+        Kind::LowPass => Generate::LowPass {
+            sq: sq()?,
+            cutoff: table.required("cutoff", "\"8 um\"")?.positive(Dimension::Length)?,
+        },
+        Kind::Autocorrelation => Generate::Autocorrelation {
+            sq: sq()?,
+            correlation_length: lengths(&table.required("correlation_length", "\"8 um\"")?)?,
+        },
+        Kind::SelfAffine => {
+            let amplitude = match table.exactly_one(
+                &["sq", "sdq"],
+                "'sq' is the rms height, a length; 'sdq' the rms slope, a number",
+            )? {
+                "sq" => Amplitude::Sq(sq()?),
+                _ => Amplitude::Sdq(
+                    table
+                        .required("sdq", "0.1")?
+                        .number(|value| value > 0.0, "a number above 0 such as 0.1")?,
+                ),
+            };
+            let hurst = table
+                .required("hurst", "0.8")?
+                .number(|value| value > 0.0 && value <= 1.0, "a number above 0, at most 1")?;
+            let (rolloff, shortest) = (optional("rolloff")?, optional("shortest")?);
+            if let (Some(rolloff), Some(shortest), Some(entry)) = (rolloff, shortest, table.get("shortest"))
+                && shortest >= rolloff
+            {
+                return Err(entry.unexpected("a wavelength below that of 'rolloff'", None));
+            }
+            Generate::SelfAffine { amplitude, hurst, rolloff, shortest }
+        }
+    };
+    let seed = table.get("seed").map(|entry| entry.whole(0)).transpose()?.unwrap_or(0);
+    Ok(Source::Generate { generate, shape: shape(&table.required("shape", "[256, 256]")?)?, seed })
+}
+
+fn form(table: &Table<'_>) -> Result<Source> {
+    #[derive(Clone, Copy)]
+    enum Kind {
+        Sphere,
+        Cylinder,
+        Cone,
+        Flat,
+        Sinusoid,
+    }
+    let kinds = [
+        ("sphere", Kind::Sphere),
+        ("cylinder", Kind::Cylinder),
+        ("cone", Kind::Cone),
+        ("flat", Kind::Flat),
+        ("sinusoid", Kind::Sinusoid),
+    ];
+    let name = table.required("form", "\"sphere\"")?;
+    let kind = name.choice(&kinds)?;
+    suits(table, &format!("form = \"{}\"", name.text()?))?;
+    let radius = || table.required("radius", "\"1 mm\"")?.positive(Dimension::Length);
+    let form = match kind {
+        Kind::Sphere => Form::Sphere { radius: radius()? },
+        Kind::Cylinder => Form::Cylinder {
+            radius: radius()?,
+            axis: match table.get("axis") {
+                Some(entry) => entry.choice(&[("x", Axis::X), ("y", Axis::Y)])?,
+                None => Axis::Y,
+            },
+        },
+        Kind::Cone => {
+            let entry = table.required("angle", "\"5 deg\"")?;
+            let angle = entry.positive(Dimension::Angle)?;
+            if angle >= std::f64::consts::FRAC_PI_2 {
+                let hint = "a number without a unit is in radians".to_owned();
+                return Err(entry.unexpected("an angle below 90 deg such as \"5 deg\"", Some(hint)));
+            }
+            Form::Cone { angle }
+        }
+        Kind::Flat => Form::Flat,
+        Kind::Sinusoid => Form::Sinusoid {
+            amplitude: table.required("amplitude", "\"0.1 um\"")?.positive(Dimension::Length)?,
+            wavelength: lengths(&table.required("wavelength", "\"64 um\"")?)?,
+        },
+    };
+    Ok(Source::Form { form, shape: shape(&table.required("shape", "[256, 256]")?)? })
+}
+
+fn contact(table: &Table<'_>) -> Result<Contact> {
+    known_in(table)?;
+    let key = table.exactly_one(
+        &["load", "mean_pressure", "approach"],
+        "for example `load = \"2 N\"` and no other of them",
+    )?;
+    let entry = table.required(key, "\"2 N\"")?;
+    let prescribed = match key {
+        "load" => Prescribed::Load(entry.positive(Dimension::Force)?),
+        "mean_pressure" => Prescribed::MeanPressure(entry.positive(Dimension::Pressure)?),
+        _ => Prescribed::Approach(entry.quantity(Dimension::Length)?),
+    };
+    let boundaries = [("free", Boundary::Free), ("periodic", Boundary::Periodic)];
+    let methods = [
+        ("auto", Method::Auto),
+        ("direct", Method::Direct),
+        ("polonsky-keer", Method::PolonskyKeer),
+        ("active-set", Method::ActiveSet),
+    ];
+    Ok(Contact {
+        prescribed,
+        boundary: choice_or(table, "boundary", &boundaries, Boundary::Free)?,
+        method: choice_or(table, "method", &methods, Method::Auto)?,
+        tolerance: fraction_or(table, "tolerance", 1e-6)?,
+    })
+}
+
+fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Result<MotionSpec> {
+    known_in(table)?;
+    let is_shift = choice_or(table, "strategy", &[("overlap", false), ("shift", true)], false)?;
+    if contact.boundary == Boundary::Periodic && !is_shift {
+        let message = "a periodic boundary has no overlap, where a finite body passes over another";
+        let hint = "use `boundary = \"free\"`, or `strategy = \"shift\"` under [motion]".to_owned();
+        let place = table.get("strategy").or(contact_table.get("boundary"));
+        return Err(place.map_or_else(
+            || table.error(message.to_owned(), Some(hint.clone())),
+            |entry| entry.error(message.to_owned(), Some(hint.clone())),
+        ));
+    }
+    let strategy = if is_shift { shift(table)? } else { overlap(table)? };
+    let count = |key, default| match table.get(key) {
+        Some(entry) => entry.count(1),
+        None => Ok(default),
+    };
+    let updates = [("pass", PlasticUpdate::Pass), ("step", PlasticUpdate::Step)];
+    Ok(MotionSpec {
+        strategy,
+        passes: count("passes", 1)?,
+        stride: count("stride", 1)?,
+        control: control(table, contact.prescribed)?,
+        plastic_update: choice_or(table, "plastic_update", &updates, PlasticUpdate::Pass)?,
+        load_tolerance: fraction_or(table, "load_tolerance", 1e-4)?,
+    })
+}
+
+fn overlap(table: &Table<'_>) -> Result<Strategy> {
+    match table.get("speed_lower").or(table.get("speed_upper")) {
+        None => Ok(Strategy::Overlap),
+        Some(entry) => Err(entry.error(
+            "a speed has no meaning with strategy = \"overlap\"".to_owned(),
+            Some("only positions count there; speeds belong to `strategy = \"shift\"`".to_owned()),
+        )),
+    }
+}
+
+fn shift(table: &Table<'_>) -> Result<Strategy> {
+    let speed = |key, default| match table.get(key) {
+        Some(entry) => entry.quantity(Dimension::Speed),
+        None => Ok(default),
+    };
+    let (speed_lower, speed_upper) = (speed("speed_lower", 0.0)?, speed("speed_upper", 1.0)?);
+    if speed_lower == 0.0
+        && speed_upper == 0.0
+        && let Some(entry) = table.get("speed_upper")
+    {
+        return Err(entry.error("neither surface moves: both speeds are 0".to_owned(), None));
+    }
+    Ok(Strategy::Shift { speed_lower, speed_upper })
+}
+
+fn control(table: &Table<'_>, prescribed: Prescribed) -> Result<ControlKind> {
+    let natural = match prescribed {
+        Prescribed::Approach(_) => ControlKind::Approach,
+        Prescribed::Load(_) | Prescribed::MeanPressure(_) => ControlKind::PassLoad,
+    };
+    let kinds = [
+        ("pass-load", ControlKind::PassLoad),
+        ("step-load", ControlKind::StepLoad),
+        ("approach", ControlKind::Approach),
+    ];
+    let Some(entry) = table.get("control") else { return Ok(natural) };
+    let kind = entry.choice(&kinds)?;
+    match ((kind == ControlKind::Approach), (natural == ControlKind::Approach)) {
+        (true, false) => Err(entry.unexpected(
+            "\"pass-load\" or \"step-load\", as [contact] gives a load",
+            Some("or give `approach` under [contact] instead of the load".to_owned()),
+        )),
+        (false, true) => Err(entry.unexpected(
+            "\"approach\", as [contact] gives an approach",
+            Some("or give `load` or `mean_pressure` under [contact] instead of the approach".to_owned()),
+        )),
+        _ => Ok(kind),
+    }
+}
+
+fn output(table: Option<&Table<'_>>) -> Result<Output> {
+    let default = Output { pressure_every: 8 };
+    let Some(table) = table else { return Ok(default) };
+    known_in(table)?;
+    let pressure_every = table.get("pressure_every").map(|entry| entry.count(0)).transpose()?;
+    Ok(Output { pressure_every: pressure_every.unwrap_or(default.pressure_every) })
+}
+
+fn known_in(table: &Table<'_>) -> Result<()> {
+    let keys = TABLES.iter().find(|(name, _)| *name == table.path()).map_or(&[][..], |(_, keys)| keys);
+    table.known(keys, |key| belongs(key, table.path()))
+}
+
+/// A key that is known in another table.
+fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
+    let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
+    let topography = || {
+        let known = PREPARATION.contains(&key) || SOURCES.iter().any(|(_, keys)| keys.contains(&key));
+        let body =
+            table.split('.').next().filter(|name| ["lower", "upper"].contains(name)).unwrap_or("lower");
+        (known && !table.ends_with("topography")).then(|| join(body, "topography"))
+    };
+    let owners = TABLES.iter().filter(|(name, keys)| *name != table && keys.contains(&key));
+    let owner = owners.map(|(name, _)| (*name).to_owned()).next().or_else(topography)?;
+    Some((format!("unknown key '{key}' {here}"), Some(format!("`{key}` belongs in [{owner}]"))))
+}
+
+/// An error if a key belongs to another kind of topography.
+fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
+    let own = SOURCES.iter().find(|(name, _)| *name == kind).map_or(&[][..], |(_, keys)| keys);
+    let known: Vec<&str> = own.iter().chain(&PREPARATION).copied().collect();
+    table.known(&known, |key| {
+        let owners: Vec<_> = SOURCES
+            .iter()
+            .filter(|(_, keys)| keys.contains(&key))
+            .map(|(name, _)| format!("`{name}`"))
+            .collect();
+        let kind = if kind == "file" { "a file" } else { kind };
+        Some((
+            format!("'{key}' has no meaning with {kind}"),
+            Some(format!("it belongs to {}", owners.join(", "))),
+        ))
+    })
+}
+
+fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
+    let shape: [usize; 2] = entry.array(SHAPE, |item| item.count(0))?;
+    match shape[0].checked_mul(shape[1]) {
+        Some(0) => Err(entry.unexpected(SHAPE, None)),
+        Some(cells) if cells <= MOST_CELLS => Ok(shape),
+        _ => Err(entry.unexpected("a grid of at most 2³² cells", None)),
+    }
+}
+
+fn lengths(entry: &Entry<'_>) -> Result<[f64; 2]> {
+    entry.pair("a length above 0 such as \"0.25 um\", or two", |item| item.positive(Dimension::Length))
+}
+
+fn choice_or<T: Copy>(table: &Table<'_>, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {
+    table.get(key).map_or(Ok(default), |entry| entry.choice(choices))
+}
+
+fn fraction_or(table: &Table<'_>, key: &str, default: f64) -> Result<f64> {
+    let good = |value: f64| value > 0.0 && value < 1.0;
+    table.get(key).map_or(Ok(default), |entry| entry.number(good, "a number above 0, below 1"))
+}

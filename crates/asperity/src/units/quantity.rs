@@ -1,0 +1,526 @@
+//! Quantities as people write them: `"2.4 GPa"`, `"0.25 um"`, `"10 mm/s"`.
+
+/// What a quantity measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Metres.
+    Length,
+    /// Square metres.
+    Area,
+    /// Cubic metres.
+    Volume,
+    /// Pascals.
+    Pressure,
+    /// Newtons.
+    Force,
+    /// Joules.
+    Energy,
+    /// Metres per second.
+    Speed,
+    /// Radians.
+    Angle,
+    /// Seconds.
+    Time,
+}
+
+/// Why a text is no quantity of the dimension wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum UnitError {
+    /// No dimension has this unit.
+    Unknown {
+        /// The unit as written.
+        unit: String,
+        /// The dimension wanted.
+        expected: Dimension,
+        /// The unit of that dimension that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// The unit belongs to another dimension.
+    WrongDimension {
+        /// The quantity as written.
+        text: String,
+        /// What it measures.
+        found: Dimension,
+        /// The dimension wanted.
+        expected: Dimension,
+    },
+    /// The text does not start with a number.
+    NotAQuantity {
+        /// The text.
+        text: String,
+        /// The dimension wanted.
+        expected: Dimension,
+    },
+    /// The number is too large, not a number, or infinite where that has no meaning.
+    NotFinite {
+        /// The text.
+        text: String,
+        /// The dimension wanted.
+        expected: Dimension,
+    },
+}
+
+/// Reads a quantity, in SI.
+///
+/// A number without a unit is in SI already. `inf` is a pressure (that of a rigid or unyielding body) and nothing
+/// else. The result is the double nearest to what is written, prefix included: `"0.1 um"` is `1e-7`.
+///
+/// # Errors
+/// [`UnitError`], which also knows what was expected.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
+    let trimmed = text.trim();
+    let bare = trimmed.strip_prefix(['+', '-']).unwrap_or(trimmed);
+    if bare == "inf" || bare == "nan" {
+        return match trimmed {
+            "inf" | "+inf" if expected == Dimension::Pressure => Ok(f64::INFINITY),
+            _ => Err(UnitError::NotFinite { text: text.to_owned(), expected }),
+        };
+    }
+    let not_a_quantity = || UnitError::NotAQuantity { text: text.to_owned(), expected };
+    let Number { mantissa, exponent, rest } = split_number(trimmed).ok_or_else(not_a_quantity)?;
+    let unit = rest.trim();
+    if unit.starts_with([',', '.', '_', '+', '-']) || unit.starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(not_a_quantity());
+    }
+    let (power_of_ten, factor) = if unit.is_empty() { (0, 1.0) } else { find_unit(text, unit, expected)? };
+    let decimal = format!("{mantissa}e{}", exponent.saturating_add(power_of_ten));
+    let value = decimal.parse::<f64>().map_err(|_| not_a_quantity())? * factor;
+    if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: text.to_owned(), expected }) }
+}
+
+/// Writes a quantity with four significant digits and the prefix that suits it: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
+///
+/// [`parse`] reads it back. Lengths from 0.1 µm stay in micrometres, the unit of roughness; angles are in degrees.
+pub fn format(value: f64, dimension: Dimension) -> String {
+    format_digits(value, dimension, 4)
+}
+
+/// [`format()`] with another number of significant digits: where two values differ by little.
+pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String {
+    if dimension == Dimension::Angle {
+        return format!("{}°", decimal(value.to_degrees(), digits));
+    }
+    let Scale { base, power, largest } = dimension.scale();
+    let suffix = base.suffix();
+    if value == 0.0 {
+        return format!("0 {}{suffix}", base.symbol());
+    }
+    if !value.is_finite() {
+        return format!("{value}");
+    }
+    // Rounded first: 999.96 Pa is 1 kPa.
+    let rounded = round(value, digits);
+    let prefix =
+        PREFIXES.iter().filter(|(_, exponent)| *exponent <= largest && exponent % 3 == 0).rev().find(
+            |(_, exponent)| rounded.abs() >= 10f64.powi(power * exponent) * dimension.smallest(*exponent),
+        );
+    match prefix {
+        Some((prefix, exponent)) => {
+            let number = decimal(rounded / 10f64.powi(power * exponent), digits);
+            format!("{number} {prefix}{}{suffix}", base.symbol())
+        }
+        None => format!("{rounded:e} {}{suffix}", base.symbol()),
+    }
+}
+
+impl UnitError {
+    /// The message once the key is known: `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
+    pub fn for_key(&self, key: &str) -> String {
+        self.message(&format!(" in '{key}'"))
+    }
+
+    /// What was probably meant, to be shown below the message.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Unknown { suggestion, .. } => {
+                suggestion.as_ref().map(|unit| format!("did you mean `{unit}`?"))
+            }
+            Self::NotAQuantity { text, .. } if text.contains(',') => {
+                Some("the decimal mark is a point, as in `2.4`".to_owned())
+            }
+            _ => None,
+        }
+    }
+
+    fn message(&self, place: &str) -> String {
+        match self {
+            Self::Unknown { unit, expected, .. } => {
+                format!("unknown unit '{unit}'{place}, expected {}", expected.expectation())
+            }
+            Self::WrongDimension { text, found, expected } => {
+                format!("'{text}'{place} is {}, expected {}", found.noun(), expected.expectation())
+            }
+            Self::NotAQuantity { text, expected } => {
+                format!("'{text}'{place} is not a quantity, expected {}", expected.expectation())
+            }
+            Self::NotFinite { text, expected } => {
+                format!("'{text}'{place} is not finite, expected {}", expected.expectation())
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for UnitError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message(""))
+    }
+}
+
+impl std::error::Error for UnitError {}
+
+impl Dimension {
+    /// With its article: "a pressure".
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Area => "an area",
+            Self::Volume => "a volume",
+            Self::Pressure => "a pressure",
+            Self::Force => "a force",
+            Self::Energy => "an energy",
+            Self::Speed => "a speed",
+            Self::Angle => "an angle",
+            Self::Time => "a time",
+        }
+    }
+
+    /// A quantity that [`parse`] reads.
+    pub fn example(self) -> &'static str {
+        match self {
+            Self::Length => "0.25 um",
+            Self::Area => "4 um2",
+            Self::Volume => "8 um3",
+            Self::Pressure => "2.4 GPa",
+            Self::Force => "2 N",
+            Self::Energy => "3 nJ",
+            Self::Speed => "10 mm/s",
+            Self::Angle => "5 deg",
+            Self::Time => "1 ms",
+        }
+    }
+
+    fn expectation(self) -> String {
+        format!("{} such as \"{}\"", self.noun(), self.example())
+    }
+
+    const ALL: [Self; 9] = [
+        Self::Length,
+        Self::Area,
+        Self::Volume,
+        Self::Pressure,
+        Self::Force,
+        Self::Energy,
+        Self::Speed,
+        Self::Angle,
+        Self::Time,
+    ];
+
+    fn scale(self) -> Scale {
+        let scale = |base, power, largest| Scale { base, power, largest };
+        match self {
+            Self::Length => scale(Base::Of("m"), 1, 3),
+            Self::Area => scale(Base::Squared, 2, 0),
+            Self::Volume => scale(Base::Cubed, 3, 0),
+            Self::Pressure => scale(Base::Of("Pa"), 1, 12),
+            Self::Force => scale(Base::Of("N"), 1, 12),
+            Self::Energy => scale(Base::Of("J"), 1, 12),
+            Self::Speed => scale(Base::PerSecond, 1, 0),
+            Self::Angle => scale(Base::Of("rad"), 1, 0),
+            Self::Time => scale(Base::Of("s"), 1, 0),
+        }
+    }
+
+    /// The smallest number written with the prefix 10^`exponent`.
+    fn smallest(self, exponent: i32) -> f64 {
+        match (self, exponent) {
+            (Self::Length, -6) => 0.1,
+            (Self::Area, _) => 1e-2,
+            (Self::Volume, _) => 1e-3,
+            _ => 1.0,
+        }
+    }
+
+    /// Units without a prefix: power of ten and factor.
+    fn special(self) -> &'static [(&'static str, i32, f64)] {
+        use std::f64::consts::PI;
+        match self {
+            Self::Length => &[("Å", -10, 1.0)],
+            Self::Pressure => &[("bar", 5, 1.0), ("N/mm²", 6, 1.0), ("N/mm2", 6, 1.0), ("N/mm^2", 6, 1.0)],
+            Self::Angle => &[("deg", 0, PI / 180.0), ("°", 0, PI / 180.0)],
+            Self::Time => &[("min", 0, 60.0), ("h", 0, 3600.0)],
+            _ => &[],
+        }
+    }
+
+    /// Power of ten and factor of a unit of this dimension.
+    fn unit(self, unit: &str) -> Option<(i32, f64)> {
+        if let Some(&(_, exponent, factor)) = self.special().iter().find(|(name, ..)| *name == unit) {
+            return Some((exponent, factor));
+        }
+        let Scale { base, power, .. } = self.scale();
+        let (stem, factor) = match base {
+            Base::Of(_) => (unit, 1.0),
+            Base::PerSecond => {
+                let (length, time) = unit.split_once('/')?;
+                (length, 1.0 / Self::Time.unit(time).filter(|(exponent, _)| *exponent == 0)?.1)
+            }
+            Base::Squared => (["²", "^2", "2"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
+            Base::Cubed => (["³", "^3", "3"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
+        };
+        let prefix = stem.strip_suffix(base.symbol())?;
+        let known = |exponent: i32| exponent % 3 == 0 || base.symbol() == "m";
+        let exponent = match prefix {
+            "" => 0,
+            "u" | "\u{3bc}" => -6,
+            _ => PREFIXES.iter().find(|(name, exponent)| *name == prefix && known(*exponent))?.1,
+        };
+        Some((power * exponent, factor))
+    }
+}
+
+/// How a dimension takes its prefixes.
+struct Scale {
+    base: Base,
+    /// Of the prefix: 2 for an area.
+    power: i32,
+    /// Exponent of the largest prefix in use.
+    largest: i32,
+}
+
+#[derive(Clone, Copy)]
+enum Base {
+    Of(&'static str),
+    Squared,
+    Cubed,
+    PerSecond,
+}
+
+impl Base {
+    fn symbol(self) -> &'static str {
+        if let Self::Of(symbol) = self { symbol } else { "m" }
+    }
+
+    fn suffix(self) -> &'static str {
+        match self {
+            Self::Of(_) => "",
+            Self::Squared => "²",
+            Self::Cubed => "³",
+            Self::PerSecond => "/s",
+        }
+    }
+}
+
+/// Ascending. The centi- is for metres alone, and for reading alone.
+const PREFIXES: [(&str, i32); 10] = [
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("m", -3),
+    ("c", -2),
+    ("", 0),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+];
+
+fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), UnitError> {
+    if let Some(found) = expected.unit(unit) {
+        return Ok(found);
+    }
+    if let Some(found) = Dimension::ALL.into_iter().find(|dimension| dimension.unit(unit).is_some()) {
+        return Err(UnitError::WrongDimension { text: text.to_owned(), found, expected });
+    }
+    Err(UnitError::Unknown { unit: unit.to_owned(), expected, suggestion: suggest(unit, expected) })
+}
+
+/// A unit one slip away: another case, or one letter more, less, other or swapped.
+fn suggest(unit: &str, expected: Dimension) -> Option<String> {
+    let Scale { base, largest, .. } = expected.scale();
+    let mut candidates: Vec<_> = PREFIXES
+        .iter()
+        .filter(|(_, exponent)| exponent % 3 == 0 && *exponent <= largest)
+        .map(|(prefix, _)| format!("{prefix}{}{}", base.symbol(), base.suffix()))
+        .collect();
+    if expected == Dimension::Pressure {
+        candidates.reverse(); // `mpa` is a megapascal
+    }
+    candidates.extend(expected.special().iter().map(|(name, ..)| (*name).to_owned()));
+    let other_case = candidates.iter().find(|name| name.to_lowercase() == unit.to_lowercase());
+    let one_slip = || candidates.iter().find(|name| name.len() > 1 && strsim::osa_distance(name, unit) == 1);
+    other_case.or_else(one_slip).cloned()
+}
+
+struct Number<'a> {
+    mantissa: &'a str,
+    exponent: i32,
+    rest: &'a str,
+}
+
+/// `-2.5e3 GPa` is −2.5, 3 and ` GPa`. An `e` that no digits follow belongs to the unit.
+fn split_number(text: &str) -> Option<Number<'_>> {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let whole = digits(sign);
+    let mut end = sign + whole;
+    let mut fraction = 0;
+    if text[end..].starts_with('.') {
+        fraction = digits(end + 1);
+        end += 1 + fraction;
+    }
+    if whole + fraction == 0 {
+        return None;
+    }
+    let mantissa = &text[..end];
+    let mut exponent = 0;
+    if text[end..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
+        let length = digits(end + 1 + sign);
+        if length > 0 {
+            let stop = end + 1 + sign + length;
+            let negative = text[end + 1..].starts_with('-');
+            let limit = if negative { -100_000 } else { 100_000 };
+            exponent = text[end + 1..stop].parse().unwrap_or(limit);
+            end = stop;
+        }
+    }
+    Some(Number { mantissa, exponent, rest: &text[end..] })
+}
+
+fn round(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
+}
+
+/// Fixed notation with at most `digits` significant digits and no trailing zeros.
+fn decimal(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let magnitude = round(value, digits).abs().log10().floor();
+    let decimals = (digits as f64 - 1.0 - magnitude).clamp(0.0, 300.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dimension::{Angle, Area, Energy, Force, Length, Pressure, Speed, Time, Volume};
+    use super::*;
+
+    #[test]
+    fn a_quantity_is_the_double_nearest_to_what_is_written() {
+        for (text, dimension, value) in [
+            ("210 GPa", Pressure, 210e9),
+            ("0.25 um", Length, 0.25e-6),
+            ("0.1 µm", Length, 1e-7),
+            ("0.3 \u{3bc}m", Length, 0.3e-6),
+            ("2 N", Force, 2.0),
+            ("10 mm/s", Speed, 0.01),
+            ("6 m/min", Speed, 0.1),
+            ("1.5e3nm", Length, 1.5e-6),
+            ("3 cm", Length, 0.03),
+            ("3.e-1 m", Length, 0.3),
+            (".5 m", Length, 0.5),
+            ("-4 nm", Length, -4e-9),
+            ("2e9", Pressure, 2e9),
+            ("inf", Pressure, f64::INFINITY),
+            ("240 N/mm²", Pressure, 240e6),
+            ("180 deg", Angle, std::f64::consts::PI),
+            ("20 mrad", Angle, 0.02),
+            ("2 min", Time, 120.0),
+            ("4 um2", Area, 4e-12),
+            ("8 µm³", Volume, 8e-18),
+            ("3 nJ", Energy, 3e-9),
+        ] {
+            assert_eq!(parse(text, dimension), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_says_what_was_expected() {
+        for (text, dimension, message) in [
+            ("2.4 GPb", Pressure, "unknown unit 'GPb' in 'key', expected a pressure such as \"2.4 GPa\""),
+            ("2 mm", Pressure, "'2 mm' in 'key' is a length, expected a pressure such as \"2.4 GPa\""),
+            (
+                "steel",
+                Pressure,
+                "'steel' in 'key' is not a quantity, expected a pressure such as \"2.4 GPa\"",
+            ),
+            ("", Length, "'' in 'key' is not a quantity, expected a length such as \"0.25 um\""),
+            ("2,4 um", Length, "'2,4 um' in 'key' is not a quantity, expected a length such as \"0.25 um\""),
+            (
+                "1 000 um",
+                Length,
+                "'1 000 um' in 'key' is not a quantity, expected a length such as \"0.25 um\"",
+            ),
+            ("inf", Force, "'inf' in 'key' is not finite, expected a force such as \"2 N\""),
+            ("nan", Pressure, "'nan' in 'key' is not finite, expected a pressure such as \"2.4 GPa\""),
+            ("1e999 N", Force, "'1e999 N' in 'key' is not finite, expected a force such as \"2 N\""),
+            (
+                "1e99999999999 N",
+                Force,
+                "'1e99999999999 N' in 'key' is not finite, expected a force such as \"2 N\"",
+            ),
+        ] {
+            assert_eq!(parse(text, dimension).unwrap_err().for_key("key"), message);
+        }
+    }
+
+    #[test]
+    fn a_slip_in_a_unit_is_named() {
+        let hint = |text, dimension| parse(text, dimension).unwrap_err().hint();
+        assert_eq!(hint("2.4 GPb", Pressure).as_deref(), Some("did you mean `GPa`?"));
+        assert_eq!(hint("2.4 mpa", Pressure).as_deref(), Some("did you mean `MPa`?"));
+        assert_eq!(hint("2.4 MM", Length).as_deref(), Some("did you mean `mm`?"));
+        assert_eq!(hint("2,4 GPa", Pressure).as_deref(), Some("the decimal mark is a point, as in `2.4`"));
+        assert_eq!(hint("3 parsec", Length), None);
+    }
+
+    #[test]
+    fn a_value_is_written_with_the_prefix_that_suits_it() {
+        for (value, dimension, text) in [
+            (2.4e9, Pressure, "2.4 GPa"),
+            (210e9, Pressure, "210 GPa"),
+            (0.25e-6, Length, "0.25 µm"),
+            (0.05e-6, Length, "50 nm"),
+            (1.234567e-3, Length, "1.235 mm"),
+            (-3e-6, Length, "-3 µm"),
+            (12.3e-3, Force, "12.3 mN"),
+            (999.96, Pressure, "1 kPa"),
+            (0.0, Force, "0 N"),
+            (f64::INFINITY, Pressure, "inf"),
+            (0.5e-12, Area, "0.5 µm²"),
+            (2e-8, Area, "0.02 mm²"),
+            (7.5e-18, Volume, "7.5 µm³"),
+            (3.21e-9, Energy, "3.21 nJ"),
+            (0.01, Speed, "10 mm/s"),
+            (0.5, Angle, "28.65°"),
+            (7200.0, Time, "7200 s"),
+            (1e-20, Length, "1e-20 m"),
+        ] {
+            assert_eq!(format(value, dimension), text);
+        }
+        assert_eq!(format_digits(0.123_456_7e-6, Length, 6), "0.123457 µm");
+    }
+
+    #[test]
+    fn what_is_written_reads_back() {
+        arbtest::arbtest(|u| {
+            let value = f64::from(u.int_in_range(1..=999_999)?) * 10f64.powi(u.int_in_range(-18..=9)?);
+            let dimension = *u.choose(&Dimension::ALL)?;
+            let back = parse(&format(value, dimension), dimension).unwrap();
+            assert!((back / value - 1.0).abs() <= 0.5e-3 + 1e-12, "{value:e} {dimension:?} {back:e}");
+            Ok(())
+        });
+    }
+
+    #[test]
+    fn any_text_is_read_without_panic() {
+        arbtest::arbtest(|u| {
+            let text: String = u.arbitrary()?;
+            let dimension = *u.choose(&Dimension::ALL)?;
+            let _ = parse(&text, dimension);
+            Ok(())
+        });
+    }
+}

@@ -1,0 +1,117 @@
+//! Good inputs are read as they are meant, and are written back as they were read.
+
+use std::path::{Path, PathBuf};
+
+use asperity::io::case::{
+    Amplitude, Axis, Boundary, Case, ControlKind, Fill, Form, Generate, Level, Method, Mount, Prescribed,
+    Source,
+};
+use asperity::motion::{Control, PlasticUpdate, Strategy};
+
+#[test]
+fn the_case_of_the_contract_is_read_in_si() {
+    let case = load("running_in");
+    assert_eq!(case.title, "two ground steel surfaces running in");
+    assert_eq!(case.lower.material.young, 210e9);
+    assert_eq!(case.lower.material.hardness, 4e9);
+    assert_eq!(case.upper.material.hardness, f64::INFINITY);
+    assert_eq!((case.lower.mount, case.upper.mount), (Mount::AsIs, Mount::TurnedOver));
+    let lower = &case.lower.topography;
+    assert_eq!(
+        lower.source,
+        Source::File { path: inputs("good").join("disc.x3p"), channel: None, fill: Fill::Harmonic }
+    );
+    assert_eq!((lower.level, lower.resample, lower.pitch), (Level::Plane, Some([256, 256]), None));
+    let upper = &case.upper.topography;
+    let generate = Generate::LowPass { sq: 0.2e-6, cutoff: 8e-6 };
+    assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
+    assert_eq!(upper.pitch, Some([0.5e-6; 2]));
+    assert_eq!(case.contact.prescribed, Prescribed::Load(2.0));
+    let motion = case.motion(1.0).unwrap();
+    assert_eq!(motion.control, Control::PassLoad(2.0));
+    assert_eq!((motion.strategy, motion.passes, motion.stride), (Strategy::Overlap, 5, 1));
+    assert_eq!(case.output.pressure_every, 8);
+    assert_eq!(case.files().count(), 1);
+}
+
+#[test]
+fn what_is_left_out_takes_its_default() {
+    let case = load("smallest");
+    assert_eq!(case.title, "smallest");
+    assert_eq!(case.lower.material.young, f64::INFINITY);
+    assert_eq!(case.lower.topography.level, Level::None);
+    let contact = case.contact;
+    assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
+    assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));
+    assert!(case.motion.is_none() && case.motion(1.0).is_none());
+    assert_eq!(case.output.pressure_every, 8);
+
+    let motion = load("forms").motion.unwrap();
+    assert_eq!((motion.passes, motion.stride, motion.load_tolerance), (1, 1, 1e-4));
+    assert_eq!((motion.plastic_update, motion.control), (PlasticUpdate::Pass, ControlKind::Approach));
+}
+
+#[test]
+fn a_mean_pressure_becomes_a_load_on_the_apparent_area() {
+    let case = load("rolling");
+    let motion = case.motion(4e-9).unwrap();
+    assert_eq!(motion.control, Control::StepLoad(10e6 * 4e-9));
+    assert_eq!(motion.strategy, Strategy::Shift { speed_lower: -0.01, speed_upper: 0.02 });
+    assert_eq!(case.upper.mount, Mount::AsIs);
+}
+
+#[test]
+fn one_length_serves_both_directions_and_two_serve_each() {
+    let case = load("rolling");
+    assert_eq!(case.lower.topography.pitch, Some([0.5e-6, 1e-6]));
+    let Source::Generate { generate, .. } = case.upper.topography.source else { panic!() };
+    assert_eq!(generate, Generate::Autocorrelation { sq: 1e-7, correlation_length: [10e-6, 20e-6] });
+    let Source::Generate { generate, .. } = case.lower.topography.source else { panic!() };
+    assert_eq!(
+        generate,
+        Generate::SelfAffine {
+            amplitude: Amplitude::Sdq(0.1),
+            hurst: 0.8,
+            rolloff: Some(40e-6),
+            shortest: Some(2e-6)
+        }
+    );
+    let Source::Form { form, .. } = load("forms").upper.topography.source else { panic!() };
+    assert_eq!(form, Form::Cylinder { radius: 5e-3, axis: Axis::X });
+}
+
+#[test]
+fn a_file_is_looked_for_in_the_folder_of_the_case() {
+    let case = load("measured");
+    let files: Vec<_> = case.files().cloned().collect();
+    assert_eq!(files, [inputs("good").join("data/plate.npy"), PathBuf::from("/measured/ball.sur")]);
+}
+
+#[test]
+fn a_later_error_still_finds_its_place() {
+    let case = load("running_in");
+    let line = |key| case.error_at(key, "no such file", None).to_string();
+    assert!(line("lower.topography.file").ends_with("running_in.toml:8: no such file"));
+    assert!(line("upper.hardness").ends_with("running_in.toml:13: no such file"));
+}
+
+/// The summary's case is under the keys of the file: written as TOML it is the same case.
+#[test]
+fn a_summary_holds_a_case_that_can_be_read_again() {
+    for file in std::fs::read_dir(inputs("good")).unwrap() {
+        let first = Case::load(&file.unwrap().path()).unwrap();
+        let json = serde_json::to_value(&first).unwrap();
+        let text = toml::to_string(&json).unwrap();
+        let again = Case::parse(&text, Path::new("again.toml"), Path::new(""))
+            .unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(serde_json::to_value(&again).unwrap(), json);
+    }
+}
+
+fn load(name: &str) -> Case {
+    Case::load(&inputs("good").join(name).with_extension("toml")).unwrap()
+}
+
+fn inputs(kind: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs").join(kind)
+}
