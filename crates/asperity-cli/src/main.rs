@@ -1,6 +1,7 @@
 //! The command `asperity`.
 
-#[expect(dead_code, unused_imports, reason = "used by the commands to come")]
+#[cfg_attr(not(test), expect(dead_code, reason = "used by the commands to come"))]
+#[expect(unused_imports, reason = "used by the commands to come")]
 mod draw;
 
 fn main() {}

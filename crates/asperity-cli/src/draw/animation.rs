@@ -40,6 +40,8 @@ pub(crate) struct Frame<'a> {
 
 /// Width of the map, px.
 const WIDTH: f64 = 360.0;
+/// Height of the part above the map that holds the title, px.
+const STRIP: i32 = 32;
 /// Index of the colour that leaves the frame before as it is.
 const UNCHANGED: u8 = 255;
 
@@ -86,7 +88,7 @@ pub(crate) fn animation<'f>(
         let mut image = base.clone();
         let map = shading.image(common.view(), sheet.map.width as usize, sheet.map.height as usize);
         image.paste(&map, sheet.map.x as usize, sheet.map.y as usize);
-        let mut strip = Canvas::new(image.width as i32, 2 * sheet.title[1] as i32 - 8);
+        let mut strip = Canvas::new(image.width as i32, STRIP);
         heading(&mut strip, &frame.title, sheet.title, image.width as f64);
         image.paste(&strip.reduced(), 0, 0);
 

@@ -5,9 +5,7 @@ use std::ops::Range;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::{
-    BindKeyPoints, Cartesian2d, ChartBuilder, ChartContext, DrawingArea, IntoFont, TextStyle,
-};
+use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, DrawingArea, IntoFont, TextStyle};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 
 use super::canvas::{FINE, INK, Pen, Rect, SMALL, width_of};
@@ -142,7 +140,7 @@ impl Scale {
             (false, 1) => power_of_ten(exponent),
             (false, _) => format!("{mantissa}×{}", power_of_ten(exponent)),
         };
-        let stride = ((last - first + 1) / most.max(1) as i32 + 1).max(1);
+        let stride = ((last - first + 1) as f64 / (most + 2) as f64).ceil().max(1.0) as i32;
         let decades = (last - first + 1).max(0) as usize;
         let mantissas: &[i32] = match decades {
             0 | 1 if most > 4 && high - low < 0.7 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
@@ -240,7 +238,11 @@ pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
         return [0.0, 1.0];
     }
     let magnitude = low.abs().max(high.abs());
-    let least = if magnitude > 0.0 { magnitude * 1e-4 } else { 1.0 };
+    let least = match magnitude {
+        0.0 => 1.0,
+        _ if low == high => magnitude * 0.1,
+        _ => magnitude * 1e-4,
+    };
     if high - low >= least { [low, high] } else { [(low + high - least) / 2.0, (low + high + least) / 2.0] }
 }
 

@@ -110,10 +110,13 @@ impl Canvas {
 
     /// Fills a rectangle.
     pub(super) fn fill(&mut self, rect: Rect, colour: Rgb) {
-        for y in rect.y * FINE..(rect.y + rect.height) * FINE {
-            for x in rect.x * FINE..(rect.x + rect.width) * FINE {
-                self.blend(x, y, colour, 1.0);
-            }
+        let within = |start: i32, length: i32, end: i32| {
+            (start * FINE).clamp(0, end) as usize..((start + length) * FINE).clamp(0, end) as usize
+        };
+        let columns = within(rect.x, rect.width, self.width);
+        for y in within(rect.y, rect.height, self.height) {
+            let row = y * self.width as usize;
+            self.pixels[row + columns.start..row + columns.end].fill(colour);
         }
     }
 
@@ -237,7 +240,8 @@ type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
 /// Lets plotters draw on the canvas.
 ///
-/// Its own text drops the bearings of the glyphs, and its own strokes fill self-crossing paths with holes.
+/// Its own text drops the bearings of the glyphs, its strokes leave holes where a path crosses itself, and it
+/// fills small polygons too pale.
 pub(super) struct Pen<'a>(pub(super) &'a mut Canvas);
 
 impl DrawingBackend for Pen<'_> {
@@ -306,6 +310,35 @@ impl DrawingBackend for Pen<'_> {
         let centre = [f64::from(centre.0), f64::from(centre.1)];
         let rgb = [colour.rgb.0, colour.rgb.1, colour.rgb.2];
         self.0.stroke(centre, centre, 2.0 * f64::from(radius), rgb, colour.alpha);
+        Ok(())
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        corners: I,
+        style: &S,
+    ) -> Drawn {
+        let colour = style.color();
+        let rgb = [colour.rgb.0, colour.rgb.1, colour.rgb.2];
+        let corners: Vec<_> = corners.into_iter().collect();
+        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+        let ends = |values: &dyn Fn(&BackendCoord) -> i32| {
+            let low = corners.iter().map(values).min().unwrap_or(0);
+            low..=corners.iter().map(values).max().unwrap_or(-1)
+        };
+        for y in ends(&|c| c.1) {
+            for x in ends(&|c| c.0) {
+                // Crossings of the edges with the ray to the right, between two rows of corners.
+                let (px, py) = (f64::from(x), f64::from(y) + 0.25);
+                let crossed = edges().filter(|&(a, b)| {
+                    let [(ax, ay), (bx, by)] = [a, b].map(|c| (f64::from(c.0), f64::from(c.1)));
+                    (ay > py) != (by > py) && px <= ax + (py - ay) / (by - ay) * (bx - ax)
+                });
+                if crossed.count() % 2 == 1 {
+                    self.0.blend(x, y, rgb, colour.alpha);
+                }
+            }
+        }
         Ok(())
     }
 

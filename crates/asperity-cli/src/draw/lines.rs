@@ -122,9 +122,10 @@ fn drawn(figure: &LineFigure) -> Canvas {
         let series = figure.series.iter().filter(move |s| side.is_none_or(|side| s.side == side));
         series.flat_map(move |s| s.points.iter().map(move |p| p[axis]))
     };
-    let x = scale(&figure.x, all(None, 0), 8, false);
-    let y = scale(&figure.y, all(Some(Side::Left), 1), 7, true);
-    let second = figure.right.as_ref().map(|axis| scale(axis, all(Some(Side::Right), 1), 7, true));
+    let marked = figure.series.iter().any(|s| matches!(s.mark, Mark::Points | Mark::LineAndPoints));
+    let x = scale(&figure.x, all(None, 0), Way::X { margin: if marked { 0.025 } else { 0.0 } });
+    let y = scale(&figure.y, all(Some(Side::Left), 1), Way::Y);
+    let second = figure.right.as_ref().map(|axis| scale(axis, all(Some(Side::Right), 1), Way::Y));
 
     let [width, height] = SIZE;
     let left = (y.width() + MEDIUM + 38.0).ceil() as i32;
@@ -145,10 +146,10 @@ fn drawn(figure: &LineFigure) -> Canvas {
     let bottom = f64::from(at.y + at.height) + 34.0;
     canvas.text(&x.label(&figure.x.label), [middle[0], bottom], MEDIUM, CENTRE_TOP, FontTransform::None);
     let y_label = y.label(&figure.y.label);
-    let edge = f64::from(at.x) - y.width() - 26.0;
+    let edge = f64::from(at.x) - y.width() - 22.0;
     canvas.text(&y_label, [edge, middle[1]], MEDIUM, CENTRE_BOTTOM, FontTransform::Rotate270);
     if let (Some(scale), Some(axis)) = (&second, &figure.right) {
-        let edge = f64::from(at.x + at.width) + scale.width() + 26.0;
+        let edge = f64::from(at.x + at.width) + scale.width() + 22.0;
         let anchor = Pos { h_pos: HPos::Center, v_pos: VPos::Bottom };
         canvas.text(&scale.label(&axis.label), [edge, middle[1]], MEDIUM, anchor, FontTransform::Rotate90);
     }
@@ -238,20 +239,36 @@ fn sample(area: &Area, [x, y]: [i32; 2], look: Look) {
     }
 }
 
-fn scale(axis: &Axis, values: impl Iterator<Item = f64>, most: usize, padded: bool) -> Scale {
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// With a margin at both ends, relative to the range.
+    X {
+        margin: f64,
+    },
+    Y,
+}
+
+fn scale(axis: &Axis, values: impl Iterator<Item = f64>, way: Way) -> Scale {
+    let (most, margin) = match way {
+        Way::X { margin } => (10, margin),
+        Way::Y => (7, 0.06),
+    };
     if axis.log {
         let [low, high] = axis.range.unwrap_or_else(|| extremes(values.filter(|v| *v > 0.0)));
         let [low, high] = if 0.0 < low && low <= high && high.is_finite() { [low, high] } else { [0.1, 1.0] };
-        let pad = if axis.range.is_some() { 1.0 } else { (high / low).powf(0.04).max(1.1) };
+        let pad = match axis.range {
+            Some(_) if low < high => 1.0,
+            _ if low == high => 2.0,
+            _ => (high / low).powf(0.04).max(1.1),
+        };
         return Scale::logarithmic([low / pad, high * pad], axis.unit, most);
     }
     let range = axis.range.unwrap_or_else(|| {
-        let data = extremes(values);
-        let [low, high] = widened(data);
-        let pad = if padded || data[0] == data[1] { 0.06 * (high - low) } else { 0.0 };
+        let [low, high] = widened(extremes(values));
+        let margin = margin * (high - low);
         // Show the zero if it is near.
-        let low = if padded && low >= 0.0 && low < 0.4 * high { 0.0 } else { low - pad };
-        [low, high + pad]
+        let low = if way == Way::Y && (0.0..0.4 * high).contains(&low) { 0.0 } else { low - margin };
+        [low, high + margin]
     });
     let [low, high] = widened(range);
     Scale::linear([low, high], low.abs().max(high.abs()), axis.unit, most)

@@ -158,7 +158,8 @@ impl<'a> Picture<'a> {
         };
         let range = figure.range.unwrap_or_else(|| {
             let [low, high] = extremes(figure.field.iter().copied());
-            [least.unwrap_or(low), high]
+            // Nothing in contact: any bar will do.
+            if least.is_some() && high <= 0.0 { [0.0, 1.0] } else { [least.unwrap_or(low), high] }
         });
         Ok(Self {
             title: &figure.title,
@@ -303,6 +304,7 @@ struct Panel<'a> {
     y: Scale,
     bar: Option<Scale>,
     legend: Legend<'a>,
+    stretched: bool,
     /// Space around the map: left, top, right, bottom.
     margin: [i32; 4],
 }
@@ -312,7 +314,7 @@ impl<'a> Panel<'a> {
         let length = [0, 1].map(|axis| picture.ends[axis][1] - picture.ends[axis][0]);
         let size = map_size(length, [picture.cells.nrows(), picture.cells.ncols()], width);
         let magnitude = length[0].max(length[1]);
-        let most = [size[0] / 75, size[1] / 45].map(|n| n.max(2) as usize);
+        let most = [size[0] / 62, size[1] / 36].map(|n| n.max(2) as usize);
         let [x, y] = [0, 1].map(|i| Scale::linear(picture.ends[i], magnitude, picture.unit, most[i]));
         let classes = picture.shading.classes();
         let bar = (with_bar && classes.is_empty()).then(|| bar_scale(picture, size[1]));
@@ -322,9 +324,10 @@ impl<'a> Panel<'a> {
         let right = bar.as_ref().map_or(2.5 * f64::from(GAP), |bar| f64::from(2 * GAP) + bar_width(bar));
         let title = width_of(picture.title, LARGE).min(700.0) + 2.0 * f64::from(GAP);
         let lacking = (title - left - right - f64::from(size[0])).max(0.0) / 2.0;
-        let top = if picture.title.is_empty() { GAP } else { 36 } + legend.height();
+        let top = if picture.title.is_empty() { GAP } else { 40 } + legend.height();
         let margin = [(left + lacking).ceil() as i32, top, (right + lacking).ceil() as i32, 54];
-        Self { picture, size, x, y, bar, legend, margin }
+        let stretched = !is_to_scale(length);
+        Self { picture, size, x, y, bar, legend, stretched, margin }
     }
 
     fn outer(&self) -> [i32; 2] {
@@ -347,13 +350,11 @@ impl<'a> Panel<'a> {
         let bottom = f64::from(at.y + height);
         let edge = f64::from(at.x - GAP * 3) - self.y.width();
         let [name_x, name_y] = self.picture.names;
-        canvas.text(
-            &self.x.label(name_x),
-            [middle_x, bottom + 32.0],
-            MEDIUM,
-            CENTRE_TOP,
-            FontTransform::None,
-        );
+        let mut x_label = self.x.label(name_x);
+        if self.stretched {
+            x_label.push_str(", not to scale");
+        }
+        canvas.text(&x_label, [middle_x, bottom + 32.0], MEDIUM, CENTRE_TOP, FontTransform::None);
         canvas.text(&self.y.label(name_y), [edge, middle_y], MEDIUM, CENTRE_BOTTOM, FontTransform::Rotate270);
 
         let centre = f64::from(x) + f64::from(self.outer()[0]) / 2.0;
@@ -422,10 +423,14 @@ pub(super) fn sheet_of_width<'a>(
     Sheet { canvas, map, title }
 }
 
+fn is_to_scale([x, y]: [f64; 2]) -> bool {
+    x.max(y) <= x.min(y) * MAX_ASPECT * (1.0 + 1e-9)
+}
+
 /// Pixels of a map: whole pixels per cell, or whole cells per pixel, where that hardly changes its size.
 fn map_size(length: [f64; 2], cells: [usize; 2], target: f64) -> [i32; 2] {
     let aspect = length[0] / length[1];
-    if !(1.0 / MAX_ASPECT..=MAX_ASPECT).contains(&aspect) {
+    if !is_to_scale(length) {
         let narrow = target / MAX_ASPECT;
         return if aspect > 1.0 { [target, narrow] } else { [narrow, target] }.map(|v| v.round() as i32);
     }
@@ -463,7 +468,7 @@ fn axes(canvas: &mut Canvas, at: Rect, coordinates: [Coordinate; 2], side: Label
 
 fn bar_scale(picture: &Picture, height: i32) -> Scale {
     let Shading { range, kind } = picture.shading;
-    let most = (height / 45).max(2) as usize;
+    let most = (height / 40).max(2) as usize;
     match kind {
         Kind::Logarithmic => Scale::logarithmic(range, picture.quantity.unit, most),
         _ => Scale::linear(range, range[0].abs().max(range[1].abs()), picture.quantity.unit, most),
