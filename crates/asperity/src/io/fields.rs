@@ -69,7 +69,7 @@ impl FieldFile {
     /// Adds a fact about the whole file.
     pub fn set(&mut self, name: &str, value: impl Into<Attribute>) -> &mut Self {
         let value = match value.into() {
-            Attribute::Text(text) => AttrValue::String(text),
+            Attribute::Text(text) => AttrValue::VarLenString(text),
             Attribute::Number(number) => AttrValue::F64(number),
             Attribute::Integer(number) => AttrValue::I64(number),
             Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
@@ -134,8 +134,8 @@ impl FieldFile {
             dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
         }
         dataset
-            .set_attr("unit", AttrValue::String(unit.to_owned()))
-            .set_attr("axes", AttrValue::String(axes.to_owned()))
+            .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
+            .set_attr("axes", AttrValue::VarLenString(axes.to_owned()))
             .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
             .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
         self
@@ -154,12 +154,14 @@ impl FieldFile {
 const SMALLEST_COMPRESSED: usize = 1024;
 const DEFLATE_LEVEL: u32 = 4;
 
-/// Whole rows, about 1 MiB of them.
+/// Whole rows, about 1 MiB of them; of very long rows a part.
 fn chunk(shape: &[u64]) -> Vec<u64> {
     const VALUES: u64 = 1 << 17;
+    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 would do, which HDF5 2 refuses.
+    const LONGEST: u64 = 1 << 15;
     match *shape {
-        [nx, ny] => vec![(VALUES / ny).clamp(1, nx), ny.min(VALUES)],
-        _ => vec![shape[0].min(VALUES)],
+        [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(LONGEST)), ny.min(LONGEST)],
+        _ => vec![shape[0].min(LONGEST)],
     }
 }
 
@@ -350,6 +352,18 @@ mod tests {
         let error = read_field(&path, "presure").unwrap_err();
         assert!(error.to_string().starts_with("no field `presure` in "), "{error}");
         assert_eq!(error.hint().unwrap(), "it holds `gap`");
+    }
+
+    #[test]
+    fn chunks_fit_their_arrays_and_the_encoding() {
+        for shape in [&[3, 2][..], &[1024, 1024], &[2, 200_000], &[200_000, 2], &[1, 70_000], &[300_000]] {
+            let chunk = chunk(shape);
+            assert_eq!(chunk.len(), shape.len());
+            assert!(
+                chunk.iter().zip(shape).all(|(chunk, size)| (1..=*size).contains(chunk) && *chunk < 1 << 16)
+            );
+            assert!(chunk.iter().product::<u64>() <= 1 << 17);
+        }
     }
 
     #[test]
