@@ -46,7 +46,7 @@ pub fn write(path: &Path, summary: &Summary) -> Result<()> {
     })
 }
 
-/// Reads what [`write`] wrote.
+/// Reads what [`write()`] wrote.
 ///
 /// # Errors
 /// [`Error::File`] if the file cannot be read or is not a summary; the message then has line and column.
