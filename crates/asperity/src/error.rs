@@ -40,6 +40,34 @@ pub enum Error {
     Unsupported(&'static str),
 
     // ---- topography files --------------------------------------------------------------------------------
+    /// A file that is in none of the formats read.
+    #[error("{path} is not a topography: {reason}")]
+    NotATopography {
+        /// The file.
+        path: PathBuf,
+        /// What it looks like instead.
+        reason: &'static str,
+    },
+    /// A file of a known format that is damaged, or uses a part of the format that is not read.
+    #[error("{path}: {format}: {reason}")]
+    CorruptTopography {
+        /// The file.
+        path: PathBuf,
+        /// The format it was recognised as.
+        format: &'static str,
+        /// What is wrong, and where.
+        reason: Defect,
+    },
+    /// A channel that the file does not have.
+    #[error("no height channel `{channel}` in {path}")]
+    NoChannel {
+        /// The file.
+        path: PathBuf,
+        /// The channel asked for.
+        channel: String,
+        /// The channels there are.
+        available: Vec<String>,
+    },
     // ---- case file ---------------------------------------------------------------------------------------
     /// A case file says what has no meaning.
     #[error(transparent)]
@@ -87,4 +115,105 @@ pub enum Error {
         /// What the operating system said.
         source: std::io::Error,
     },
+    /// A field that a results file does not have.
+    #[error("no field `{name}` in {path}")]
+    NoField {
+        /// The file.
+        path: PathBuf,
+        /// The field asked for.
+        name: String,
+        /// The fields there are.
+        available: Vec<String>,
+    },
+}
+
+impl Error {
+    /// What the user can do about it, where that is known: a sentence to print after the error.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoChannel { available, .. } => {
+                Some(format!("it holds {}; choose one with --channel", quoted(available)))
+            }
+            Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
+            Self::NotATopography { .. } => {
+                Some("x3p, npy, sur and text matrices (also gzipped) are read; export as one of these".into())
+            }
+            Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
+                "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
+            ),
+            _ => None,
+        }
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+/// What is wrong with a topography file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Defect {
+    /// A part of the file has not the length that the header gives it.
+    #[error("{what} holds {found} bytes, expected {expected}")]
+    Length {
+        /// Which part.
+        what: &'static str,
+        /// Bytes that the header calls for.
+        expected: u64,
+        /// Bytes there are.
+        found: u64,
+    },
+    /// A part of the file has changed since it was written.
+    #[error("{what} has the MD5 checksum {found}, but the file was written with {expected}")]
+    Checksum {
+        /// Which part.
+        what: &'static str,
+        /// The checksum stored in the file.
+        expected: String,
+        /// The checksum of what is there.
+        found: String,
+    },
+    /// Something that the format requires is not there.
+    #[error("no {0}")]
+    Missing(&'static str),
+    /// An entry of the header has a value that cannot be used.
+    #[error("{what} is `{found}`, expected {expected}")]
+    Value {
+        /// Which entry.
+        what: &'static str,
+        /// As the file has it.
+        found: String,
+        /// What would have been accepted.
+        expected: &'static str,
+    },
+    /// More cells than any contact can be solved on; most likely a damaged header.
+    #[error("{cells} heights, at most {limit} are read")]
+    TooLarge {
+        /// Heights that the header calls for.
+        cells: u128,
+        /// The limit.
+        limit: usize,
+    },
+    /// A line of a text matrix that is longer or shorter than the others.
+    #[error("line {line} has {found} values, the lines before it have {expected}")]
+    Ragged {
+        /// Line, from 1.
+        line: usize,
+        /// Values in the lines before.
+        expected: usize,
+        /// Values in this line.
+        found: usize,
+    },
+    /// Text where a height should stand.
+    #[error("line {line}: `{token}` is not a height")]
+    NotANumber {
+        /// Line, from 1.
+        line: usize,
+        /// What stands there.
+        token: String,
+    },
+    /// What the decoder of the container said.
+    #[error("{0}")]
+    Container(String),
 }

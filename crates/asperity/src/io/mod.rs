@@ -1,3 +1,8 @@
-//! Files: case files.
+//! Files: topographies and case files in, results out.
 
-pub mod case;
+pub mod atomic; // a file is there in full or not at all
+pub mod case; // case.toml, checked to the key
+pub mod fields; // HDF5: named fields with unit, axes, pitch
+pub mod summary; // summary.json
+pub mod tables; // steps.csv, passes.csv
+pub mod topography; // x3p, npy, sur, text in; x3p, npy, vtk out

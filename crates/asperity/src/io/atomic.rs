@@ -1,0 +1,107 @@
+//! Files that are there in full or not at all: written to a temporary name beside the target, then renamed.
+
+use std::fs::File;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::error::{Error, Result};
+
+/// Replaces the file at `path` by `contents`.
+///
+/// # Errors
+/// As [`write_with`].
+pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
+    write_with(path, |file| file.write_all(contents))
+}
+
+/// Replaces the file at `path` by what `contents` writes.
+///
+/// The data reach the disk before the name does: a process killed at any moment leaves either the file as it
+/// was, or the new one in full, and beside it at most a temporary file whose name starts with `.tmp`.
+///
+/// # Errors
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, the disk is full, or
+/// `contents` fails; the file is then as it was.
+pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    replace(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
+}
+
+fn replace(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let directory = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    let mut temporary = create_in(&directory).map_err(without_temporary_name)?;
+    let mut writer = BufWriter::new(temporary.as_file_mut());
+    contents(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    temporary.as_file().sync_all()?;
+    temporary.persist(path).map_err(|failed| failed.error)?;
+    // The name itself survives a power cut only once its directory is on the disk; not every system can do that.
+    if cfg!(unix) {
+        let _ = File::open(&directory).and_then(|directory| directory.sync_all());
+    }
+    Ok(())
+}
+
+fn create_in(directory: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        // As any other new file, readable by whom the umask lets; temporary files are private otherwise.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(directory)
+}
+
+/// The name of a file that nobody asked for would only confuse.
+fn without_temporary_name(error: io::Error) -> io::Error {
+    match error.kind() {
+        ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, "its directory does not exist"),
+        ErrorKind::NotADirectory => io::Error::new(ErrorKind::NotADirectory, "its parent is not a directory"),
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            io::Error::new(error.kind(), "its directory cannot be written to")
+        }
+        ErrorKind::StorageFull => io::Error::new(ErrorKind::StorageFull, "no space left on the disk"),
+        _ => error,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(directory).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_write_that_fails_leaves_the_file_as_it_was() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("summary.json");
+        write(&path, b"first").unwrap();
+        let failed = write_with(&path, |file| {
+            file.write_all(b"half of the sec")?;
+            Err(io::Error::new(ErrorKind::StorageFull, "no space left"))
+        });
+        assert!(matches!(failed, Err(Error::File { path: named, .. }) if named == path));
+        assert_eq!(std::fs::read(&path).unwrap(), b"first");
+        assert_eq!(names(directory.path()), ["summary.json"]);
+        write(&path, b"second").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(directory.path()), ["summary.json"]);
+    }
+
+    #[test]
+    fn a_missing_directory_is_named_as_such() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("no").join("steps.csv");
+        let message = write(&path, b"").unwrap_err().to_string();
+        assert_eq!(message, format!("{}: its directory does not exist", path.display()));
+    }
+}

@@ -1,0 +1,378 @@
+//! The container of the results: an HDF5 file of named fields, each with its unit, axes, pitch and origin.
+//!
+//! ```text
+//! /             attributes: what the writer adds, for example `version`, `pass`
+//! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
+//! ```
+//!
+//! A file is written in one go and atomically, so that a killed run leaves only whole files: one for each pass.
+//! `origin` is the position of the centre of the first cell.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hdf5_pure::{AttrValue, Dataset, File, FileBuilder};
+use ndarray::{ArrayD, Ix2};
+
+use super::atomic;
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::units::Metre;
+
+/// Fields to be written to one file.
+pub struct FieldFile {
+    builder: FileBuilder,
+    names: Vec<String>,
+}
+
+/// A fact about a file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Attribute {
+    /// Text.
+    Text(String),
+    /// A number.
+    Number(f64),
+    /// A count.
+    Integer(i64),
+    /// Some numbers.
+    Numbers(Vec<f64>),
+}
+
+/// An array as read from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredField {
+    /// Unit of the values.
+    pub unit: String,
+    /// Names of the axes, `x,y` for a field.
+    pub axes: String,
+    /// Distance of neighbouring values along each axis.
+    pub pitch: Vec<Metre>,
+    /// Position of the first value along each axis.
+    pub origin: Vec<Metre>,
+    /// The values, in the order of the axes.
+    pub values: ArrayD<f64>,
+}
+
+impl Default for FieldFile {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl FieldFile {
+    /// A file with nothing in it.
+    pub fn new() -> Self {
+        Self { builder: FileBuilder::new(), names: Vec::new() }
+    }
+
+    /// Adds a fact about the whole file.
+    pub fn set(&mut self, name: &str, value: impl Into<Attribute>) -> &mut Self {
+        let value = match value.into() {
+            Attribute::Text(text) => AttrValue::VarLenString(text),
+            Attribute::Number(number) => AttrValue::F64(number),
+            Attribute::Integer(number) => AttrValue::I64(number),
+            Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
+        };
+        self.builder.set_attr(name, value);
+        self
+    }
+
+    /// Adds a field on `grid`, whose first cell has its corner at `corner`.
+    ///
+    /// # Panics
+    /// If `values` are not on `grid`, or there is an array `name` already.
+    pub fn add_field(
+        &mut self,
+        name: &str,
+        unit: &str,
+        grid: &Grid,
+        corner: [Metre; 2],
+        values: &Field,
+    ) -> &mut Self {
+        assert_eq!(values.shape(), grid.shape, "{name} is not on the grid");
+        let origin = [corner[0] + grid.centre(0, 0), corner[1] + grid.centre(1, 0)];
+        let values: Vec<f64> = values.iter().copied().collect();
+        self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, &values)
+    }
+
+    /// Adds values at `origin`, `origin + pitch`, … along one axis.
+    ///
+    /// # Panics
+    /// If there are no values, or there is an array `name` already.
+    pub fn add_series(
+        &mut self,
+        name: &str,
+        unit: &str,
+        axis: &str,
+        pitch: Metre,
+        origin: Metre,
+        values: &[f64],
+    ) -> &mut Self {
+        self.add(name, unit, axis, &[values.len()], &[pitch], &[origin], values)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the two public ways to call it name them")]
+    fn add(
+        &mut self,
+        name: &str,
+        unit: &str,
+        axes: &str,
+        shape: &[usize],
+        pitch: &[Metre],
+        origin: &[Metre],
+        values: &[f64],
+    ) -> &mut Self {
+        assert!(!values.is_empty(), "{name} has no values");
+        assert!(!self.names.iter().any(|other| other == name), "two arrays named {name}");
+        self.names.push(name.to_owned());
+        let shape: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
+        let dataset = self.builder.create_dataset(name);
+        dataset.with_f64_data(values).with_shape(&shape);
+        if values.len() >= SMALLEST_COMPRESSED {
+            // Most of a pressure field is 0, and neighbouring heights share their exponents.
+            dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
+        }
+        dataset
+            .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
+            .set_attr("axes", AttrValue::VarLenString(axes.to_owned()))
+            .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
+            .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
+        self
+    }
+
+    /// Writes the file to `path`, atomically.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write(self, path: &Path) -> Result<()> {
+        let image = self.builder.finish().map_err(|error| file_error(path, error))?;
+        atomic::write(path, &image)
+    }
+}
+
+const SMALLEST_COMPRESSED: usize = 1024;
+const DEFLATE_LEVEL: u32 = 4;
+
+/// Whole rows, about 1 MiB of them; of very long rows a part.
+fn chunk(shape: &[u64]) -> Vec<u64> {
+    const VALUES: u64 = 1 << 17;
+    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 would do, which HDF5 2 refuses.
+    const LONGEST: u64 = 1 << 15;
+    match *shape {
+        [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(LONGEST)), ny.min(LONGEST)],
+        _ => vec![shape[0].min(LONGEST)],
+    }
+}
+
+/// A file of fields, opened to be read.
+pub struct Fields {
+    path: PathBuf,
+    file: File,
+}
+
+impl Fields {
+    /// Opens what [`FieldFile::write`] wrote.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn open(path: &Path) -> Result<Self> {
+        let file = File::open(path).map_err(|error| file_error(path, error))?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// Names of the arrays, sorted.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn names(&self) -> Result<Vec<String>> {
+        let mut names = self.file.root().datasets().map_err(|error| self.error(error))?;
+        names.sort_unstable();
+        Ok(names)
+    }
+
+    /// Facts about the whole file.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn attributes(&self) -> Result<BTreeMap<String, Attribute>> {
+        let attributes = self.file.root().attrs().map_err(|error| self.error(error))?;
+        Ok(attributes.into_iter().filter_map(|(name, value)| Some((name, attribute(&value)?))).collect())
+    }
+
+    /// The array `name`.
+    ///
+    /// # Errors
+    /// [`Error::NoField`], [`Error::File`].
+    pub fn read(&self, name: &str) -> Result<StoredField> {
+        let available = self.names()?;
+        if !available.iter().any(|other| other == name) {
+            return Err(Error::NoField { path: self.path.clone(), name: name.to_owned(), available });
+        }
+        self.file.dataset(name).and_then(|dataset| stored(&dataset)).map_err(|error| self.error(error))
+    }
+
+    fn error(&self, error: hdf5_pure::Error) -> Error {
+        file_error(&self.path, error)
+    }
+}
+
+/// The array `name` of the file at `path`.
+///
+/// # Errors
+/// [`Error::NoField`], [`Error::File`].
+pub fn read_field(path: &Path, name: &str) -> Result<StoredField> {
+    Fields::open(path)?.read(name)
+}
+
+impl StoredField {
+    /// The values of a two-dimensional field, `[ix, iy]`; `None` for any other array.
+    pub fn into_field(self) -> Option<Field> {
+        self.values.into_dimensionality::<Ix2>().ok()
+    }
+}
+
+fn stored(dataset: &Dataset) -> std::result::Result<StoredField, hdf5_pure::Error> {
+    let shape: Vec<usize> = dataset.shape()?.iter().map(|size| *size as usize).collect();
+    let attributes = dataset.attrs()?;
+    let text = |name| {
+        let text = attributes.get(name).and_then(AttrValue::as_str);
+        text.unwrap_or_default().to_owned()
+    };
+    let numbers = |name| attributes.get(name).and_then(AttrValue::to_f64s).unwrap_or_default();
+    let values = ArrayD::from_shape_vec(shape, dataset.read_f64()?)
+        .map_err(|error| hdf5_pure::Error::Shape(error.to_string()))?;
+    Ok(StoredField {
+        unit: text("unit"),
+        axes: text("axes"),
+        pitch: numbers("pitch"),
+        origin: numbers("origin"),
+        values,
+    })
+}
+
+fn attribute(value: &AttrValue) -> Option<Attribute> {
+    if let Some(text) = value.as_str() {
+        return Some(Attribute::Text(text.to_owned()));
+    }
+    Some(match value {
+        AttrValue::F64(number) => Attribute::Number(*number),
+        AttrValue::F64Array(numbers) => Attribute::Numbers(numbers.clone()),
+        other => Attribute::Integer(other.as_i64()?),
+    })
+}
+
+fn file_error(path: &Path, error: hdf5_pure::Error) -> Error {
+    let source = match error {
+        hdf5_pure::Error::Io(error) => error,
+        other => io::Error::new(io::ErrorKind::InvalidData, format!("HDF5: {other}")),
+    };
+    Error::File { path: path.to_owned(), source }
+}
+
+impl From<&str> for Attribute {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<f64> for Attribute {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<usize> for Attribute {
+    fn from(count: usize) -> Self {
+        Self::Integer(count as i64)
+    }
+}
+
+impl From<Vec<f64>> for Attribute {
+    fn from(numbers: Vec<f64>) -> Self {
+        Self::Numbers(numbers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn field(grid: &Grid) -> Field {
+        Field::from_shape_fn(grid.shape, |(ix, iy)| ((ix * 7 + iy * 3) % 11) as f64 / 3.0)
+    }
+
+    #[test]
+    fn fields_read_back_with_their_units_and_axes() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("fields.h5");
+        let small = Grid::new([3, 2], [1e-6, 2e-6]).unwrap();
+        let large = Grid::new([257, 129], [1e-6, 2e-6]).unwrap();
+        let mut with_hole = field(&small);
+        with_hole[[1, 1]] = f64::NAN;
+        let loads: Vec<f64> = (0..5).map(f64::from).collect();
+
+        let mut file = FieldFile::new();
+        file.set("version", "0.1.0").set("pass", 3).set("load", 2.5).set("window", vec![0.0, 1.0]);
+        file.add_field("gap", "m", &small, [0.0, 0.0], &with_hole);
+        file.add_field("pressure", "Pa", &large, [1e-3, 0.0], &field(&large));
+        file.add_series("load", "N", "x", 1e-6, 0.0, &loads);
+        file.write(&path).unwrap();
+
+        let fields = Fields::open(&path).unwrap();
+        assert_eq!(fields.names().unwrap(), ["gap", "load", "pressure"]);
+        let attributes = fields.attributes().unwrap();
+        assert_eq!(attributes["version"], "0.1.0".into());
+        assert_eq!(attributes["pass"], 3.into());
+        assert_eq!(attributes["load"], 2.5.into());
+        assert_eq!(attributes["window"], vec![0.0, 1.0].into());
+
+        let pressure = fields.read("pressure").unwrap();
+        assert_eq!((pressure.unit.as_str(), pressure.axes.as_str()), ("Pa", "x,y"));
+        assert_eq!(
+            (&pressure.pitch[..], &pressure.origin[..]),
+            (&[1e-6, 2e-6][..], &[1e-3 + 0.5e-6, 1e-6][..])
+        );
+        assert_eq!(pressure.into_field().unwrap(), field(&large));
+        let gap = read_field(&path, "gap").unwrap().into_field().unwrap();
+        assert!(gap.iter().zip(&with_hole).all(|(found, written)| found.to_bits() == written.to_bits()));
+        let load = fields.read("load").unwrap();
+        assert_eq!((load.values.as_slice().unwrap(), load.axes.as_str()), (&loads[..], "x"));
+        assert_eq!(load.into_field(), None);
+    }
+
+    #[test]
+    fn a_field_that_is_not_there_names_those_that_are() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("fields.h5");
+        let grid = Grid::new([2, 2], [1.0, 1.0]).unwrap();
+        let mut file = FieldFile::new();
+        file.add_field("gap", "m", &grid, [0.0, 0.0], &grid.zeros());
+        file.write(&path).unwrap();
+        let error = read_field(&path, "presure").unwrap_err();
+        assert!(error.to_string().starts_with("no field `presure` in "), "{error}");
+        assert_eq!(error.hint().unwrap(), "it holds `gap`");
+    }
+
+    #[test]
+    fn chunks_fit_their_arrays_and_the_encoding() {
+        for shape in [&[3, 2][..], &[1024, 1024], &[2, 200_000], &[200_000, 2], &[1, 70_000], &[300_000]] {
+            let chunk = chunk(shape);
+            assert_eq!(chunk.len(), shape.len());
+            assert!(
+                chunk.iter().zip(shape).all(|(chunk, size)| (1..=*size).contains(chunk) && *chunk < 1 << 16)
+            );
+            assert!(chunk.iter().product::<u64>() <= 1 << 17);
+        }
+    }
+
+    #[test]
+    fn a_damaged_file_is_an_error() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("fields.h5");
+        let missing = Fields::open(&path).err().unwrap().to_string();
+        assert!(missing.starts_with(path.to_str().unwrap()), "{missing}");
+        std::fs::write(&path, b"not HDF5").unwrap();
+        assert!(Fields::open(&path).err().unwrap().to_string().contains("HDF5"));
+    }
+}

@@ -1,0 +1,190 @@
+//! `steps.csv` and `passes.csv`: a row per position, a row per pass.
+//!
+//! A table is always written whole and atomically, after each pass: a killed run leaves the tables of the last
+//! finished pass, never half a row. Numbers are written so that they read back to the same bits.
+
+use std::io;
+use std::path::Path;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::atomic;
+use crate::error::{Error, Result};
+use crate::motion::{PassRecord, StepRecord};
+
+/// Columns of `steps.csv`.
+pub const STEP_COLUMNS: [&str; 12] = [
+    "pass",
+    "step",
+    "offset",
+    "overlap_columns",
+    "approach",
+    "load",
+    "contact_area",
+    "max_pressure",
+    "plastic_cells",
+    "iterations",
+    "convolutions",
+    "residual",
+];
+
+/// Columns of `passes.csv`.
+pub const PASS_COLUMNS: [&str; 14] = [
+    "pass",
+    "approach",
+    "mean_load",
+    "min_load",
+    "max_load",
+    "mean_contact_area",
+    "max_pressure",
+    "plastic_volume_lower",
+    "plastic_volume_upper",
+    "sq_lower",
+    "sq_upper",
+    "outer_iterations",
+    "convolutions",
+    "wall_time_s",
+];
+
+/// Writes `steps.csv`.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn write_steps(path: &Path, steps: &[StepRecord]) -> Result<()> {
+    write(path, &STEP_COLUMNS, steps)
+}
+
+/// Reads `steps.csv`, to resume.
+///
+/// # Errors
+/// [`Error::File`]; the message has the line where a row is damaged.
+pub fn read_steps(path: &Path) -> Result<Vec<StepRecord>> {
+    read(path)
+}
+
+/// Writes `passes.csv`.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
+    write(path, &PASS_COLUMNS, passes)
+}
+
+/// Reads `passes.csv`, to resume.
+///
+/// # Errors
+/// [`Error::File`]; the message has the line where a row is damaged.
+pub fn read_passes(path: &Path) -> Result<Vec<PassRecord>> {
+    read(path)
+}
+
+fn write<T: Serialize>(path: &Path, columns: &[&str], rows: &[T]) -> Result<()> {
+    atomic::write_with(path, |file| {
+        // The header is written by hand, so that a table without rows has one too.
+        let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+        table.write_record(columns)?;
+        for row in rows {
+            table.serialize(row)?;
+        }
+        table.flush()
+    })
+}
+
+fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+    let failed = |source| Error::File { path: path.to_owned(), source };
+    let file = std::fs::File::open(path).map_err(failed)?;
+    let rows =
+        csv::Reader::from_reader(file).into_deserialize().collect::<std::result::Result<_, csv::Error>>();
+    rows.map_err(|error| failed(io::Error::from(error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(step: usize) -> StepRecord {
+        StepRecord {
+            pass: 1,
+            step,
+            offset: -1.0 / 3.0 * 1e-6,
+            overlap_columns: 17,
+            approach: f64::MIN_POSITIVE,
+            load: 0.1 + 0.2,
+            contact_area: 1e-300,
+            max_pressure: 4e9,
+            plastic_cells: 0,
+            iterations: 12,
+            convolutions: 13.25,
+            residual: f64::NAN,
+        }
+    }
+
+    fn pass() -> PassRecord {
+        PassRecord {
+            pass: 1,
+            approach: 1e-7,
+            mean_load: 2.0,
+            min_load: 0.0,
+            max_load: 3.0,
+            mean_contact_area: 1e-10,
+            max_pressure: 4e9,
+            plastic_volume_lower: 1e-18,
+            plastic_volume_upper: 2e-18,
+            sq_lower: 2e-7,
+            sq_upper: 1.0 / 7.0,
+            outer_iterations: 4,
+            convolutions: 800.0,
+            wall_time_s: 0.25,
+        }
+    }
+
+    #[test]
+    fn the_columns_are_those_promised() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("table.csv");
+        for (columns, row) in [
+            (&STEP_COLUMNS[..], serde_json::to_value(step(1)).unwrap()),
+            (&PASS_COLUMNS[..], serde_json::to_value(pass()).unwrap()),
+        ] {
+            let mut names: Vec<_> = row.as_object().unwrap().keys().map(String::as_str).collect();
+            let mut sorted = columns.to_vec();
+            names.sort_unstable();
+            sorted.sort_unstable();
+            assert_eq!(names, sorted);
+        }
+        write_steps(&path, &[]).unwrap();
+        let header = "pass,step,offset,overlap_columns,approach,load,contact_area,max_pressure,plastic_cells,\
+                      iterations,convolutions,residual\n";
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
+        assert_eq!(read_steps(&path).unwrap(), []);
+        write_passes(&path, &[]).unwrap();
+        let header = "pass,approach,mean_load,min_load,max_load,mean_contact_area,max_pressure,\
+                      plastic_volume_lower,plastic_volume_upper,sq_lower,sq_upper,outer_iterations,convolutions,\
+                      wall_time_s\n";
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
+    }
+
+    #[test]
+    fn numbers_read_back_to_the_same_bits() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("table.csv");
+        write_steps(&path, &[step(1), step(2)]).unwrap();
+        let steps = read_steps(&path).unwrap();
+        assert_eq!(format!("{steps:?}"), format!("{:?}", [step(1), step(2)]), "NaN included");
+        assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
+        write_passes(&path, &[pass()]).unwrap();
+        assert_eq!(read_passes(&path).unwrap(), [pass()]);
+    }
+
+    #[test]
+    fn a_damaged_row_is_an_error_with_its_line() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("steps.csv");
+        write_steps(&path, &[step(1), step(2)]).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, &text[..text.len() - 40]).unwrap();
+        let message = read_steps(&path).unwrap_err().to_string();
+        assert!(message.contains("line: 3"), "{message}");
+    }
+}

@@ -1,0 +1,197 @@
+//! Measured topographies: one file per format, and the choice between them by content.
+//!
+//! A reader answers any content with a [`Scan`] or an error: it compares the sizes that a header announces with
+//! the data that are there before it makes room for them, and decompresses no more than the header calls for.
+
+pub mod npy;
+pub mod sur;
+pub mod text;
+pub mod vtk;
+pub mod x3p;
+
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+use crate::error::{Defect, Error, Result};
+use crate::grid::Field;
+use crate::units::Metre;
+
+/// Heights as a file has them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// `x3p`, `npy`, `sur`, `text` (a matrix) or `xyz` (a table of x, y, height).
+    pub format: &'static str,
+    /// The channel read.
+    pub channel: String,
+    /// All height channels of the file, the default one first.
+    pub channels: Vec<String>,
+    /// Distance of neighbouring heights along x and y, where the file has it.
+    pub pitch: Option<[Metre; 2]>,
+    /// Heights in metres, `[ix, iy]`, NaN where missing.
+    pub heights: Field,
+}
+
+/// Reads the heights of the topography file at `path`.
+///
+/// The content tells the format, never the name: x3p (ISO 25178-72, ISO 5436-2), Digital Surf `.sur`, NumPy
+/// `.npy`, text matrices and tables (see [`text`] for what they may look like). Any of them may be gzipped.
+/// Without `channel` the first one is read; files of one unnamed channel call it `height`.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if it is of no known format,
+/// [`Error::CorruptTopography`] if it is damaged or uses what is not read, [`Error::NoChannel`].
+pub fn read(path: &Path, channel: Option<&str>) -> Result<Scan> {
+    let bytes = contents(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
+    decode(&bytes, channel).map_err(|fault| fault.at(path, channel))
+}
+
+/// The most heights that are read: 2 GiB of them.
+const MAX_CELLS: usize = 1 << 28;
+
+/// The most that a gzipped file is unpacked to.
+const MAX_UNPACKED: u64 = 1 << 32;
+
+fn contents(path: &Path) -> io::Result<Vec<u8>> {
+    // A pipe or a device has no end, and opening one may wait for ever.
+    let about = std::fs::metadata(path)?;
+    if about.is_dir() {
+        return Err(io::Error::new(ErrorKind::IsADirectory, "is a directory, expected a topography file"));
+    }
+    if !about.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "is not a regular file"));
+    }
+    std::fs::read(path)
+}
+
+fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    if bytes.starts_with(&[0x1f, 0x8b]) { unpack(bytes, channel) } else { decode_plain(bytes, channel) }
+}
+
+fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    let mut unpacked = Vec::new();
+    let result = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1).read_to_end(&mut unpacked);
+    result.map_err(|error| Fault::defect("gzip", Defect::Container(error.to_string())))?;
+    if unpacked.len() as u64 > MAX_UNPACKED {
+        let found = unpacked.len() as u64;
+        let defect = Defect::Length { what: "the unpacked file", expected: MAX_UNPACKED, found };
+        return Err(Fault::defect("gzip", defect));
+    }
+    decode_plain(&unpacked, channel)
+}
+
+fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    type Decode = fn(&[u8], Option<&str>) -> Decoded;
+    const READ: [(&[u8], Decode); 4] = [
+        (b"PK\x03\x04", x3p::decode),
+        (b"DIGITAL SURF", sur::decode),
+        (b"DSCOMPRESSED", sur::decode),
+        (b"\x93NUMPY", npy::decode),
+    ];
+    const NOT_READ: [(&[u8], &str); 16] = [
+        (b"AliconaImaging", "it is an Alicona AL3D file"),
+        (b"FRTM_GLIDER", "it is an FRT MicroProf file"),
+        (b"\x88\x1b\x03", "it is a Zygo MetroPro file"),
+        (b"\x01\0Directory", "it is a Wyko OPD file"),
+        (b"VCA DATA", "it is a Wyko OPDx file"),
+        (b"Binary TrueMap Data File", "it is a TrueMap file"),
+        (b"aISO-1.0", "it is a surface data file (SDF, ISO 25178-71)"),
+        (b"bISO-1.0", "it is a surface data file (SDF, ISO 25178-71)"),
+        (b"\x89HDF\r\n\x1a\n", "it is an HDF5 file"),
+        (b"\x89PNG", "it is a picture (PNG)"),
+        (b"\xff\xd8\xff", "it is a picture (JPEG)"),
+        (b"BM", "it is a picture (BMP)"),
+        (b"II*\0", "it is a picture (TIFF)"),
+        (b"GWYP", "it is a Gwyddion file"),
+        (b"\xff\xfe", "it is UTF-16 text, expected UTF-8"),
+        (b"PK\x05\x06", "it is an empty zip archive"),
+    ];
+    if bytes.is_empty() {
+        return Err(Fault::NotATopography("it is empty"));
+    }
+    if let Some((_, decode)) = READ.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return decode(bytes, channel);
+    }
+    if let Some((_, reason)) = NOT_READ.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return Err(Fault::NotATopography(reason));
+    }
+    let binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
+    if bytes.iter().take(1 << 16).any(binary) {
+        return Err(Fault::NotATopography("it is binary, of no known format"));
+    }
+    text::decode(bytes, channel)
+}
+
+type Decoded = std::result::Result<Scan, Fault>;
+
+/// Why a decoder, which knows no path, gives up.
+#[derive(Debug)]
+enum Fault {
+    NotATopography(&'static str),
+    Corrupt { format: &'static str, reason: Defect },
+    NoChannel { available: Vec<String> },
+}
+
+impl Fault {
+    fn defect(format: &'static str, reason: Defect) -> Self {
+        Self::Corrupt { format, reason }
+    }
+
+    fn at(self, path: &Path, channel: Option<&str>) -> Error {
+        let path = path.to_owned();
+        match self {
+            Self::NotATopography(reason) => Error::NotATopography { path, reason },
+            Self::Corrupt { format, reason } => Error::CorruptTopography { path, format, reason },
+            Self::NoChannel { available } => {
+                Error::NoChannel { path, channel: channel.unwrap_or_default().to_owned(), available }
+            }
+        }
+    }
+}
+
+/// Which of `available` (not empty) is asked for.
+fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<usize, Fault> {
+    match channel {
+        None => Ok(0),
+        Some(channel) => available
+            .iter()
+            .position(|name| name == channel)
+            .ok_or_else(|| Fault::NoChannel { available: available.to_vec() }),
+    }
+}
+
+/// The name of the only channel of a file that does not name it.
+const ONLY_CHANNEL: &str = "height";
+
+fn only_channel(channel: Option<&str>) -> std::result::Result<Vec<String>, Fault> {
+    let channels = vec![ONLY_CHANNEL.to_owned()];
+    choose(&channels, channel)?;
+    Ok(channels)
+}
+
+/// The product of the sizes that a header announces, if heights of that number are read at all.
+fn cells(sizes: &[u64]) -> std::result::Result<usize, Defect> {
+    let cells = sizes.iter().fold(1u128, |product, size| product.saturating_mul(u128::from(*size)));
+    match usize::try_from(cells) {
+        Ok(cells) if cells <= MAX_CELLS => Ok(cells),
+        _ => Err(Defect::TooLarge { cells, limit: MAX_CELLS }),
+    }
+}
+
+/// A pitch that a grid can have; else the user has to give it.
+fn usable_pitch(pitch: [Metre; 2]) -> Option<[Metre; 2]> {
+    pitch.iter().all(|p| p.is_finite() && *p > 0.0).then_some(pitch)
+}
+
+/// Heights stored with x fastest, as almost every instrument does.
+fn x_fastest(shape: [usize; 2], height: impl Fn(usize) -> f64) -> Field {
+    let mut heights = Field::zeros(shape);
+    for (iy, mut row) in heights.columns_mut().into_iter().enumerate() {
+        for (ix, cell) in row.iter_mut().enumerate() {
+            *cell = height(ix + shape[0] * iy);
+        }
+    }
+    heights
+}
+
+#[cfg(test)]
+mod tests;
