@@ -79,6 +79,8 @@ struct Iteration<'a, 'b> {
     leave: f64,
     /// Running mean of the step length: the damping of the folded step.
     damping: f64,
+    /// How much stiffer than its own diagonal a cell is taken to be when the sets are predicted.
+    caution: f64,
     best: f64,
     strikes: usize,
     stats: Stats,
@@ -110,6 +112,7 @@ impl<'a, 'b> Iteration<'a, 'b> {
             response: zeros,
             leave: LEAVE,
             damping: 0.8,
+            caution: 1.0,
             best: f64::INFINITY,
             strikes: 0,
             stats: Stats::default(),
@@ -183,10 +186,10 @@ impl<'a, 'b> Iteration<'a, 'b> {
         let (p, u, h) = (flat(&self.pressure), flat(&self.displacement), flat(initial_gap));
         self.free.clear();
         for cell in 0..p.len() {
-            let step = p[cell] + (approach - h[cell] - u[cell]) / c0;
-            self.sets[cell] = if step <= 0.0 {
+            let step = p[cell] + (approach - h[cell] - u[cell]) / (self.caution * c0);
+            self.sets[cell] = if step <= 0.0 && p[cell] < hardness {
                 Set::Zero
-            } else if step >= hardness {
+            } else if step >= hardness && p[cell] > 0.0 {
                 Set::Hardness
             } else {
                 self.free.push(cell as u32);
@@ -350,10 +353,12 @@ impl<'a, 'b> Iteration<'a, 'b> {
             self.best = size;
             self.strikes = 0;
             self.leave = LEAVE.min(1.5 * self.leave);
+            self.caution = (0.5 * self.caution).max(1.0);
             return;
         }
         self.strikes += 1;
         self.leave = (self.leave / 3.0).max(0.05);
+        self.caution *= 4.0;
         if self.strikes < 2 {
             return;
         }
