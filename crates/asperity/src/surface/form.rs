@@ -32,11 +32,12 @@ pub enum Form {
         /// semi-angle θ has α = π/2 − θ.
         angle: f64,
     },
-    /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), x and y from the centre: a crest of height 0 there, mean height −A.
+    /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), a crest of height 0 in the centre, mean height −A.
     Sinusoid {
         /// Amplitude A, > 0, half the height from trough to crest.
         amplitude: Metre,
-        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite where the height does not vary in that direction.
+        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite where the height does not vary in that
+        /// direction.
         #[serde(default = "no_variation")]
         wavelength: [Metre; 2],
     },

@@ -1,7 +1,7 @@
 //! Topographies of single bodies: made, measured, prepared and described by their roughness.
 //!
-//! A topography is given with the material's side up, as it is measured. Only [`Topography::underside`] turns one
-//! over, when it is mounted as the upper body.
+//! A topography is given with the material's side up, as it is measured. Only [`Topography::underside`] turns
+//! one over, when it is mounted as the upper body.
 
 mod form;
 mod generate;

@@ -8,8 +8,8 @@ use crate::units::Metre;
 
 /// Height and hybrid parameters of ISO 25178-2 over the defined samples, heights taken from their mean.
 ///
-/// No filter is applied: level and filter first. A parameter without meaning is NaN: all without a defined sample,
-/// `ssk` and `sku` of a plane, `sdq` where [`Parameters::sdq`] says so.
+/// No filter is applied: level and filter first. A parameter without meaning is NaN: all without a defined
+/// sample, `ssk` and `sku` of a plane, `sdq` where [`Parameters::sdq`] says so.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
     /// Arithmetical mean height, ⟨|z|⟩.
@@ -35,10 +35,13 @@ pub struct Parameters {
     pub sv: Metre,
     /// Root mean square gradient, √⟨(∂z/∂x)² + (∂z/∂y)²⟩.
     ///
-    /// The derivatives are those of the seven-point formula of ISO 4287, which ISO 25178 took over:
-    /// ∂z/∂x = (z₊₃ − 9 z₊₂ + 45 z₊₁ − 45 z₋₁ + 9 z₋₂ − z₋₃)/60Δx, exact to the sixth power of Δx/wavelength and
-    /// too small below about four samples per wave. NaN where no sample has three defined neighbours on every
-    /// side; there is no slope along a direction with one sample.
+    /// The standard defines the integral; the derivatives here are ISO 4287's for the local slope,
+    ///
+    /// ∂z/∂x = (z₊₃ − 9 z₊₂ + 45 z₊₁ − 45 z₋₁ + 9 z₋₂ − z₋₃)/60Δx,
+    ///
+    /// right to the sixth power of Δx/wavelength and too small below about four samples per wave. NaN where
+    /// no sample has three defined neighbours on every side; there is no slope along a direction with one
+    /// sample.
     #[serde(rename = "Sdq")]
     pub sdq: f64,
 }
@@ -167,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_hemispherical_cap_is_skewed_downwards() {
-        // A paraboloid over a square: z = −(x² + y²)/2R; the moments of uniform x and y give Sq² = 2·(4/45) a⁴/4R².
+        // z = −(x² + y²)/2R over a square of side 2a: the variance of x² is 4a⁴/45, so Sq² = 2 (4/45) a⁴/4R².
         let grid = Grid::new([400, 400], [0.005, 0.005]).unwrap();
         let parameters = Form::Sphere { radius: 1.0 }.on(&grid).unwrap().parameters();
         assert_relative_eq!(parameters.sq, (2.0 * 4.0 / 45.0 / 4.0f64).sqrt(), max_relative = 1e-4);

@@ -14,8 +14,8 @@ impl Topography {
     /// The topography with these `heights`, each finite, or NaN where it is undefined.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if the heights have another shape than the grid, [`Error::OutOfRange`] if one is
-    /// infinite.
+    /// [`Error::GridMismatch`] if the heights have another shape than the grid, [`Error::OutOfRange`] if one
+    /// is infinite.
     pub fn new(grid: Grid, heights: Field) -> Result<Self> {
         if heights.shape() != grid.shape {
             return Err(Error::GridMismatch {

@@ -12,19 +12,20 @@ use crate::units::Metre;
 
 /// Heights of exponential autocorrelation, R(x, y) = Sq² exp(−ln 10 √((x/βx)² + (y/βy)²)).
 ///
-/// It falls to 10 % at the correlation lengths βx and βy: the definition of Hu & Tonder, Int. J. Mach. Tools Manuf.
-/// 32, 83 (1992), whose exp(−2.3 …) this is; the length to 1/e is β/ln 10. The filter's response is the square root
-/// of the wanted spectrum, the transform of R.
+/// It falls to 10 % at the correlation lengths βx and βy: the definition of Hu & Tonder, Int. J. Mach. Tools
+/// Manuf. 32, 83 (1992), whose exp(−2.3 …) this is; the length to 1/e is β/ln 10. The filter's response is
+/// the square root of the wanted spectrum, the transform of R.
 ///
-/// The noise field is three correlation lengths longer than the surface, which is cut out of it, so that it is not
-/// periodic and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface; R is so for the
-/// mean over seeds, up to the mean height and Sq of each surface, which are set: of the order of βxβy/area.
+/// The noise field is three correlation lengths longer than the surface, which is cut out of it, so that it
+/// is not periodic and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface; R
+/// is so for the mean over seeds, up to the mean height and Sq of each surface, which are set: of the order
+/// of βxβy/area.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Autocorrelation {
     /// Rms height, > 0.
     pub sq: Metre,
-    /// Lengths βx and βy where the autocorrelation falls to 10 %, from a pitch to the length of the surface; read
-    /// from one or two.
+    /// Lengths βx and βy where the autocorrelation falls to 10 %, from a pitch to the length of the surface;
+    /// read from one or two.
     #[serde(deserialize_with = "one_or_two")]
     pub correlation_length: [Metre; 2],
 }
@@ -50,7 +51,8 @@ impl Autocorrelation {
 
     /// Spectrum of the autocorrelation, of variance 1, on a period of `shape` samples.
     ///
-    /// Where the period is short, its ends meet in a kink and give the spectrum slightly negative values: 0 here.
+    /// Where the period is short, its ends meet in a kink and give the spectrum slightly negative values: 0
+    /// here.
     fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
         let distance = |axis: usize, index: usize| {
             index.min(shape[axis] - index) as f64 * pitch[axis] / self.correlation_length[axis]

@@ -13,19 +13,21 @@ use crate::units::Metre;
 /// White noise without the waves shorter than a cut-off: a flat spectrum inside, nothing outside.
 ///
 /// The circular filter of Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), in samples:
-/// h(k, l) = ωc J₁(ωc ρ)/2πρ, h(0, 0) = ωc²/4π, ρ = √(k² + l²), ωc = 2πΔx/λc,
-/// whose response is 1 for √(ωx² + ωy²) < ωc, else 0. It falls only as ρ^(−3/2): cut at n wavelengths it loses the
-/// part 1/π²n of the variance and lets short waves through. So the whole filter is applied here, by its response,
-/// to a noise field four wavelengths longer than the surface; the surface is then cut out of it and is not periodic
-/// (the correlation of its opposite edges, 2 J₁(8π)/8π, is below 0.013).
 ///
-/// Two different wavelengths make the pass band an ellipse: (λx/wavelength in x)² + (λy/wavelength in y)² < 1.
-/// The autocorrelation is 2 J₁(s)/s, s = 2π √((x/λx)² + (y/λy)²).
+/// h(k, l) = ωc J₁(ωc ρ)/2πρ, h(0, 0) = ωc²/4π, ρ = √(k² + l²), ωc = 2πΔx/λc
+///
+/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It falls only as ρ^(−3/2): cut at n wavelengths it loses
+/// the part 1/π²n of the variance and lets short waves through. So the whole filter is applied here, by its
+/// response, to a noise field four wavelengths longer than the surface; the surface is then cut out of it and
+/// is not periodic (the correlation of its opposite edges, 2 J₁(8π)/8π, is below 0.013).
+///
+/// Two different lengths make the pass band an ellipse; the autocorrelation is 2 J₁(s)/s,
+/// s = 2π √((x/λx)² + (y/λy)²).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LowPass {
     /// Rms height, > 0, exact for every surface.
     pub sq: Metre,
-    /// Cut-off wavelengths along x and y, from two pitches to the length of the surface; read from one or two.
+    /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two.
     #[serde(deserialize_with = "one_or_two")]
     pub cutoff: [Metre; 2],
 }
@@ -69,8 +71,8 @@ mod tests {
 
     #[test]
     fn the_response_is_the_transform_of_the_filter_of_hu_and_tonder() {
-        // On n² samples the transform sums the filter over all periods: the lattice points in a circle in place of
-        // its area, right to n^(−1/2) of the height at the origin.
+        // On n² samples the transform sums the filter over all periods: the lattice points in a circle in
+        // place of its area, right to n^(−1/2) of the height at the origin.
         let n = 512;
         let filter = LowPass { sq: 1.0, cutoff: [16.0; 2] };
         let mut spectrum = ndarray::Array2::zeros([n, n / 2 + 1]);
@@ -93,7 +95,7 @@ mod tests {
         let grid = Grid::new([300, 500], [1.0, 0.5]).unwrap();
         let cutoff = [12.0, 8.0];
         let heights = LowPass { sq: 1.0, cutoff }.generate(&grid, 5).unwrap().into_heights();
-        // The window (Blackman) leaks less than 1e-5 of the variance beyond three bins.
+        // The window (Blackman's) leaks less than 1e-7 of the variance beyond four bins.
         let window = |i: usize, n: usize| {
             let t = TAU * (i as f64 + 0.5) / n as f64;
             0.42 - 0.5 * t.cos() + 0.08 * (2.0 * t).cos()

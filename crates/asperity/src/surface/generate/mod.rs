@@ -29,8 +29,8 @@ pub enum Generator {
 }
 
 impl Generator {
-    /// A topography on `grid`, its mean height 0, the same for the same `seed` on every machine (up to the round-off
-    /// of the Fourier transform).
+    /// A topography on `grid`, its mean height 0, the same for the same `seed` on every machine (up to the
+    /// round-off of the Fourier transform).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a parameter has no meaning, or none on this grid.

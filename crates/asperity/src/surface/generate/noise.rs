@@ -11,7 +11,8 @@ use crate::math::{RealFft2, good_size};
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// Independent Gaussian numbers of mean 0 and variance 1: the stream of ChaCha8 for `seed`, in the order of memory.
+/// Independent Gaussian numbers of mean 0 and variance 1: the stream of ChaCha8 for `seed`, in the order of
+/// memory.
 pub(super) fn white_noise(shape: [usize; 2], seed: u64) -> Field {
     let mut stream = ChaCha8Rng::seed_from_u64(seed);
     Field::from_shape_simple_fn(shape, || StandardNormal.sample(&mut stream))
@@ -19,8 +20,8 @@ pub(super) fn white_noise(shape: [usize; 2], seed: u64) -> Field {
 
 /// A shape of fast transforms that is longer than the grid by `margin` or more.
 ///
-/// A filter applied to noise of this shape by the Fourier transform gives a periodic surface; of it, the part on the
-/// grid is not periodic, and its opposite edges are as far from each other as `margin`.
+/// A filter applied to noise of this shape by the Fourier transform gives a periodic surface; of it, the part
+/// on the grid is not periodic, and its opposite edges are as far from each other as `margin`.
 pub(super) fn shape_with_margin(grid: &Grid, margin: [Metre; 2]) -> [usize; 2] {
     std::array::from_fn(|axis| {
         good_size(grid.shape[axis] + (margin[axis] / grid.pitch[axis]).ceil() as usize)
@@ -29,8 +30,8 @@ pub(super) fn shape_with_margin(grid: &Grid, margin: [Metre; 2]) -> [usize; 2] {
 
 /// White noise of `shape`, filtered, cut to the grid, its mean removed, and scaled to the rms height `sq`.
 ///
-/// `response(k, l)` is the filter's, at the wave of k periods along x and l ≤ n/2 along y, k ≤ n counted upwards
-/// through the negative ones as the transform counts them.
+/// `response(k, l)` is the filter's, at the wave of k periods along x and l ≤ n/2 along y, k ≤ n counted
+/// upwards through the negative ones as the transform counts them.
 pub(super) fn filtered_noise(
     grid: &Grid,
     shape: [usize; 2],

@@ -16,14 +16,14 @@ use crate::math::fft::angular_frequency;
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// Periodic heights whose spectrum is |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant for longer
-/// waves and nothing for shorter ones; the phases are random, the magnitudes are not.
+/// Periodic heights whose spectrum is |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant
+/// for longer waves and nothing for shorter ones; the phases are random, the magnitudes are not.
 ///
-/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as the Contact Mechanics
-/// Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
+/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as the Contact
+/// Mechanics Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
 ///
-/// A wave has the same phase on every grid of the same extent: with `shortest` given, a finer grid shows the same
-/// surface in more detail, as a study of convergence needs it.
+/// A wave has the same phase on every grid of the same extent: with `shortest` given, a finer grid shows the
+/// same surface in more detail, as a study of convergence needs it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 ≤ H ≤ 1; the fractal dimension is 3 − H.
@@ -46,8 +46,8 @@ pub struct SelfAffine {
 pub enum Amplitude {
     /// Rms height, > 0.
     Sq(Metre),
-    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences of
-    /// [`crate::surface::Parameters::sdq`] find less where waves shorter than about four pitches take part.
+    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences
+    /// of [`crate::surface::Parameters::sdq`] find less where waves shorter than about four pitches occur.
     Sdq(f64),
 }
 
@@ -146,11 +146,11 @@ impl SelfAffine {
     }
 }
 
-/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x, negative
-/// ones counted down from nx.
+/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x,
+/// negative ones counted down from nx.
 ///
-/// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so they
-/// depend on the seed and the wave, not on the shape.
+/// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so
+/// they depend on the seed and the wave, not on the shape.
 fn for_each_wave([nx, ny]: [usize; 2], seed: u64, mut f: impl FnMut(usize, usize, f64)) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     for l in 0..ny.div_ceil(2) {

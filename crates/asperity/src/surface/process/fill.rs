@@ -25,8 +25,8 @@ impl Topography {
     /// With every sample defined.
     ///
     /// # Errors
-    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`] if there
-    /// is nothing to fill from.
+    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`]
+    /// if there is nothing to fill from.
     pub fn fill(mut self, fill: Fill) -> Result<Self> {
         let undefined = self.undefined();
         let samples = self.grid().cells();
@@ -46,8 +46,8 @@ impl Topography {
     }
 }
 
-/// Gives each undefined sample the height of the nearest defined one: the exact Euclidean distance transform, first
-/// along y, then along x by the lower envelope of the parabolas of distance squared.
+/// Gives each undefined sample the height of the nearest defined one: the exact Euclidean distance transform,
+/// first along y, then along x by the lower envelope of the parabolas of distance squared.
 ///
 /// Felzenszwalb & Huttenlocher, Theory of Computing 8, 415 (2012). Linear in the number of samples.
 fn nearest(grid: &Grid, z: &mut Field) {
@@ -57,7 +57,8 @@ fn nearest(grid: &Grid, z: &mut Field) {
     let source = z.clone();
     let ratio = (grid.pitch[1] / grid.pitch[0]).powi(2);
     for iy in 0..ny {
-        // Distance squared, in units of the pitch along x, from (ix, iy) to the nearest defined sample of line ix.
+        // Distance squared, in units of the pitch along x, from (ix, iy) to the nearest defined sample of
+        // line ix.
         let offset = |ix: usize| in_line[ix][iy].map(|jy| jy.abs_diff(iy).pow(2) as f64 * ratio);
         // The envelope: its lines and the x from which on each is the nearest.
         let mut envelope: Vec<(usize, f64)> = Vec::new();

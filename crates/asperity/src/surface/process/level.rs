@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::grid::Grid;
 use crate::surface::Topography;
 
-/// What is subtracted from the heights: the least-squares fit of a polynomial in x and y to the defined samples.
+/// What is subtracted from the heights: the least-squares fit of a polynomial in x and y to the defined
+/// samples.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
@@ -72,7 +73,8 @@ impl Topography {
     }
 }
 
-/// 1, ξ, η, ξ², ξη, η² with ξ, η from −1 to 1 over the grid, so that the normal equations are well conditioned.
+/// 1, ξ, η, ξ², ξη, η² with ξ, η from −1 to 1 over the grid, so that the normal equations are well
+/// conditioned.
 fn monomials(grid: &Grid, ix: usize, iy: usize) -> [f64; TERMS] {
     let scaled = |axis: usize, index: usize| (2.0 * index as f64 + 1.0) / grid.shape[axis] as f64 - 1.0;
     let (x, y) = (scaled(0, ix), scaled(1, iy));
@@ -83,8 +85,8 @@ fn dot(a: &[f64; TERMS], b: &[f64; TERMS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Solution of a positive semi-definite system by L D Lᵀ (lower triangle of `matrix` given); an unknown whose pivot
-/// vanishes is 0.
+/// Solution of a positive semi-definite system by L D Lᵀ (lower triangle of `matrix` given); an unknown whose
+/// pivot vanishes is 0.
 fn solve(mut matrix: [[f64; TERMS]; TERMS], mut x: [f64; TERMS], n: usize) -> [f64; TERMS] {
     let mut pivot = [0.0; TERMS];
     for j in 0..n {

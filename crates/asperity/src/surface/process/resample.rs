@@ -10,12 +10,12 @@ use crate::units::Metre;
 impl Topography {
     /// The same extent with `shape` cells.
     ///
-    /// In each direction by itself. Where cells become larger, a new height is the average over the new cell, within
-    /// an old one that is cut of the straight line with the slope between its neighbours: the plain average of the
-    /// old cells when the ratio is whole, the same mean height and the same planes for any ratio, and no finer wave
-    /// folded down. Where cells become smaller, it is interpolated linearly between the centres of the old cells and
-    /// constant beyond the outermost ones, so that no height leaves the range of the samples. A height that draws on
-    /// an undefined sample is undefined.
+    /// In each direction by itself. Where cells become larger, a new height is the average over the new cell,
+    /// within an old one that is cut of the straight line with the slope between its neighbours: the plain
+    /// average of the old cells when the ratio is whole, the same mean height and the same planes for any
+    /// ratio, and no finer wave folded down. Where cells become smaller, it is interpolated linearly between
+    /// the centres of the old cells and constant beyond the outermost ones, so that no height leaves the
+    /// range of the samples. A height that draws on an undefined sample is undefined.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a number of cells is 0.
@@ -28,8 +28,8 @@ impl Topography {
         self.on_grid(Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])?)
     }
 
-    /// Cells of size `pitch`, as many as fit into the extent from its corner on; what is left over at the far edges,
-    /// less than a cell, is cut off. By the method of [`Topography::resample_to_shape`].
+    /// Cells of size `pitch`, as many as fit into the extent from its corner on; what is left over at the far
+    /// edges, less than a cell, is cut off. By the method of [`Topography::resample_to_shape`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a pitch is not positive, or longer than the topography.
@@ -70,8 +70,8 @@ fn resampled(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Field {
     result
 }
 
-/// The samples, of `n`, that new cell `index` draws on, and their weights, which sum to 1; `ratio` is the new pitch
-/// over the old one.
+/// The samples, of `n`, that new cell `index` draws on, and their weights, which sum to 1; `ratio` is the new
+/// pitch over the old one.
 fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
     /// Share of a cell below which it counts as round-off.
     const CRUMB: f64 = 1e-9;
