@@ -68,6 +68,28 @@ pub enum Error {
         /// The channels there are.
         available: Vec<String>,
     },
+    /// A topography has undefined samples where every one is needed.
+    #[error("{undefined} of {samples} samples are undefined: set fill = \"nearest\" or fill = \"harmonic\"")]
+    UndefinedSamples {
+        /// Number of undefined samples.
+        undefined: usize,
+        /// Number of all samples.
+        samples: usize,
+    },
+    /// A topography without any defined sample, from which nothing can be filled.
+    #[error("none of the {samples} samples is defined")]
+    NothingDefined {
+        /// Number of all samples.
+        samples: usize,
+    },
+    /// A window that does not lie within the topography.
+    #[error("window = {window:?} ([x0, y0, nx, ny]) is not a part of the {} × {} samples", shape[0], shape[1])]
+    WindowOutside {
+        /// First sample and number of samples, `[x0, y0, nx, ny]`.
+        window: [usize; 4],
+        /// Samples of the topography along x and y.
+        shape: [usize; 2],
+    },
     // ---- case file ---------------------------------------------------------------------------------------
     /// A case file says what has no meaning.
     #[error(transparent)]

@@ -1,0 +1,174 @@
+//! Ideal forms: the bodies of the closed-form contacts.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::surface::Topography;
+use crate::units::Metre;
+
+/// An ideal form, material's side up, its apex in the centre of the grid's extent at height 0.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "form", rename_all = "kebab-case")]
+pub enum Form {
+    /// z = 0.
+    Flat,
+    /// z = −r²/2R: the paraboloid that contact mechanics puts in place of the sphere (Johnson 1985, eq. 4.1).
+    Sphere {
+        /// Radius of curvature R, > 0.
+        radius: Metre,
+    },
+    /// z = −s²/2R, s the distance from the line of the apex: the parabolic cylinder of line contact.
+    Cylinder {
+        /// Radius of curvature R, > 0.
+        radius: Metre,
+        /// The direction that the cylinder's axis lies in.
+        #[serde(default)]
+        axis: Axis,
+    },
+    /// z = −r tan α.
+    Cone {
+        /// Slope α of the flank against the plane of the surface, 0 < α < π/2, in radians; an indenter of
+        /// semi-angle θ has α = π/2 − θ.
+        angle: f64,
+    },
+    /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), a crest of height 0 in the centre, mean height −A.
+    Sinusoid {
+        /// Amplitude A, > 0, half the height from trough to crest.
+        amplitude: Metre,
+        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite where the height does not vary in that
+        /// direction.
+        #[serde(default = "no_variation")]
+        wavelength: [Metre; 2],
+    },
+}
+
+/// A direction in the plane of the surface.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// Along the motion.
+    X,
+    /// Across the motion: a cylinder that rolls.
+    #[default]
+    Y,
+}
+
+fn no_variation() -> [Metre; 2] {
+    [Metre::INFINITY; 2]
+}
+
+impl Form {
+    /// This form on `grid`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.
+    pub fn on(&self, grid: &Grid) -> Result<Topography> {
+        self.check(grid)?;
+        let extent = grid.extent();
+        let mut heights = grid.zeros();
+        for ((ix, iy), z) in heights.indexed_iter_mut() {
+            *z = self.height(grid.centre(0, ix) - 0.5 * extent[0], grid.centre(1, iy) - 0.5 * extent[1]);
+        }
+        Topography::new(*grid, heights)
+    }
+
+    /// Height at `(x, y)` from the apex.
+    fn height(&self, x: Metre, y: Metre) -> Metre {
+        match *self {
+            Self::Flat => 0.0,
+            Self::Sphere { radius } => -(x * x + y * y) / (2.0 * radius),
+            Self::Cylinder { radius, axis: Axis::Y } => -x * x / (2.0 * radius),
+            Self::Cylinder { radius, axis: Axis::X } => -y * y / (2.0 * radius),
+            Self::Cone { angle } => -x.hypot(y) * angle.tan(),
+            Self::Sinusoid { amplitude, wavelength } => {
+                let wave = |s: Metre, length: Metre| (std::f64::consts::TAU * s / length).cos();
+                amplitude * (wave(x, wavelength[0]) * wave(y, wavelength[1]) - 1.0)
+            }
+        }
+    }
+
+    fn check(&self, grid: &Grid) -> Result<()> {
+        let check = |quantity, value: f64, good: bool, expected| {
+            if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+        };
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        match *self {
+            Self::Flat => Ok(()),
+            Self::Sphere { radius } | Self::Cylinder { radius, .. } => {
+                check("radius", radius, positive(radius), "a radius above 0")
+            }
+            Self::Cone { angle } => {
+                let good = angle > 0.0 && angle < std::f64::consts::FRAC_PI_2;
+                check("angle", angle, good, "a slope against the plane between 0 and π/2 rad")
+            }
+            Self::Sinusoid { amplitude, wavelength } => {
+                check("amplitude", amplitude, positive(amplitude), "an amplitude above 0")?;
+                wavelength.iter().zip(grid.pitch).try_for_each(|(&length, pitch)| {
+                    let good = length >= 2.0 * pitch;
+                    check("wavelength", length, good, "at least two pitches, or inf for no variation")
+                })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid() -> Grid {
+        Grid::new([9, 5], [0.5, 1.0]).unwrap()
+    }
+
+    #[test]
+    fn the_apex_is_in_the_centre_at_height_zero() {
+        let forms = [
+            Form::Flat,
+            Form::Sphere { radius: 3.0 },
+            Form::Cylinder { radius: 3.0, axis: Axis::X },
+            Form::Cone { angle: 0.1 },
+            Form::Sinusoid { amplitude: 0.2, wavelength: [3.0, 4.0] },
+        ];
+        for form in forms {
+            let topography = form.on(&grid()).unwrap();
+            assert_eq!(topography.heights()[[4, 2]], 0.0, "{form:?}");
+            assert!(topography.heights().iter().all(|&z| z <= 0.0), "{form:?}");
+        }
+    }
+
+    #[test]
+    fn curvatures_and_slopes_are_those_asked_for() {
+        let sphere = Form::Sphere { radius: 4.0 }.on(&grid()).unwrap();
+        assert_eq!(sphere.heights()[[8, 4]], -(4.0 + 4.0) / 8.0);
+        let rolling = Form::Cylinder { radius: 4.0, axis: Axis::default() }.on(&grid()).unwrap();
+        assert_eq!(rolling.heights()[[8, 4]], -4.0 / 8.0);
+        let cone = Form::Cone { angle: 0.1 }.on(&grid()).unwrap();
+        assert_eq!(cone.heights()[[8, 2]], -2.0 * 0.1f64.tan());
+    }
+
+    #[test]
+    fn a_sinusoid_of_infinite_wavelength_does_not_vary() {
+        let form = Form::Sinusoid { amplitude: 0.2, wavelength: [2.0, Metre::INFINITY] };
+        let topography = form.on(&grid()).unwrap();
+        for line in topography.heights().outer_iter() {
+            assert!(line.iter().all(|z| *z == line[0]));
+        }
+        assert!((topography.heights()[[2, 0]] + 0.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn parameters_without_meaning_are_refused() {
+        let bad = [
+            (Form::Sphere { radius: 0.0 }, "radius is 0e0"),
+            (Form::Cylinder { radius: -1.0, axis: Axis::Y }, "radius is -1e0"),
+            (Form::Cone { angle: 2.0 }, "angle is 2e0"),
+            (Form::Sinusoid { amplitude: f64::NAN, wavelength: [3.0, 3.0] }, "amplitude is NaN"),
+            (Form::Sinusoid { amplitude: 1.0, wavelength: [3.0, 1.5] }, "wavelength is 1.5e0"),
+        ];
+        for (form, message) in bad {
+            let error = form.on(&grid()).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+    }
+}

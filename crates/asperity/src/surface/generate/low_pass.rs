@@ -1,0 +1,147 @@
+//! White noise through a circular low-pass filter.
+
+use serde::{Deserialize, Serialize};
+
+use super::noise::{filtered_noise, shape_with_margin};
+use super::{check, check_sq, one_or_two};
+use crate::error::Result;
+use crate::grid::Grid;
+use crate::math::fft::angular_frequency;
+use crate::surface::Topography;
+use crate::units::Metre;
+
+/// White noise without the waves shorter than a cut-off: a flat spectrum inside, nothing outside.
+///
+/// The circular filter of Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), in samples:
+///
+/// h(k, l) = ωc J₁(ωc ρ)/2πρ, h(0, 0) = ωc²/4π, ρ = √(k² + l²), ωc = 2πΔx/λc
+///
+/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It falls only as ρ^(−3/2): cut at n wavelengths it loses
+/// the part 1/π²n of the variance and lets short waves through. So the whole filter is applied here, by its
+/// response, to a noise field four wavelengths longer than the surface; the surface is then cut out of it and
+/// is not periodic (the correlation of its opposite edges, 2 J₁(8π)/8π, is below 0.013).
+///
+/// Two different lengths make the pass band an ellipse; the autocorrelation is 2 J₁(s)/s,
+/// s = 2π √((x/λx)² + (y/λy)²).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LowPass {
+    /// Rms height, > 0, exact for every surface.
+    pub sq: Metre,
+    /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two.
+    #[serde(deserialize_with = "one_or_two")]
+    pub cutoff: [Metre; 2],
+}
+
+impl LowPass {
+    /// A topography on `grid`.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
+    pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        check_sq(self.sq)?;
+        for axis in 0..2 {
+            let length = self.cutoff[axis];
+            // Lengths that differ from a limit by round-off alone are meant to equal it.
+            let good = length >= 2.0 * grid.pitch[axis] * (1.0 - 1e-9)
+                && length <= grid.extent()[axis] * (1.0 + 1e-9);
+            check("cutoff", length, good, "a wavelength from two pitches to the length of the surface")?;
+        }
+        let shape = shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length));
+        filtered_noise(grid, shape, seed, self.sq, |k, l| self.response(shape, grid.pitch, [k, l]))
+    }
+
+    /// Response of the filter at bin `[k, l]` of a transform of `shape`.
+    fn response(&self, shape: [usize; 2], pitch: [Metre; 2], bin: [usize; 2]) -> f64 {
+        let part = |axis: usize| {
+            let frequency = angular_frequency(bin[axis], shape[axis], pitch[axis]);
+            frequency * self.cutoff[axis] / std::f64::consts::TAU
+        };
+        if part(0).powi(2) + part(1).powi(2) < 1.0 { 1.0 } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::super::noise::tests::covariance;
+    use super::*;
+    use crate::grid::Field;
+    use crate::math::RealFft2;
+
+    #[test]
+    fn the_response_is_the_transform_of_the_filter_of_hu_and_tonder() {
+        // On n² samples the transform sums the filter over all periods: the lattice points in a circle in
+        // place of its area, right to n^(−1/2) of the height at the origin.
+        let n = 512;
+        let filter = LowPass { sq: 1.0, cutoff: [16.0; 2] };
+        let mut spectrum = ndarray::Array2::zeros([n, n / 2 + 1]);
+        spectrum.indexed_iter_mut().for_each(|((k, l), v)| {
+            *v = rustfft::num_complex::Complex64::from(filter.response([n, n], [1.0; 2], [k, l]))
+        });
+        let h = RealFft2::new([n, n]).inverse(&spectrum);
+        let cutoff = TAU / 16.0;
+        let origin = cutoff * cutoff / (4.0 * PI);
+        assert!((h[[0, 0]] / origin - 1.0).abs() < 0.01);
+        for (k, l) in [(1, 0), (0, 3), (5, 5), (10, 2), (0, 20), (17, 30)] {
+            let rho = ((k * k + l * l) as f64).sqrt();
+            let expected = cutoff * libm::j1(cutoff * rho) / (TAU * rho);
+            assert!((h[[k, l]] - expected).abs() < 0.01 * origin, "({k}, {l}): {} {expected}", h[[k, l]]);
+        }
+    }
+
+    #[test]
+    fn no_wave_is_shorter_than_the_cut_off() {
+        let grid = Grid::new([300, 500], [1.0, 0.5]).unwrap();
+        let cutoff = [12.0, 8.0];
+        let heights = LowPass { sq: 1.0, cutoff }.generate(&grid, 5).unwrap().into_heights();
+        // The window (Blackman's) leaks less than 1e-7 of the variance beyond four bins.
+        let window = |i: usize, n: usize| {
+            let t = TAU * (i as f64 + 0.5) / n as f64;
+            0.42 - 0.5 * t.cos() + 0.08 * (2.0 * t).cos()
+        };
+        let windowed =
+            Field::from_shape_fn(grid.shape, |(i, j)| heights[[i, j]] * window(i, 300) * window(j, 500));
+        let spectrum = RealFft2::new(grid.shape).forward(&windowed);
+        let (mut inside, mut outside) = (0.0, 0.0);
+        for ((k, l), value) in spectrum.indexed_iter() {
+            let x = angular_frequency(k, 300, 1.0) / TAU;
+            let y = angular_frequency(l, 500, 0.5) / TAU;
+            let beyond = |bins: f64| {
+                let shrink = |f: f64, extent: f64| (f.abs() - bins / extent).max(0.0);
+                (shrink(x, 300.0) * cutoff[0]).hypot(shrink(y, 250.0) * cutoff[1]) > 1.0
+            };
+            *(if beyond(4.0) { &mut outside } else { &mut inside }) += value.norm_sqr();
+        }
+        assert!(outside < 1e-7 * inside, "{:e}", outside / inside);
+    }
+
+    #[test]
+    fn the_autocorrelation_is_the_bessel_function_of_the_cut_off() {
+        // Over seeds, each surface of some N = area/(wavelength²/π) independent spots.
+        let grid = Grid::new([256, 512], [1.0, 0.5]).unwrap();
+        let cutoff = [16.0, 8.0];
+        for lag in [[4usize, 0], [10, 0], [0, 10], [16, 8], [20, 0]] {
+            let seeds = 12;
+            let measured: f64 = (0..seeds)
+                .map(|seed| {
+                    let z = LowPass { sq: 1.0, cutoff }.generate(&grid, seed).unwrap().into_heights();
+                    covariance(&z, lag)
+                })
+                .sum::<f64>()
+                / seeds as f64;
+            let s = TAU * (lag[0] as f64 / cutoff[0]).hypot(0.5 * lag[1] as f64 / cutoff[1]);
+            let expected = 2.0 * libm::j1(s) / s;
+            let spots = PI * 256.0 * 256.0 / (cutoff[0] * cutoff[1]) * seeds as f64;
+            assert!((measured - expected).abs() < 4.0 / spots.sqrt(), "{lag:?}: {measured} for {expected}");
+        }
+    }
+
+    #[test]
+    fn opposite_edges_do_not_fit_together() {
+        let grid = Grid::new([128, 128], [1.0; 2]).unwrap();
+        let z = LowPass { sq: 1.0, cutoff: [32.0; 2] }.generate(&grid, 2).unwrap().into_heights();
+        let step = |a: usize, b: usize| (0..128).map(|j| (z[[a, j]] - z[[b, j]]).powi(2)).sum::<f64>().sqrt();
+        assert!(step(127, 0) > 3.0 * step(64, 65));
+    }
+}

@@ -1,0 +1,165 @@
+//! Random topographies of prescribed statistics, reproducible from a seed.
+
+mod autocorrelation;
+mod low_pass;
+mod noise;
+mod self_affine;
+
+pub use autocorrelation::Autocorrelation;
+pub use low_pass::LowPass;
+pub use self_affine::{Amplitude, SelfAffine};
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::surface::Topography;
+use crate::units::Metre;
+
+/// A method with its parameters; a case file names it by `generate = "low-pass"` and so on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "generate", rename_all = "kebab-case")]
+pub enum Generator {
+    /// White noise without its short waves; not periodic.
+    LowPass(LowPass),
+    /// Exponential autocorrelation; not periodic.
+    Autocorrelation(Autocorrelation),
+    /// Power-law spectrum; periodic.
+    SelfAffine(SelfAffine),
+}
+
+impl Generator {
+    /// A topography on `grid`, its mean height 0, the same for the same `seed` on every machine (up to the
+    /// round-off of the Fourier transform).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a parameter has no meaning, or none on this grid.
+    pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        match self {
+            Self::LowPass(method) => method.generate(grid, seed),
+            Self::Autocorrelation(method) => method.generate(grid, seed),
+            Self::SelfAffine(method) => method.generate(grid, seed),
+        }
+    }
+}
+
+fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
+    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+}
+
+fn check_sq(sq: Metre) -> Result<()> {
+    check("sq", sq, sq > 0.0 && sq.is_finite(), "an rms height above 0")
+}
+
+/// Reads two lengths, along x and y, or one for both.
+fn one_or_two<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result<[Metre; 2], D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Lengths {
+        One(Metre),
+        Two([Metre; 2]),
+    }
+    Ok(match Lengths::deserialize(deserializer)? {
+        Lengths::One(length) => [length; 2],
+        Lengths::Two(lengths) => lengths,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn generators() -> [Generator; 3] {
+        [
+            Generator::LowPass(LowPass { sq: 2e-7, cutoff: [4e-6, 4e-6] }),
+            Generator::Autocorrelation(Autocorrelation { sq: 2e-7, correlation_length: [2e-6, 4e-6] }),
+            Generator::SelfAffine(SelfAffine {
+                hurst: 0.8,
+                rolloff: Some(8e-6),
+                shortest: None,
+                amplitude: Amplitude::Sq(2e-7),
+            }),
+        ]
+    }
+
+    #[test]
+    fn the_rms_height_is_the_one_asked_for_and_the_mean_is_zero() {
+        let grid = Grid::new([48, 35], [0.5e-6, 1e-6]).unwrap();
+        for generator in generators() {
+            let topography = generator.generate(&grid, 3).unwrap();
+            assert_relative_eq!(topography.parameters().sq, 2e-7, max_relative = 1e-12);
+            assert!(topography.mean().abs() < 1e-20, "{generator:?}: {:e}", topography.mean());
+        }
+    }
+
+    #[test]
+    fn a_seed_always_gives_the_same_heights_and_another_seed_others() {
+        // Our own values, frozen: whoever changes them breaks the reproducibility of users' cases.
+        let frozen = [
+            [-8.016637787053289e-8, -3.7990750787169114e-9, -7.5365344888137e-8],
+            [-1.5730841531794905e-7, -1.221280411051481e-7, 3.7842618046314174e-8],
+            [-3.0951783408855834e-8, 7.667141310831664e-8, 7.166614547974371e-8],
+        ];
+        let grid = Grid::new([32, 24], [0.5e-6, 0.5e-6]).unwrap();
+        for (generator, expected) in generators().iter().zip(frozen) {
+            let heights = generator.generate(&grid, 7).unwrap().into_heights();
+            let first = [heights[[0, 0]], heights[[0, 1]], heights[[1, 0]]];
+            for (z, expected) in first.iter().zip(expected) {
+                assert!((z - expected).abs() < 1e-17, "{generator:?}: {first:?}");
+            }
+            assert_ne!(heights, generator.generate(&grid, 8).unwrap().into_heights());
+        }
+    }
+
+    #[test]
+    fn a_method_reads_from_the_keys_of_a_case_file_and_writes_them() {
+        let read = |text: &str| toml::from_str::<Generator>(text);
+        let [low_pass, autocorrelation, self_affine] = generators();
+        assert_eq!(read("generate = 'low-pass'\nsq = 2e-7\ncutoff = 4e-6").unwrap(), low_pass);
+        let text = "generate = 'autocorrelation'\nsq = 2e-7\ncorrelation_length = [2e-6, 4e-6]";
+        assert_eq!(read(text).unwrap(), autocorrelation);
+        let text = "generate = 'self-affine'\nhurst = 0.8\nrolloff = 8e-6\n";
+        assert_eq!(read(&format!("{text}sq = 2e-7")).unwrap(), self_affine);
+        for both_or_none in ["sq = 2e-7\nsdq = 0.1", ""] {
+            let message = read(&format!("{text}{both_or_none}")).unwrap_err().to_string();
+            assert!(message.contains("exactly one of sq and sdq"), "{message}");
+        }
+        for generator in generators() {
+            assert_eq!(read(&toml::to_string(&generator).unwrap()).unwrap(), generator);
+        }
+    }
+
+    #[test]
+    fn parameters_without_meaning_are_refused_by_their_keys() {
+        let grid = Grid::new([64, 32], [1e-6, 1e-6]).unwrap();
+        let low_pass = |sq, cutoff| Generator::LowPass(LowPass { sq, cutoff });
+        let exponential =
+            |correlation_length| Generator::Autocorrelation(Autocorrelation { sq: 1e-7, correlation_length });
+        let self_affine = |hurst, rolloff, shortest, amplitude| {
+            Generator::SelfAffine(SelfAffine { hurst, rolloff, shortest, amplitude })
+        };
+        let sq = Amplitude::Sq(1e-7);
+        let bad = [
+            (low_pass(0.0, [8e-6; 2]), "sq is 0e0"),
+            (low_pass(f64::NAN, [8e-6; 2]), "sq is NaN"),
+            (low_pass(1e-7, [8e-6, 1.9e-6]), "cutoff is 1.9e-6"),
+            (low_pass(1e-7, [8e-6, 33e-6]), "cutoff is 3.3e-5"),
+            (exponential([0.5e-6, 8e-6]), "correlation_length is 5e-7"),
+            (exponential([8e-6, f64::INFINITY]), "correlation_length is inf"),
+            (self_affine(1.1, None, None, sq), "hurst is 1.1e0"),
+            (self_affine(0.8, None, Some(1e-6), sq), "shortest is 1e-6"),
+            (self_affine(0.8, None, Some(70e-6), sq), "shortest is 7e-5"),
+            (self_affine(0.8, Some(3e-6), Some(4e-6), sq), "rolloff is 3e-6"),
+            (self_affine(0.8, None, None, Amplitude::Sdq(-0.1)), "sdq is -1e-1"),
+            (self_affine(0.8, None, None, Amplitude::Sq(-0.1)), "sq is -1e-1"),
+        ];
+        for (generator, message) in bad {
+            let error = generator.generate(&grid, 0).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+        let cell = Grid::new([1, 1], [1e-6, 1e-6]).unwrap();
+        assert!(exponential([1e-6; 2]).generate(&cell, 0).is_err());
+    }
+}

@@ -1,0 +1,254 @@
+//! Self-affine roughness: a power-law spectrum with random phases.
+
+use std::f64::consts::TAU;
+
+use ndarray::Array2;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rustfft::num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+
+use super::{check, check_sq};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::math::RealFft2;
+use crate::math::fft::angular_frequency;
+use crate::surface::Topography;
+use crate::units::Metre;
+
+/// Periodic heights whose spectrum is |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant
+/// for longer waves and nothing for shorter ones; the phases are random, the magnitudes are not.
+///
+/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as the Contact
+/// Mechanics Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
+///
+/// A wave has the same phase on every grid of the same extent: with `shortest` given, a finer grid shows the
+/// same surface in more detail, as a study of convergence needs it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SelfAffine {
+    /// Hurst exponent H, 0 ≤ H ≤ 1; the fractal dimension is 3 − H.
+    pub hurst: f64,
+    /// Wavelength above which the spectrum is flat, ≥ `shortest`; none: the law holds up to the longest wave.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolloff: Option<Metre>,
+    /// Shortest wavelength, ≥ 2 pitches; none: two of the larger pitch. Waves of exactly two pitches have no
+    /// phase on the grid and are left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shortest: Option<Metre>,
+    /// Rms height or rms slope.
+    #[serde(flatten)]
+    pub amplitude: Amplitude,
+}
+
+/// What fixes the amplitude of a self-affine surface; both are exact for every surface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", try_from = "Keys")]
+pub enum Amplitude {
+    /// Rms height, > 0.
+    Sq(Metre),
+    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences
+    /// of [`crate::surface::Parameters::sdq`] find less where waves shorter than about four pitches occur.
+    Sdq(f64),
+}
+
+impl Amplitude {
+    /// From the two keys of a case file.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] unless exactly one is given.
+    pub fn from_keys(sq: Option<Metre>, sdq: Option<f64>) -> Result<Self> {
+        match (sq, sdq) {
+            (Some(sq), None) => Ok(Self::Sq(sq)),
+            (None, Some(sdq)) => Ok(Self::Sdq(sdq)),
+            _ => Err(Error::Unsupported("a self-affine topography needs exactly one of sq and sdq")),
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct Keys {
+    sq: Option<Metre>,
+    sdq: Option<f64>,
+}
+
+impl TryFrom<Keys> for Amplitude {
+    type Error = Error;
+
+    fn try_from(keys: Keys) -> Result<Self> {
+        Self::from_keys(keys.sq, keys.sdq)
+    }
+}
+
+impl SelfAffine {
+    /// A topography on `grid`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a parameter has no meaning on this grid.
+    pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        let shortest = self.check(grid)?;
+        let [nx, ny] = grid.shape;
+        let mut spectrum = Array2::<Complex64>::zeros([nx, ny / 2 + 1]);
+        let (mut height, mut slope) = (0.0, 0.0);
+        for_each_wave([nx, ny], seed, |k, l, phase| {
+            let wave = [angular_frequency(k, nx, grid.pitch[0]), angular_frequency(l, ny, grid.pitch[1])];
+            let q = wave[0].hypot(wave[1]);
+            // A wave on the limit belongs to the surface, whatever the round-off.
+            if q * shortest > TAU * (1.0 + 1e-9) {
+                return;
+            }
+            let magnitude = self.magnitude(q);
+            // The phase is that at the grid's corner, half a cell before the first centre.
+            let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
+            spectrum[[k, l]] = Complex64::from_polar(magnitude, phase + to_centre);
+            if l == 0 {
+                spectrum[[nx - k, 0]] = spectrum[[k, 0]].conj();
+            }
+            height += 2.0 * magnitude * magnitude;
+            slope += 2.0 * (q * magnitude).powi(2);
+        });
+        if height == 0.0 {
+            return Err(Error::OutOfRange {
+                quantity: "shortest",
+                value: shortest,
+                expected: "a wavelength that fits into the surface",
+            });
+        }
+        // Parseval: ⟨z²⟩ = Σ |ẑ|²/n² for n cells.
+        let scale = grid.cells() as f64
+            * match self.amplitude {
+                Amplitude::Sq(sq) => sq / height.sqrt(),
+                Amplitude::Sdq(sdq) => sdq / slope.sqrt(),
+            };
+        spectrum.mapv_inplace(|value| value * scale);
+        Topography::new(*grid, RealFft2::new(grid.shape).inverse(&spectrum))
+    }
+
+    /// |ẑ(q)| up to a constant factor.
+    fn magnitude(&self, q: f64) -> f64 {
+        q.max(self.rolloff.map_or(0.0, |length| TAU / length)).powf(-1.0 - self.hurst)
+    }
+
+    /// The shortest wavelength on `grid`, if every parameter has a meaning there.
+    fn check(&self, grid: &Grid) -> Result<Metre> {
+        check("hurst", self.hurst, (0.0..=1.0).contains(&self.hurst), "a Hurst exponent from 0 to 1")?;
+        match self.amplitude {
+            Amplitude::Sq(sq) => check_sq(sq)?,
+            Amplitude::Sdq(sdq) => check("sdq", sdq, sdq > 0.0 && sdq.is_finite(), "an rms slope above 0")?,
+        }
+        let limit = 2.0 * grid.pitch[0].max(grid.pitch[1]);
+        let shortest = self.shortest.unwrap_or(limit);
+        let good = shortest >= limit * (1.0 - 1e-9) && shortest.is_finite();
+        check("shortest", shortest, good, "a wavelength of at least two pitches")?;
+        if let Some(rolloff) = self.rolloff {
+            check("rolloff", rolloff, rolloff >= shortest, "a wavelength not below the shortest")?;
+        }
+        Ok(shortest)
+    }
+}
+
+/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x,
+/// negative ones counted down from nx.
+///
+/// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so
+/// they depend on the seed and the wave, not on the shape.
+fn for_each_wave([nx, ny]: [usize; 2], seed: u64, mut f: impl FnMut(usize, usize, f64)) {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for l in 0..ny.div_ceil(2) {
+        random.set_stream(l as u64);
+        random.set_word_pos(0);
+        for number in 0..2 * nx.div_ceil(2) - 1 {
+            let phase = TAU * random.random::<f64>();
+            let periods = number.div_ceil(2);
+            let positive = number % 2 == 1;
+            if l > 0 || positive {
+                f(if positive || number == 0 { periods } else { nx - periods }, l, phase);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn surface(shape: [usize; 2], pitch: [f64; 2], method: SelfAffine, seed: u64) -> Topography {
+        method.generate(&Grid::new(shape, pitch).unwrap(), seed).unwrap()
+    }
+
+    fn method() -> SelfAffine {
+        SelfAffine { hurst: 0.8, rolloff: Some(16.0), shortest: Some(4.0), amplitude: Amplitude::Sq(0.3) }
+    }
+
+    #[test]
+    fn the_spectrum_is_the_power_law_between_its_limits() {
+        let (nx, ny, pitch) = (60, 90, [1.0, 0.5]);
+        let z = surface([nx, ny], pitch, method(), 4);
+        let spectrum = RealFft2::new([nx, ny]).forward(z.heights());
+        let reference = spectrum[[1, 0]].norm();
+        for ((k, l), value) in spectrum.indexed_iter().filter(|(at, _)| *at != (0, 0)) {
+            let wavelength =
+                TAU / angular_frequency(k, nx, pitch[0]).hypot(angular_frequency(l, ny, pitch[1]));
+            let expected =
+                if wavelength < 4.0 * (1.0 - 1e-9) { 0.0 } else { (wavelength / 16.0).min(1.0).powf(1.8) };
+            assert!((value.norm() / reference - expected).abs() < 1e-12, "wavelength {wavelength}");
+        }
+        assert!(spectrum[[0, 0]].norm() < 1e-12 * reference);
+    }
+
+    #[test]
+    fn every_shape_gets_its_rms_height() {
+        for shape in [[16, 16], [15, 17], [16, 1], [1, 16], [9, 32]] {
+            let method = SelfAffine { rolloff: None, shortest: None, ..method() };
+            let parameters = surface(shape, [1.0, 1.0], method, 1).parameters();
+            assert_relative_eq!(parameters.sq, 0.3, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_rms_slope_is_the_one_asked_for() {
+        let method = SelfAffine { amplitude: Amplitude::Sdq(0.1), ..method() };
+        let exact = surface([128, 128], [1.0, 0.5], method, 2);
+        // By the spectrum, as contact theory means it …
+        let spectrum = RealFft2::new([128, 128]).forward(exact.heights());
+        let squared: f64 = spectrum
+            .indexed_iter()
+            .map(|((k, l), value)| {
+                let q = angular_frequency(k, 128, 1.0).hypot(angular_frequency(l, 128, 0.5));
+                let weight = if l == 0 { 1.0 } else { 2.0 };
+                weight * q * q * value.norm_sqr()
+            })
+            .sum();
+        assert_relative_eq!(squared.sqrt() / (128.0 * 128.0), 0.1, max_relative = 1e-12);
+        // … and by finite differences, once the shortest wave has 16 cells.
+        let fine = surface([512, 512], [0.25, 0.25], method, 2);
+        assert_relative_eq!(fine.parameters().sdq, 0.1, max_relative = 0.02);
+    }
+
+    #[test]
+    fn a_finer_grid_shows_the_same_surface() {
+        let coarse = surface([32, 40], [1.0, 1.0], method(), 9);
+        let fine = surface([96, 120], [1.0 / 3.0, 1.0 / 3.0], method(), 9);
+        for ((i, j), z) in coarse.heights().indexed_iter() {
+            // The centre of a cell is that of the middle one of its three by three.
+            assert!((z - fine.heights()[[3 * i + 1, 3 * j + 1]]).abs() < 1e-12, "[{i}, {j}]");
+        }
+    }
+
+    #[test]
+    fn heights_are_gaussian_over_seeds() {
+        let (seeds, mut skewness, mut kurtosis) = (24, 0.0, 0.0);
+        for seed in 0..seeds {
+            let parameters = surface([128, 128], [1.0, 1.0], method(), seed).parameters();
+            skewness += parameters.ssk / seeds as f64;
+            kurtosis += parameters.sku / seeds as f64;
+        }
+        // Independent spots: half as many as there are waves, the effective number (Σ|ẑ|²)²/Σ|ẑ|⁴.
+        let waves = TAU / 2.0 * (128.0f64 / 16.0).powi(2);
+        let spots = waves * seeds as f64;
+        assert!(skewness.abs() < 4.0 * (6.0 / spots).sqrt(), "{skewness}");
+        // Fixed magnitudes lower the kurtosis by the order of 1/waves.
+        assert!((kurtosis - 3.0).abs() < 4.0 * (24.0 / spots).sqrt() + 3.0 / waves, "{kurtosis}");
+    }
+}

@@ -1,0 +1,197 @@
+//! The same topography on another grid.
+
+use ndarray::{Axis, Zip};
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::surface::Topography;
+use crate::units::Metre;
+
+impl Topography {
+    /// The same extent with `shape` cells.
+    ///
+    /// In each direction by itself. Where cells become larger, a new height is the average over the new cell,
+    /// within an old one that is cut of the straight line with the slope between its neighbours: the plain
+    /// average of the old cells when the ratio is whole, the same mean height and the same planes for any
+    /// ratio, and no finer wave folded down. Where cells become smaller, it is interpolated linearly between
+    /// the centres of the old cells and constant beyond the outermost ones, so that no height leaves the
+    /// range of the samples. A height that draws on an undefined sample is undefined.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a number of cells is 0.
+    pub fn resample_to_shape(&self, shape: [usize; 2]) -> Result<Self> {
+        if shape.contains(&0) {
+            let expected = "at least one cell along x and y";
+            return Err(Error::OutOfRange { quantity: "resample", value: 0.0, expected });
+        }
+        let extent = self.grid().extent();
+        self.on_grid(Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])?)
+    }
+
+    /// Cells of size `pitch`, as many as fit into the extent from its corner on; what is left over at the far
+    /// edges, less than a cell, is cut off. By the method of [`Topography::resample_to_shape`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a pitch is not positive, or longer than the topography.
+    pub fn resample_to_pitch(&self, pitch: [Metre; 2]) -> Result<Self> {
+        let extent = self.grid().extent();
+        let mut shape = [0; 2];
+        for axis in 0..2 {
+            // A whole number of cells must not lose one to round-off.
+            shape[axis] = (extent[axis] / pitch[axis] * (1.0 + 1e-9)) as usize;
+            if !(pitch[axis] > 0.0 && pitch[axis].is_finite() && shape[axis] > 0) {
+                return Err(Error::OutOfRange {
+                    quantity: "pitch",
+                    value: pitch[axis],
+                    expected: "a positive length, at most that of the topography",
+                });
+            }
+        }
+        self.on_grid(Grid::new(shape, pitch)?)
+    }
+
+    fn on_grid(&self, grid: Grid) -> Result<Self> {
+        let along_y = resampled(self.heights(), Axis(1), self.grid(), &grid);
+        Self::new(grid, resampled(&along_y, Axis(0), self.grid(), &grid))
+    }
+}
+
+/// `field` with the cells that `new` has along `axis`.
+fn resampled(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Field {
+    let Axis(a) = axis;
+    let mut shape = [field.nrows(), field.ncols()];
+    shape[a] = new.shape[a];
+    let mut result = Field::zeros(shape);
+    for (index, mut line) in result.axis_iter_mut(axis).enumerate() {
+        for (from, weight) in weights(index, new.pitch[a] / old.pitch[a], old.shape[a]) {
+            Zip::from(&mut line).and(field.index_axis(axis, from)).for_each(|z, old| *z += weight * old);
+        }
+    }
+    result
+}
+
+/// The samples, of `n`, that new cell `index` draws on, and their weights, which sum to 1; `ratio` is the new
+/// pitch over the old one.
+fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
+    /// Share of a cell below which it counts as round-off.
+    const CRUMB: f64 = 1e-9;
+    let mut drawn: Vec<(usize, f64)> = Vec::new();
+    let mut draw = |sample: usize, weight: f64| match drawn.iter_mut().find(|(i, _)| *i == sample) {
+        Some((_, sum)) => *sum += weight,
+        None => drawn.push((sample, weight)),
+    };
+    if ratio > 1.0 + CRUMB {
+        let (start, end) = (index as f64 * ratio, (index as f64 + 1.0) * ratio);
+        for i in start as usize..(end.ceil() as usize).min(n) {
+            let (from, to) = (start.max(i as f64), end.min(i as f64 + 1.0));
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(n - 1));
+            // Distance from the centre of the old cell to that of the shared part, over the distance of the
+            // samples between which the slope is taken.
+            let lever = (0.5 * (from + to) - i as f64 - 0.5) / ((after - before).max(1)) as f64;
+            draw(i, to - from);
+            draw(after, (to - from) * lever);
+            draw(before, (from - to) * lever);
+        }
+    } else {
+        let centre = ((index as f64 + 0.5) * ratio - 0.5).clamp(0.0, n as f64 - 1.0);
+        let below = (centre as usize).min(n.saturating_sub(2));
+        draw(below, 1.0 - (centre - below as f64));
+        draw(below + 1, centre - below as f64);
+    }
+    drawn.retain(|(_, weight)| weight.abs() > CRUMB);
+    let sum: f64 = drawn.iter().map(|(_, weight)| weight).sum();
+    drawn.iter().map(|&(i, weight)| (i, weight / sum)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn bumpy(shape: [usize; 2], pitch: [f64; 2]) -> Topography {
+        let grid = Grid::new(shape, pitch).unwrap();
+        Topography::new(grid, Field::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j * j) % 11) as f64))
+            .unwrap()
+    }
+
+    #[test]
+    fn coarser_cells_hold_the_average_of_the_finer_ones() {
+        let coarse = bumpy([6, 4], [1.0, 0.5]).resample_to_shape([3, 2]).unwrap();
+        assert_eq!(coarse.grid().pitch, [2.0, 1.0]);
+        let fine = bumpy([6, 4], [1.0, 0.5]).into_heights();
+        let average = (fine[[2, 0]] + fine[[2, 1]] + fine[[3, 0]] + fine[[3, 1]]) / 4.0;
+        assert_relative_eq!(coarse.heights()[[1, 0]], average, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn the_mean_is_kept_on_coarsening_and_on_whole_refinement() {
+        let topography = bumpy([60, 36], [1e-6, 2e-6]);
+        for shape in [[60, 36], [20, 12], [7, 5], [59, 1], [120, 180], [20, 72]] {
+            let resampled = topography.resample_to_shape(shape).unwrap();
+            assert_relative_eq!(resampled.mean(), topography.mean(), max_relative = 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_plane_stays_that_plane_away_from_the_rim() {
+        let grid = Grid::new([12, 9], [1.0, 2.0]).unwrap();
+        let plane = |x: f64, y: f64| 1.0 + 0.3 * x - 0.2 * y;
+        let heights = Field::from_shape_fn(grid.shape, |(i, j)| plane(grid.centre(0, i), grid.centre(1, j)));
+        let topography = Topography::new(grid, heights).unwrap();
+        for shape in [[6, 3], [30, 40], [5, 23]] {
+            let resampled = topography.resample_to_shape(shape).unwrap();
+            for ((i, j), z) in resampled.heights().indexed_iter() {
+                let (x, y) = (resampled.grid().centre(0, i), resampled.grid().centre(1, j));
+                if (0.5..=11.5).contains(&x) && (1.0..=17.0).contains(&y) {
+                    assert_relative_eq!(*z, plane(x, y), max_relative = 1e-12, epsilon = 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_grid_changes_nothing() {
+        let topography = bumpy([7, 10], [0.1e-6, 0.3e-6]);
+        let same = topography.resample_to_pitch([0.1e-6, 0.3e-6]).unwrap();
+        assert_eq!(same.heights(), topography.heights());
+    }
+
+    #[test]
+    fn no_height_leaves_the_range_of_the_samples() {
+        let fine = bumpy([7, 10], [1.0, 1.0]).resample_to_shape([23, 41]).unwrap();
+        assert!(fine.heights().iter().all(|z| (-1e-12..=10.0 + 1e-12).contains(z)));
+    }
+
+    #[test]
+    fn a_wave_too_short_for_the_new_cells_is_averaged_away() {
+        let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
+        let heights = Field::from_shape_fn(grid.shape, |(i, _)| if i % 2 == 0 { 1.0 } else { -1.0 });
+        let coarse = Topography::new(grid, heights).unwrap().resample_to_shape([16, 16]).unwrap();
+        assert!(coarse.heights().iter().all(|z| z.abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_pitch_that_does_not_divide_the_extent_cuts_the_far_edge_off() {
+        let topography = bumpy([10, 10], [1.0, 1.0]);
+        let resampled = topography.resample_to_pitch([3.0, 0.1]).unwrap();
+        assert_eq!((resampled.grid().shape, resampled.grid().pitch), ([3, 100], [3.0, 0.1]));
+        for pitch in [[0.0, 1.0], [1.0, f64::NAN], [1.0, 10.1], [-1.0, 1.0], [f64::INFINITY, 1.0]] {
+            assert!(matches!(
+                topography.resample_to_pitch(pitch),
+                Err(Error::OutOfRange { quantity: "pitch", .. })
+            ));
+        }
+        assert!(topography.resample_to_shape([0, 4]).is_err());
+    }
+
+    #[test]
+    fn undefined_samples_stay_undefined_where_they_are_drawn_on() {
+        let mut topography = bumpy([6, 6], [1.0, 1.0]);
+        topography.heights_mut()[[2, 3]] = f64::NAN;
+        assert_eq!(topography.resample_to_shape([3, 3]).unwrap().undefined(), 1);
+        assert_eq!(topography.resample_to_shape([6, 6]).unwrap().undefined(), 1);
+        assert_eq!(topography.resample_to_shape([3, 6]).unwrap().undefined(), 1);
+        assert_eq!(topography.resample_to_shape([12, 6]).unwrap().undefined(), 4);
+    }
+}

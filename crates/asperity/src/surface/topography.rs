@@ -1,0 +1,95 @@
+//! Heights of one body on a grid.
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+
+/// Heights of one body on a grid, in metres; an undefined sample is NaN.
+#[derive(Debug, Clone)]
+pub struct Topography {
+    grid: Grid,
+    heights: Field,
+}
+
+impl Topography {
+    /// The topography with these `heights`, each finite, or NaN where it is undefined.
+    ///
+    /// # Errors
+    /// [`Error::GridMismatch`] if the heights have another shape than the grid, [`Error::OutOfRange`] if one
+    /// is infinite.
+    pub fn new(grid: Grid, heights: Field) -> Result<Self> {
+        if heights.shape() != grid.shape {
+            return Err(Error::GridMismatch {
+                what: "shape of the grid and of the heights",
+                left: format!("{:?}", grid.shape),
+                right: format!("{:?}", heights.shape()),
+            });
+        }
+        match heights.iter().find(|z| z.is_infinite()) {
+            Some(&value) => Err(Error::OutOfRange {
+                quantity: "height",
+                value,
+                expected: "a finite height, or NaN where the sample is undefined",
+            }),
+            None => Ok(Self { grid, heights }),
+        }
+    }
+
+    /// The grid that the heights stand on.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Heights, in metres; NaN where undefined.
+    pub fn heights(&self) -> &Field {
+        &self.heights
+    }
+
+    /// Heights to be changed in place: each stays finite, or NaN where undefined.
+    pub fn heights_mut(&mut self) -> &mut Field {
+        &mut self.heights
+    }
+
+    /// The heights alone.
+    pub fn into_heights(self) -> Field {
+        self.heights
+    }
+
+    /// Number of undefined samples.
+    pub fn undefined(&self) -> usize {
+        self.heights.iter().filter(|z| z.is_nan()).count()
+    }
+
+    /// Number of samples that have a height.
+    pub fn defined(&self) -> usize {
+        self.heights.len() - self.undefined()
+    }
+
+    /// Mean of the defined heights; NaN if there are none.
+    pub fn mean(&self) -> f64 {
+        let defined = self.heights.iter().filter(|z| !z.is_nan());
+        defined.sum::<f64>() / self.defined() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn undefined_samples_are_counted_and_do_not_enter_the_mean() {
+        let grid = Grid::new([2, 2], [1.0, 1.0]).unwrap();
+        let heights = ndarray::arr2(&[[1.0, f64::NAN], [2.0, 6.0]]);
+        let topography = Topography::new(grid, heights).unwrap();
+        assert_eq!((topography.undefined(), topography.defined()), (1, 3));
+        assert_eq!(topography.mean(), 3.0);
+    }
+
+    #[test]
+    fn heights_must_fit_the_grid_and_be_finite() {
+        let grid = Grid::new([2, 3], [1.0, 1.0]).unwrap();
+        let transposed = Topography::new(grid, Field::zeros([3, 2])).unwrap_err();
+        assert_eq!(transposed.to_string(), "shape of the grid and of the heights: [2, 3] and [3, 2] differ");
+        let infinite = Topography::new(grid, Field::from_elem([2, 3], f64::INFINITY)).unwrap_err();
+        assert!(infinite.to_string().starts_with("height is inf"));
+    }
+}
