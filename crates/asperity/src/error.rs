@@ -124,6 +124,18 @@ pub enum Error {
         /// The mean undeformed gap, the limit of the approach.
         mean_gap: Metre,
     },
+    /// No approach gives the load wanted as the mean over a pass.
+    #[error(
+        "no approach found for the pass-mean load {load:.6e} N in {trials} trials (last approach {approach:.9e} m)"
+    )]
+    LoadNotReached {
+        /// The pass-mean load asked for.
+        load: Newton,
+        /// Approaches tried.
+        trials: usize,
+        /// The last of them.
+        approach: Metre,
+    },
     /// The caller asked for the computation to stop.
     #[error("interrupted")]
     Interrupted,
