@@ -62,7 +62,7 @@ impl Solver<'_> {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }
             let solved = solved.fetch_add(1, Ordering::Relaxed) + 1;
-            self.watch.at(&Progress { solved, ..self.progress });
+            self.watch.at(&Progress { solved, load: contact.load, ..self.progress });
             Ok(contact)
         };
         let mut after = pair.clone();

@@ -100,6 +100,7 @@ impl Simulation {
             trial: 1,
             solved: 0,
             positions: self.positions.len(),
+            load: 0.0,
         };
         let mut solver = Solver {
             operators: &self.operators,

@@ -5,9 +5,10 @@ use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
+use crate::units::Newton;
 
 /// How far a motion has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// The pass under way, from 1.
     pub pass: usize,
@@ -19,6 +20,8 @@ pub struct Progress {
     pub solved: usize,
     /// Positions of a pass.
     pub positions: usize,
+    /// Load at the position solved last.
+    pub load: Newton,
 }
 
 /// Looks on, from the threads that solve.
