@@ -150,7 +150,9 @@ pub enum Error {
         results: bool,
     },
     /// Results that are to be resumed belong to another case.
-    #[error("{path} holds the results of another case (its case.json differs in more than the number of passes)")]
+    #[error(
+        "{path} holds the results of another case (its case.json differs in more than the number of passes)"
+    )]
     OtherCase {
         /// The directory.
         path: PathBuf,

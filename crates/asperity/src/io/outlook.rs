@@ -5,7 +5,7 @@ use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::material::{composite_hardness, composite_modulus, plastic_share};
-use crate::motion::{Control, Strategy};
+use crate::motion::{Control, Strategy, overlap_positions};
 use crate::surface::{Level, Topography};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
@@ -89,14 +89,7 @@ fn overlaps(case: &Case, lower: usize, upper: usize) -> Vec<usize> {
     match case.motion {
         None => vec![lower.min(upper)],
         Some(motion) if motion.strategy == Strategy::Overlap => {
-            // The upper body's left edge, in columns from that of the lower one, at multiples of the stride.
-            let (first, last) = (-((upper - 1) as i64), (lower - 1) as i64);
-            let stride = motion.stride as i64;
-            (first.div_euclid(stride)..=last / stride)
-                .map(|step| step * stride)
-                .filter(|offset| *offset >= first)
-                .map(|offset| ((offset + upper as i64).min(lower as i64) - offset.max(0)) as usize)
-                .collect()
+            overlap_positions(lower, upper, motion.stride).iter().map(|position| position.columns).collect()
         }
         Some(motion) => vec![lower; lower.div_ceil(motion.stride)],
     }

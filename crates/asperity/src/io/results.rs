@@ -218,12 +218,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`] if the rows of earlier passes cannot be read.
     pub fn writer(&self, pressure_every: usize) -> Result<PassWriter> {
-        Ok(PassWriter {
-            steps: self.steps()?,
-            passes: self.passes()?,
-            results: self.clone(),
-            pressure_every,
-        })
+        Ok(PassWriter { steps: self.steps()?, passes: self.passes()?, results: self.clone(), pressure_every })
     }
 
     /// Removes what an earlier computation left, and nothing else.
@@ -232,7 +227,8 @@ impl Results {
         for path in files.map(|name| self.directory.join(name)).iter().filter(|path| path.exists()) {
             fs::remove_file(path).map_err(|source| self.failed(path, source))?;
         }
-        for path in ["fields", "figures"].map(|name| self.directory.join(name)).iter().filter(|p| p.exists()) {
+        for path in ["fields", "figures"].map(|name| self.directory.join(name)).iter().filter(|p| p.exists())
+        {
             fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
         }
         Ok(())

@@ -71,7 +71,27 @@ pub struct Contact {
     /// Exactly one of the three.
     #[serde(flatten)]
     pub prescribed: Prescribed,
-    /// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
+    /// At the rim of the grid.
+    pub boundary: Boundary,
+    /// The solver.
+    pub method: Method,
+    /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
+    pub tolerance: f64,
+}
+
+/// What holds the bodies together.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prescribed {
+    /// Total normal force, > 0.
+    Load(Newton),
+    /// Load over the apparent area, > 0.
+    MeanPressure(Pascal),
+    /// From the heights as prepared; of any sign.
+    Approach(Metre),
+}
+
+/// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotionSpec {
     /// Overlap or circular shift.
