@@ -2,15 +2,17 @@
 //!
 //! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s asks of one
 //! quantity that the error vanishes as theory expects it to. A lucky per cent passes no check; an order does.
-//! What the piecewise constant pressure and the collocation at cell centres let one expect:
+//! What one may expect of pressures that are constant in each cell and displacements taken at its centre:
 //!
 //! ```text
-//! smooth pressure, at a cell's centre                     order 2
-//! load, approach, energy, peak of a contact whose
-//!     pressure ends as √distance (sphere, sinusoid)       order 2: an edge cell's error √Δx · Δx is in the mean 0
-//! pressure there, rms over the contact                    order 1: errors √Δx in a share Δx of the cells
-//! load and pressure where it ends as 1/√distance (punch)  order 1
-//! contact counted by cells                                within a cell at each edge
+//! load, approach, mean gap, energy: what follows from the least energy
+//!     order 2   the centre of a cell sinks Δx² ∇²u/24 less or more than its mean
+//!     order 3   the rest, the square of the pressure's error in the norm of the energy, Δx^(3/2)
+//!     order 1   where the pressure ends as 1/√distance: that error is Δx^(1/2)
+//! pressure, rms over the contact
+//!     order 1   where it ends as √distance: wrong by √Δx in a share Δx of the cells
+//! contact, counted by cells
+//!     order 1   a cell at each edge is in or out
 //! ```
 
 mod operators;

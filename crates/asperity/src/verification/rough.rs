@@ -25,16 +25,17 @@ fn rough_gap(grid: &Grid) -> Result<Field> {
     Ok(summit - heights)
 }
 
-/// A rough surface that yields: the softer, the nearer is its area to W/H. The elastic rim of a contact, which bears
-/// less than H, narrows with H/E*h′, so that the excess is about of order 1 in it.
+/// A rough surface that yields: the softer it is, the nearer is its area to W/H. The excess is that of the rims
+/// which bear less than H. Once these are narrow, their width is the range 0 < δ − h − u < c₀H over the slope h′:
+/// order 1 in H/E*h′, and faster before, where whole contacts bear less.
 pub(super) const PLASTIC_LIMIT: Case =
     Case { name: "fully plastic: W = 0.2 H A₀", source: "Bowden & Tabor (1950)", checks: plastic_limit };
 
 fn plastic_limit() -> Result<Vec<Check>> {
-    let grid = Grid::new([256; 2], [1.0; 2])?;
+    let grid = Grid::new([128; 2], [1.0; 2])?;
     let gap = rough_gap(&grid)?;
     let mut operator = PeriodicFft::new(grid, MODULUS);
-    let checks = [("excess of the area", Expected::Order { order: 0.8..=1.5, finest: 1e-2 })];
+    let checks = [("excess of the area", Expected::Order { order: 0.8..=1.6, finest: 2e-3 })];
     study("E*h′/H", &[2, 5, 20, 100], checks, |ratio| {
         let hardness = MODULUS * SLOPE / ratio as f64;
         let load = 0.2 * hardness * grid.area();
@@ -84,10 +85,10 @@ pub(super) const METHODS: Case =
 
 fn methods() -> Result<Vec<Check>> {
     let checks = [
-        ("free, elastic", Expected::RoundOff(1e-6)),
-        ("free, hardness", Expected::RoundOff(1e-6)),
-        ("periodic, elastic", Expected::RoundOff(1e-6)),
-        ("periodic, hardness", Expected::RoundOff(1e-6)),
+        ("free, elastic", Expected::RoundOff(1e-7)),
+        ("free, hardness", Expected::RoundOff(1e-7)),
+        ("periodic, elastic", Expected::RoundOff(1e-7)),
+        ("periodic, hardness", Expected::RoundOff(1e-7)),
     ];
     study("cells a side", &[8, 16, 32], checks, |n| {
         let grid = Grid::new([n; 2], [1.0; 2])?;
