@@ -3,5 +3,6 @@
 
 mod draw;
 mod report;
+mod verify;
 
 fn main() {}
