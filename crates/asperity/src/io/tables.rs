@@ -157,6 +157,7 @@ mod tests {
         }
         write_steps(&path, &[]).unwrap();
         let header = "pass,step,offset,overlap_columns,approach,load,contact_area,max_pressure,plastic_cells,\
+                      plastic_volume,\
                       iterations,convolutions,residual\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
         assert_eq!(read_steps(&path).unwrap(), []);
