@@ -12,20 +12,29 @@ use clap::{Args, Parser, Subcommand};
 
 /// Contact of two rough surfaces that press together and move
 ///
-/// A case file says which bodies meet, under what load, and how they move. To begin:
-///
-///   asperity example quickstart --out quickstart
-///   asperity check quickstart/case.toml
+/// A case file says which bodies meet, under what load, and how they move.
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true, subcommand_required = true, arg_required_else_help = true)]
-#[command(
-    after_long_help = "Exit code: 0 done; 1 the computation failed (not converged, load unreachable); \
-2 bad input or usage; 130 interrupted.\nData go to stdout, all else to stderr."
-)]
+#[command(version, subcommand_required = true, arg_required_else_help = true)]
+#[command(after_help = BEGIN, after_long_help = [BEGIN, EXIT_CODES].concat())]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
+
+const BEGIN: &str = "\
+To begin:
+  asperity example quickstart
+  asperity check quickstart/case.toml";
+
+const EXIT_CODES: &str = "
+
+Data go to stdout, all else to stderr.
+
+Exit code:
+  0    done
+  1    the computation failed: not converged, load unreachable
+  2    bad input or usage
+  130  interrupted";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -49,9 +58,8 @@ pub(crate) struct Check {
 /// List the examples, or write one out
 ///
 /// Without a name: one line per example. With a name: its case file and data go into a new folder.
-///
-///   asperity example quickstart --out quickstart
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity example quickstart --out my-case")]
 pub(crate) struct Example {
     /// Which one
     pub(crate) name: Option<String>,
@@ -71,10 +79,10 @@ pub(crate) enum Surface {
 /// Make a random topography or an ideal form
 ///
 /// Quantities are in SI or carry a unit: 0.5um, "0.5 um", 2e-7.
-///
-///   asperity surface generate low-pass --shape 256x256 --pitch 0.5um --sq 0.2um --cutoff 8um --seed 7 --out z.npy
 #[derive(Debug, Args)]
 #[command(arg_required_else_help = true)]
+#[command(after_help = "Example:\n  asperity surface generate low-pass --shape 256x256 --pitch 0.5um \\
+    --sq 0.2um --cutoff 8um --seed 7 --out z.npy")]
 pub(crate) struct Generate {
     #[command(subcommand)]
     pub(crate) source: Source,
@@ -216,6 +224,7 @@ pub(crate) struct Out {
 /// Reads x3p, npy, sur and text matrices, also gzipped; the content tells the format. Roughness is that of the heights
 /// as they are: --level plane removes a tilt first.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
     /// Topography
     pub(crate) file: PathBuf,
@@ -242,9 +251,11 @@ pub(crate) struct Reading {
 /// Read any topography, prepare it, and write it as npy, x3p, vtk or png
 ///
 /// The steps act in this order: --window, --fill, --level, --resample. Missing heights stay missing without --fill.
-///
-///   asperity surface convert disc.sur disc.x3p --fill harmonic --level plane --resample 256x256
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  asperity surface convert disc.sur disc.x3p --fill harmonic --level plane \
+--resample 256x256"
+)]
 pub(crate) struct Convert {
     /// Topography to read
     #[arg(value_name = "IN")]

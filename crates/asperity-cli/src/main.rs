@@ -2,10 +2,7 @@
 
 mod args;
 mod check;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, unused_imports, reason = "`run`, `plot` and `paper` will draw the other figures")
-)]
+#[allow(dead_code, unused_imports, reason = "`run`, `plot` and `paper` will draw the other figures")]
 mod draw;
 mod example;
 mod report;

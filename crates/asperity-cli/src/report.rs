@@ -105,7 +105,14 @@ fn render(failure: &Failure, renderer: &Renderer) -> String {
         Failure::Usage { hint, .. } => hint.clone(),
     };
     let hint = hint.map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
-    renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
+    match (failure, hint) {
+        // Beneath a line of the case the renderer draws the margin on; alone it would lead from nothing.
+        (Failure::Library(Error::Case(_)), hint) => {
+            renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
+        }
+        (_, Some(hint)) => format!("{}\n{}", renderer.render(&[title]), renderer.render(&[hint])),
+        (_, None) => renderer.render(&[title]),
+    }
 }
 
 /// The faulty line, or the file alone where something is missing from it as a whole.
@@ -197,7 +204,7 @@ hint: did you mean `GPa`?"#;
         let text = render(&error, &Renderer::plain());
         assert!(text.starts_with("error: load 2.000000e0 N exceeds the plastic limit"), "{text}");
         assert!(
-            text.ends_with("hint: give a load below 12.3 mN, a greater hardness or larger surfaces"),
+            text.ends_with("\nhint: give a load below 12.3 mN, a greater hardness or larger surfaces"),
             "{text}"
         );
         assert_eq!(exit_code(&error), 1);
