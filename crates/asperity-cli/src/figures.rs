@@ -19,7 +19,8 @@ const SHEET: usize = 6;
 /// Draws all figures of `results` into its folder `figures` and returns their paths.
 pub(crate) fn draw(results: &Results) -> Outcome<Vec<PathBuf>> {
     let folder = results.directory().join("figures");
-    std::fs::create_dir_all(&folder).map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
+    std::fs::create_dir_all(&folder)
+        .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
     let mut sheet = Sheet { folder, drawn: Vec::new() };
     let passes = results.passes()?;
     if passes.is_empty() {
@@ -62,7 +63,8 @@ impl Stored {
         let stored = fields.read(name)?;
         let pitch = [stored.pitch[0], stored.pitch[1]];
         let column = (stored.origin[0] / pitch[0] - 0.5).round().max(0.0) as usize;
-        let field = stored.into_field().ok_or_else(|| Failure::usage(format!("`{name}` is not a field"), None))?;
+        let field =
+            stored.into_field().ok_or_else(|| Failure::usage(format!("`{name}` is not a field"), None))?;
         let grid = Grid::new([field.nrows(), field.ncols()], pitch)?;
         Ok(Self { field, grid, column })
     }
@@ -107,11 +109,7 @@ fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
     Ok(())
 }
 
-fn motion(
-    results: &Results,
-    passes: &[PassRecord],
-    sheet: &mut Sheet,
-) -> Outcome {
+fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome {
     let steps = results.steps()?;
     let first = results.fields_after(0)?;
     let last = results.fields_after(passes.len())?;
@@ -127,7 +125,8 @@ fn motion(
     ];
     sheet.add("topographies.png", |path| draw::maps(path, &bodies, 2))?;
     let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
-    let means = [mean[0].pressure("mean pressure, lower body"), mean[1].pressure("mean pressure, upper body")];
+    let means =
+        [mean[0].pressure("mean pressure, lower body"), mean[1].pressure("mean pressure, upper body")];
     sheet.add("mean_pressure.png", |path| draw::maps(path, &means, 2))?;
     if hardness.is_finite() {
         plastic_depth(&before, &after, sheet)?;
@@ -178,10 +177,11 @@ fn pressures(
             let step = kept[(2 * k + 1) * kept.len() / (2 * SHEET.min(kept.len()))];
             let stored = pressure(step)?;
             let field = in_frame_of(&stored.field, stored.column, lower);
-            let title = format!("position {}: {}", step.step, asperity::units::format(
-                step.load,
-                asperity::units::Dimension::Force,
-            ));
+            let title = format!(
+                "position {}: {}",
+                step.step,
+                asperity::units::format(step.load, asperity::units::Dimension::Force,)
+            );
             Ok((title, Stored { field, grid: lower, column: 0 }))
         })
         .collect::<Outcome<_>>()?;
@@ -192,9 +192,7 @@ fn pressures(
     sheet.add("pressure.png", |path| draw::maps(path, &maps, 3))?;
     let contacts: Vec<MapFigure> = shown
         .iter()
-        .map(|(title, stored)| {
-            stored.map(title, "pressure", Unit::Pressure, Colours::Contact { hardness })
-        })
+        .map(|(title, stored)| stored.map(title, "pressure", Unit::Pressure, Colours::Contact { hardness }))
         .collect();
     sheet.add("contact.png", |path| draw::maps(path, &contacts, 3))?;
     let frames: Vec<(String, Stored)> = kept
@@ -266,8 +264,7 @@ fn roughness_over_passes(passes: &[PassRecord], before: &[Stored; 2]) -> LineFig
 }
 
 fn approach_over_passes(passes: &[PassRecord]) -> LineFigure {
-    let points =
-        |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [p.pass as f64, value(p)]).collect();
+    let points = |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [p.pass as f64, value(p)]).collect();
     LineFigure {
         title: "approach and plastic volume over the passes".to_owned(),
         x: Axis::linear("pass", Unit::Number),

@@ -3,7 +3,7 @@
 //! Ghanbarzadeh, Wilson, Morina, Dowson, Neville, *A new strategy for the relative movement of rough surfaces in
 //! contact using a boundary element method*. Figures 3 to 7 are sketches.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use asperity::material::Material;
@@ -18,9 +18,7 @@ use asperity::{Field, Grid, kernel, solver};
 use ndarray::Array2;
 
 use crate::args::Paper;
-use crate::draw::{
-    self, Axis, Colours, LineFigure, MapFigure, Mark, MatrixFigure, Quantity, Series, Unit,
-};
+use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, MatrixFigure, Quantity, Series, Unit};
 use crate::figures::in_frame_of;
 use crate::report::{Outcome, note, print};
 
@@ -32,8 +30,8 @@ const PASSES: usize = 3;
 
 /// Draws figures 1, 2, 8, 9 and 10 and prints the table of cost.
 pub(crate) fn paper(arguments: &Paper) -> Outcome {
-    let directory = arguments.out.clone().unwrap_or_else(|| PathBuf::from("paper"));
-    std::fs::create_dir_all(&directory)
+    let directory = &arguments.out;
+    std::fs::create_dir_all(directory)
         .map_err(|source| asperity::Error::File { path: directory.clone(), source })?;
     let at = |name: &str| directory.join(name);
     low_pass_surfaces(&at("figure-1.png"))?;
@@ -64,8 +62,22 @@ fn pair(n: usize) -> asperity::Result<Pair> {
     Pair::new(surface(n, 12.0 * PITCH, 11)?, surface(n, 12.0 * PITCH, 12)?.underside(), [&steel, &steel])
 }
 
-fn map<'a>(title: &str, field: &'a Field, grid: &'a Grid, name: &str, unit: Unit, colours: Colours) -> MapFigure<'a> {
-    MapFigure { title: title.to_owned(), field, grid, quantity: Quantity::new(name, unit), colours, range: None }
+fn map<'a>(
+    title: &str,
+    field: &'a Field,
+    grid: &'a Grid,
+    name: &str,
+    unit: Unit,
+    colours: Colours,
+) -> MapFigure<'a> {
+    MapFigure {
+        title: title.to_owned(),
+        field,
+        grid,
+        quantity: Quantity::new(name, unit),
+        colours,
+        range: None,
+    }
 }
 
 /// Figure 1: the same noise through circular low-pass filters of falling cut-off frequency.
@@ -106,7 +118,9 @@ fn influence_matrices(pair: &Pair, path: &Path) -> Outcome {
         table[[(m / side).abs_diff(n / side), (m % side).abs_diff(n % side)]]
     });
     let figure = MatrixFigure {
-        title: format!("influence matrix of {side} × {side} cells; an overlap of n columns is its first {side}·n rows"),
+        title: format!(
+            "influence matrix of {side} × {side} cells; an overlap of n columns is its first {side}·n rows"
+        ),
         matrix: &matrix,
         quantity: Quantity::new("influence", Unit::Of("m/Pa")),
         nodes: ["displaced cell".to_owned(), "loaded cell".to_owned()],
@@ -191,7 +205,10 @@ fn plastic_deformation(initial: &Pair, passes: &[Kept], path: &Path) -> Outcome 
 
 /// How the influence matrix grows and shrinks over a pass.
 fn matrix_sizes() -> String {
-    let mut text = format!("\ninfluence matrix over a pass, {N} × {N} cells\n{:>10}{:>10}{:>16}{:>14}\n", "position", "columns", "rows", "memory");
+    let mut text = format!(
+        "\ninfluence matrix over a pass, {N} × {N} cells\n{:>10}{:>10}{:>16}{:>14}\n",
+        "position", "columns", "rows", "memory"
+    );
     for k in [1, N / 4, N / 2, 3 * N / 4, N, N + N / 4, N + N / 2, N + 3 * N / 4, 2 * N - 1] {
         let columns = N - k.abs_diff(N);
         let rows = columns * N;

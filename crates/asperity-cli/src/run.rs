@@ -27,9 +27,9 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         (Some(file), _) => (file.clone(), arguments.out.clone().unwrap_or_else(|| beside(file))),
         (None, Some(name)) => {
             let directory = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
-            (example::unpack(name, &directory.join("case"), arguments.resume || arguments.overwrite)?, directory.join("results"))
+            (example::unpack(name, &directory.join("case"))?, directory.join("results"))
         }
-        (None, None) => unreachable!("clap asks for one of them"),
+        (None, None) => unreachable!("the parser asks for one of them"),
     };
     let case = Case::load(&file)?;
     let existing = match (arguments.resume, arguments.overwrite) {
@@ -144,8 +144,16 @@ fn static_table(record: &StaticRecord) -> String {
 }
 
 fn passes_table(passes: &[PassRecord]) -> String {
-    const HEADS: [&str; 8] =
-        ["pass", "approach", "mean load", "mean area", "max pressure", "plastic volume", "Sq lower", "Sq upper"];
+    const HEADS: [&str; 8] = [
+        "pass",
+        "approach",
+        "mean load",
+        "mean area",
+        "max pressure",
+        "plastic volume",
+        "Sq lower",
+        "Sq upper",
+    ];
     let mut text = HEADS.map(|head| format!("{head:>15}")).concat() + "\n";
     for pass in passes {
         let plastic = pass.plastic_volume_lower + pass.plastic_volume_upper;

@@ -2,20 +2,27 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::process::ExitCode;
 
+use asperity::Error;
 use asperity::verification::{CASES, Case, Check, Expected};
-use asperity::{Error, Result};
 
-/// Computes all cases and prints each as it is done; exit code 1 if a check fails.
-pub(crate) fn run() -> Result<ExitCode> {
-    let passed = table(&mut io::stdout().lock(), CASES)
+use crate::report::{Failure, Outcome};
+
+/// Computes all cases and prints each as it is done.
+pub(crate) fn verify() -> Outcome {
+    let Tally { passed, failed } = table(&mut io::stdout().lock(), CASES)
         .map_err(|source| Error::File { path: PathBuf::from("standard output"), source })?;
-    Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    if failed == 0 { Ok(()) } else { Err(Failure::Checks { failed, all: passed + failed }) }
 }
 
-/// Writes the table; whether every check has passed.
-fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<bool> {
+/// Checks by their verdict.
+struct Tally {
+    passed: usize,
+    failed: usize,
+}
+
+/// Writes the table.
+fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<Tally> {
     let (mut passed, mut failed) = (0, 0);
     for case in cases {
         writeln!(out, "{} — {}", case.name, case.source)?;
@@ -41,7 +48,7 @@ fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<bool> {
         0 => writeln!(out, "all {passed} checks passed")?,
         _ => writeln!(out, "{failed} of {} checks FAILED", passed + failed)?,
     }
-    Ok(failed == 0)
+    Ok(Tally { passed, failed })
 }
 
 /// Quantity, errors, order where one is expected, what is expected, verdict.
@@ -66,7 +73,7 @@ mod tests {
     fn written(cases: &[Case]) -> (String, bool) {
         let mut out = Vec::new();
         let passed = table(&mut out, cases).unwrap();
-        (String::from_utf8(out).unwrap(), passed)
+        (String::from_utf8(out).unwrap(), passed.failed == 0)
     }
 
     fn second_order(order_of_the_last: f64) -> Vec<Check> {

@@ -225,3 +225,42 @@ fn torn(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::prepare::bodies;
+
+    fn case(motion: &str, load: &str) -> Case {
+        let body = |name: &str, columns: usize| {
+            format!(
+                "[{name}]\nyoung = 1e9\npoisson = 0.3\nhardness = 1e9\n[{name}.topography]\nform = \"sphere\"\n\
+                 radius = 1\nshape = [{columns}, 4]\npitch = 1e-3\n"
+            )
+        };
+        let text = format!("{}{}[contact]\n{load}\n{motion}", body("lower", 5), body("upper", 3));
+        Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    }
+
+    #[test]
+    fn every_position_of_a_pass_has_a_column_that_faces_another() {
+        let columns = |stride| overlaps(&case(&format!("[motion]\nstride = {stride}"), "load = 1"), 5, 3);
+        assert_eq!(columns(1), [1, 2, 3, 3, 3, 2, 1]);
+        assert_eq!(columns(2), [1, 3, 3, 1]);
+        assert_eq!(columns(9), [3]);
+    }
+
+    #[test]
+    fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
+        let outlook = |control: &str, load: &str| {
+            let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
+            super::outlook(&case, &bodies(&case).unwrap())
+        };
+        // A column of 4 mm² bears 4 kN; seven positions share 15 columns.
+        let limit = outlook("pass-load", "load = 1").unwrap().plastic_limit;
+        assert!((limit / (4e3 * 15.0 / 7.0) - 1.0).abs() < 1e-12, "{limit}");
+        assert!(outlook("pass-load", "load = 8e3").is_ok());
+        let beyond = outlook("step-load", "load = 8e3").unwrap_err();
+        assert!(matches!(beyond, Error::BeyondPlasticLimit { limit, .. } if (limit - 4e3).abs() < 1e-6));
+    }
+}
