@@ -32,20 +32,23 @@ fn at_a_constant_approach_the_bodies_shake_down_at_once() {
 
 #[test]
 fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
-    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-        let motion = Motion { plastic_update: update, ..motion(Control::PassLoad(LOAD), 5) };
-        let kept = run(rough_pair(32), motion);
+    // Deformation at every position runs in faster than a pass of frozen geometry, which decays by about 0.3.
+    for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
+        let load = Motion { plastic_update: update, ..motion(Control::PassLoad(10.0 * LOAD), 5) };
+        let kept = run(rough_pair(32), load);
         let volumes = plastic_volumes(&kept);
         for pair in volumes.windows(2) {
-            let ratio = pair[1] / pair[0];
-            assert!((0.02..0.7).contains(&ratio), "{update:?}: plastic volume per pass {volumes:?}");
+            assert!(decay.contains(&(pair[1] / pair[0])), "{update:?}: plastic volume per pass {volumes:?}");
         }
-        let mean = (volumes[4] / volumes[0]).powf(0.25);
-        assert!((0.1..0.5).contains(&mean), "{update:?}: decays by {mean:.2} a pass");
         let approach: Vec<f64> = kept.passes.iter().map(|p| p.approach).collect();
         assert!(approach.is_sorted(), "{update:?}: approach {approach:?}");
-        let area: Vec<f64> = kept.passes.iter().map(|p| p.mean_contact_area).collect();
-        assert!(area.is_sorted(), "{update:?}: the bodies conform, area {area:?}");
+        let [first, last] = [0, 4].map(|pass| kept.passes[pass].mean_contact_area);
+        assert!(last > first, "{update:?}: the bodies conform, area {first:e} → {last:e}");
+
+        let held = Motion { control: Control::Approach(approach[0]), ..load };
+        let held = plastic_volumes(&run(rough_pair(32), held));
+        assert!((held[0] / volumes[0] - 1.0).abs() < 1e-4, "the first pass is the same");
+        assert!((1..5).all(|pass| held[pass] < volumes[pass]), "held {held:?}, sinking {volumes:?}");
     }
 }
 
@@ -75,8 +78,9 @@ fn the_mean_load_of_every_pass_is_the_load_asked_for() {
                 let mean = mean(&kept.loads_of(pass.pass));
                 assert!((mean / LOAD - 1.0).abs() <= tolerance, "{update:?}: {mean:e} N, {tolerance:e}");
                 assert!((pass.mean_load / mean - 1.0).abs() < 1e-14);
-                let approach = kept.steps_of(pass.pass).map(|s| s.approach);
-                assert!(approach.into_iter().all(|a| a == pass.approach), "one approach for the whole pass");
+                let approach: Vec<f64> = kept.steps_of(pass.pass).map(|s| s.approach).collect();
+                assert!(approach.iter().all(|a| *a == approach[0]), "one approach for the whole pass");
+                assert!((pass.approach / approach[0] - 1.0).abs() < 1e-14);
             }
         }
     }
@@ -252,7 +256,7 @@ fn exchanging_the_bodies_exchanges_their_losses() {
 fn bodies_of_different_lengths_pass_in_strides_that_do_not_divide_them() {
     for (lower, upper, stride) in [(20, 33, 3), (33, 20, 7), (24, 5, 40), (7, 24, 1)] {
         let pair = steel_pair(surface([lower, 16], 1), surface([upper, 16], 2));
-        let load = 1e-3 * pass_limit(lower, 16, 1);
+        let load = 5e-2 * HARDNESS * PITCH * PITCH * 16.0 * lower.min(upper) as f64;
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
             let motion = Motion { stride, plastic_update: update, ..motion(Control::PassLoad(load), 2) };
             let kept = run(pair.clone(), motion);
@@ -549,14 +553,18 @@ fn deviation(values: &[f64]) -> f64 {
 #[track_caller]
 fn assert_each_body_lost_what_it_fell(initial: &Pair, kept: &Kept) {
     let area = initial.cell_area();
+    // Of the sums of heights.
+    let roundoff = 1e-14 * area * initial.lower.len() as f64 * 35e-9;
     let mut before = initial;
     for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
         let fell = [(&before.lower - &after.lower).sum() * area, (&after.upper - &before.upper).sum() * area];
         let lost = [pass.plastic_volume_lower, pass.plastic_volume_upper];
-        assert!(lost[0] > 0.0);
-        assert_close(&fell, &lost, 1e-6, "volume lost");
+        for (fell, lost) in fell.into_iter().zip(lost) {
+            assert!((fell - lost).abs() <= 1e-9 * lost + roundoff, "fell by {fell:e} m³, lost {lost:e} m³");
+        }
         before = after;
     }
+    assert!(kept.passes[0].plastic_volume_lower > 0.0 && kept.passes[0].plastic_volume_upper > 0.0);
 }
 
 #[track_caller]
