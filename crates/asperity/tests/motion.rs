@@ -164,7 +164,10 @@ fn the_mean_pressures_of_both_bodies_carry_the_loads() {
             let loads = kept.loads_of(pass.pass);
             for mean in means {
                 let carried = initial.cell_area() * loads.len() as f64 * mean.sum();
-                assert!((carried / loads.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{strategy:?}: {carried:e}");
+                assert!(
+                    (carried / loads.iter().sum::<f64>() - 1.0).abs() < 1e-12,
+                    "{strategy:?}: {carried:e}"
+                );
             }
         }
     }
@@ -227,7 +230,8 @@ fn a_mirrored_pair_meets_the_same_loads_in_reverse() {
         assert_close(&reversed, &forth.loads_of(pass), 1e-4, "loads");
         assert_close(&[back.passes[pass - 1].approach], &[forth.passes[pass - 1].approach], 1e-4, "approach");
         let heights = mirrored(&back.pairs[pass - 1].lower);
-        let difference = (&heights - &forth.pairs[pass - 1].lower).mapv(f64::abs).fold(0.0, |a: f64, b| a.max(*b));
+        let difference =
+            (&heights - &forth.pairs[pass - 1].lower).mapv(f64::abs).fold(0.0, |a: f64, b| a.max(*b));
         assert!(difference < 1e-4 * 35e-9, "surfaces differ by {difference:e} m");
     }
 }
@@ -261,9 +265,8 @@ fn bodies_of_different_lengths_pass_in_strides_that_do_not_divide_them() {
             let motion = Motion { stride, plastic_update: update, ..motion(Control::PassLoad(load), 2) };
             let kept = run(pair.clone(), motion);
             let offsets: Vec<isize> = kept.steps_of(1).map(|s| (s.offset / PITCH).round() as isize).collect();
-            let expected: Vec<isize> = (1 - upper as isize..lower as isize)
-                .filter(|offset| offset % stride as isize == 0)
-                .collect();
+            let expected: Vec<isize> =
+                (1 - upper as isize..lower as isize).filter(|offset| offset % stride as isize == 0).collect();
             assert_eq!(offsets, expected, "{lower}, {upper}, {stride}");
             assert!(kept.passes.iter().all(|p| (p.mean_load / load - 1.0).abs() <= 1e-4));
             assert_each_body_lost_what_it_fell(&pair, &kept);
@@ -295,11 +298,8 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
 fn a_resumed_motion_goes_on_as_if_it_had_not_stopped() {
     for (control, tolerance) in [(Control::PassLoad(LOAD), 1e-3), (Control::StepLoad(0.5 * LOAD), 1e-4)] {
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-            let motion = |passes| Motion {
-                plastic_update: update,
-                load_tolerance: 1e-7,
-                ..motion(control, passes)
-            };
+            let motion =
+                |passes| Motion { plastic_update: update, load_tolerance: 1e-7, ..motion(control, passes) };
             let whole = run(rough_pair(24), motion(3));
             let begun = run(rough_pair(24), motion(1));
             let (pair, last) = (begun.pairs[0].clone(), &begun.passes[0]);
@@ -311,7 +311,12 @@ fn a_resumed_motion_goes_on_as_if_it_had_not_stopped() {
             }
             let approach = |kept: &Kept| kept.passes.iter().map(|p| p.approach).collect::<Vec<_>>();
             assert_close(&approach(&resumed), &approach(&whole)[1..], tolerance, "approach");
-            assert_close(&plastic_volumes(&resumed), &plastic_volumes(&whole)[1..], tolerance, "plastic volume");
+            assert_close(
+                &plastic_volumes(&resumed),
+                &plastic_volumes(&whole)[1..],
+                tolerance,
+                "plastic volume",
+            );
         }
     }
 }

@@ -71,6 +71,14 @@ impl Results {
                     if let Some(passes) = case.pointer_mut("/motion/passes") {
                         passes.take();
                     }
+                    // Its folder is seen from wherever the program was called.
+                    for file in ["/lower/topography/file", "/upper/topography/file"] {
+                        if let Some(file) = case.pointer_mut(file) {
+                            *file = Path::new(file.as_str().unwrap_or_default())
+                                .file_name()
+                                .map_or(serde_json::Value::Null, |name| name.to_string_lossy().into());
+                        }
+                    }
                 }
                 if before != now {
                     return Err(Error::OtherCase { path: directory.to_owned() });

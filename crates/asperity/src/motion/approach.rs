@@ -55,7 +55,10 @@ impl Search {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
-            if exhausted && excess.abs() > self.tolerance.max(ROUNDOFF * self.residual) && residual <= self.residual {
+            if exhausted
+                && excess.abs() > self.tolerance.max(ROUNDOFF * self.residual)
+                && residual <= self.residual
+            {
                 return Err(Error::LoadNotReached { load: self.load, trials, approach });
             }
             if excess.abs() <= self.tolerance || exhausted {
