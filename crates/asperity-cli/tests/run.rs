@@ -375,6 +375,7 @@ fn a_case_is_known_again_from_another_folder_and_by_numbers_of_any_length() {
         )
         .replace("pitch = \"1 um\"", "pitch = \"0.32412785700896 um\"")
         .replace("cutoff = \"8 um\"", "cutoff = \"3.333333333333331 um\"")
+        .replace("\"35 nm\"", "3.080618546467441e-08")
         .replace("20 mN", "2.0173912345678901 mN");
     fs::write(folder.path().join("sub/case.toml"), case).unwrap();
     ok(&at("run sub/case.toml --out out"));
@@ -657,7 +658,8 @@ fn assert_same_passes(found: &Path, expected: &Path) {
     let [found, expected] = [found, expected].map(|directory| Results::open(directory).unwrap());
     let (passes, others) = (found.passes().unwrap(), expected.passes().unwrap());
     assert_eq!(passes.len(), others.len());
-    let numbers: [(&str, fn(&PassRecord) -> f64, f64); 6] = [
+    type Number = fn(&PassRecord) -> f64;
+    let numbers: [(&str, Number, f64); 6] = [
         ("mean_load", |p| p.mean_load, 1e-5),
         ("approach", |p| p.approach, 1e-5),
         ("max_load", |p| p.max_load, 1e-4),
