@@ -10,6 +10,8 @@ use crate::grid::Field;
 
 /// Columns that are transformed together: two cache lines of a row.
 const STRIP: usize = 8;
+/// Room between the columns of a strip: without it columns of a power of two share their cache lines' places.
+const ROOM: usize = 8;
 
 /// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size.
 pub struct Kernel {
@@ -113,7 +115,7 @@ impl Convolution {
         assert!(shape[0] <= kernel.shape[0] && shape[1] <= kernel.shape[1], "kernel smaller than the field");
         Self {
             rows: Array2::zeros([shape[0], kernel.half()]),
-            strip: vec![Complex64::default(); STRIP * kernel.shape[0]],
+            strip: vec![Complex64::default(); STRIP * (kernel.shape[0] + ROOM)],
             real: vec![0.0; kernel.shape[1]],
             scratch: kernel.scratch(),
             kernel,
@@ -157,27 +159,25 @@ impl Convolution {
         let half = self.kernel.half();
         for first in (0..half).step_by(STRIP) {
             let width = STRIP.min(half - first);
-            let strip = &mut self.strip[..width * mx];
             for (ix, row) in self.rows.outer_iter().enumerate() {
-                for c in 0..width {
-                    strip[c * mx + ix] = row[first + c];
+                for (c, value) in row.iter().skip(first).take(width).enumerate() {
+                    self.strip[c * (mx + ROOM) + ix] = *value;
                 }
             }
-            for column in strip.chunks_exact_mut(mx) {
+            for (c, column) in self.strip.chunks_exact_mut(mx + ROOM).take(width).enumerate() {
+                let column = &mut column[..mx];
                 column[nx..].fill(Complex64::default());
-            }
-            self.kernel.along_x.process_with_scratch(strip, &mut self.scratch);
-            for (c, column) in strip.chunks_exact_mut(mx).enumerate() {
+                self.kernel.along_x.process_with_scratch(column, &mut self.scratch);
                 let spectrum = self.kernel.spectrum.row(first + c);
                 let spectrum = spectrum.as_slice().expect("rows are contiguous");
                 let (front, back) = column.split_at_mut(mx / 2 + 1);
                 front.iter_mut().zip(spectrum).for_each(|(v, k)| *v *= *k);
                 back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v *= *k);
+                self.kernel.back_x.process_with_scratch(column, &mut self.scratch);
             }
-            self.kernel.back_x.process_with_scratch(strip, &mut self.scratch);
             for (ix, mut row) in self.rows.outer_iter_mut().enumerate() {
-                for c in 0..width {
-                    row[first + c] = strip[c * mx + ix];
+                for (c, value) in row.iter_mut().skip(first).take(width).enumerate() {
+                    *value = self.strip[c * (mx + ROOM) + ix];
                 }
             }
         }

@@ -229,6 +229,7 @@ impl CoarseCorrection {
     }
 
     /// The bilinear weights of a cell on the four nodes around it.
+    #[inline]
     fn weights(&self, (ix, iy): (u32, u32)) -> [(usize, f64); 4] {
         let (i0, i1, s) = self.along[0][ix as usize];
         let (j0, j1, t) = self.along[1][iy as usize];
