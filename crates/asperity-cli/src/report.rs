@@ -7,38 +7,119 @@ use asperity::Error;
 use asperity::error::CaseError;
 use asperity::units::{self, Dimension};
 
+use crate::draw;
+
+/// Why a command gives up.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// What the library found.
+    Library(Error),
+    /// A figure that could not be drawn.
+    Figure(draw::Error),
+    /// Closed forms that were missed.
+    Checks { failed: usize, all: usize },
+    /// The command cannot do what it is asked for.
+    Usage { message: String, hint: Option<String> },
+}
+
+/// What a command answers; its data have gone to stdout.
+pub(crate) type Outcome<T = ()> = Result<T, Failure>;
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Library(error)
+    }
+}
+
+impl From<draw::Error> for Failure {
+    fn from(error: draw::Error) -> Self {
+        Self::Figure(error)
+    }
+}
+
+impl Failure {
+    /// A mistake in the use of a command.
+    pub(crate) fn usage(message: impl Into<String>, hint: Option<&str>) -> Self {
+        Self::Usage { message: message.into(), hint: hint.map(str::to_owned) }
+    }
+}
+
+/// Writes data to stdout. Where it is closed nobody wants them any more.
+pub(crate) fn print(text: &str) {
+    let mut stdout = std::io::stdout().lock();
+    let _ = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+}
+
+/// Writes a line about what is done to stderr.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
 /// Writes the error, its place and its hint to stderr.
-pub(crate) fn report(error: &Error) {
+pub(crate) fn report(failure: &Failure) {
     let stderr = std::io::stderr();
     let colours = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
     // Where stderr is closed nobody reads: the exit code remains.
-    let _ = writeln!(stderr.lock(), "{}", render(error, &renderer));
+    let _ = writeln!(stderr.lock(), "{}", render(failure, &renderer));
 }
 
 /// 1 where the computation failed, 2 where the input is bad, 130 after Ctrl-C.
-pub(crate) fn exit_code(error: &Error) -> u8 {
-    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied};
+pub(crate) fn exit_code(failure: &Failure) -> u8 {
+    match failure {
+        Failure::Library(error) => code(error),
+        Failure::Figure(error) => code_of_io(&error.source),
+        Failure::Checks { .. } => 1,
+        Failure::Usage { .. } => 2,
+    }
+}
+
+fn code(error: &Error) -> u8 {
     match error {
-        Error::BeyondPlasticLimit { .. } | Error::NotConverged { .. } | Error::PeriodicFullContact { .. } => {
-            1
-        }
+        Error::BeyondPlasticLimit { .. }
+        | Error::NotConverged { .. }
+        | Error::LoadNotReached { .. }
+        | Error::PeriodicFullContact { .. } => 1,
         Error::Interrupted => 130,
-        Error::File { source, .. } => match source.kind() {
-            NotFound | PermissionDenied | InvalidData | IsADirectory | NotADirectory => 2,
-            _ => 1,
-        },
+        Error::File { source, .. } => code_of_io(source),
         _ => 2,
     }
 }
 
-fn render(error: &Error, renderer: &Renderer) -> String {
-    let title = match error {
-        Error::Case(case) => Level::ERROR.primary_title(case.message.as_str()).element(place(case)),
-        other => Group::with_title(Level::ERROR.primary_title(other.to_string())),
+fn code_of_io(error: &std::io::Error) -> u8 {
+    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied};
+    match error.kind() {
+        NotFound | PermissionDenied | InvalidData | IsADirectory | NotADirectory => 2,
+        _ => 1,
+    }
+}
+
+fn render(failure: &Failure, renderer: &Renderer) -> String {
+    let title = match failure {
+        Failure::Library(Error::Case(case)) => {
+            Level::ERROR.primary_title(case.message.as_str()).element(place(case))
+        }
+        Failure::Library(other) => Group::with_title(Level::ERROR.primary_title(other.to_string())),
+        Failure::Figure(error) => Group::with_title(Level::ERROR.primary_title(error.to_string())),
+        Failure::Checks { failed, all } => Group::with_title(
+            Level::ERROR.primary_title(format!("{failed} of {all} checks against closed forms failed")),
+        ),
+        Failure::Usage { message, .. } => Group::with_title(Level::ERROR.primary_title(message.as_str())),
     };
-    let hint = hint(error).map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
-    renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
+    let hint = match failure {
+        Failure::Library(error) => hint(error),
+        Failure::Figure(_) | Failure::Checks { .. } => None,
+        Failure::Usage { hint, .. } => hint.clone(),
+    };
+    let hint = hint.map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
+    match (failure, hint) {
+        // Beneath a line of the case the renderer draws the margin on; alone it would lead from nothing.
+        (Failure::Library(Error::Case(_)), hint) => {
+            renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
+        }
+        (_, Some(hint)) => format!("{}\n{}", renderer.render(&[title]), renderer.render(&[hint])),
+        (_, None) => renderer.render(&[title]),
+    }
 }
 
 /// The faulty line, or the file alone where something is missing from it as a whole.
@@ -69,6 +150,11 @@ fn hint(error: &Error) -> Option<String> {
             "give an approach below {}, or a load, which also holds in full contact",
             units::format(*mean_gap, Dimension::Length)
         )),
+        Error::ResultsExist { results: true, .. } => Some(
+            "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
+        ),
+        Error::ResultsExist { results: false, .. } => Some("--out names another directory".to_owned()),
+        Error::OtherCase { .. } => Some("without --resume, --out names another directory".to_owned()),
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {
@@ -81,7 +167,7 @@ fn hint(error: &Error) -> Option<String> {
                 .filter(|_| path.extension().is_some_and(|extension| extension == "toml")),
             _ => None,
         },
-        _ => None,
+        other => other.hint(),
     }
 }
 
@@ -95,7 +181,7 @@ mod tests {
 
     fn rendered(text: &str) -> String {
         let error = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap_err();
-        render(&error, &Renderer::plain())
+        render(&error.into(), &Renderer::plain())
     }
 
     #[test]
@@ -126,15 +212,16 @@ hint: did you mean `GPa`?"#;
     #[test]
     fn other_errors_have_their_hint_and_code() {
         let error = Error::BeyondPlasticLimit { load: 2.0, limit: 0.0123 };
+        let error = Failure::from(error);
         let text = render(&error, &Renderer::plain());
         assert!(text.starts_with("error: load 2.000000e0 N exceeds the plastic limit"), "{text}");
         assert!(
-            text.ends_with("hint: give a load below 12.3 mN, a greater hardness or larger surfaces"),
+            text.ends_with("\nhint: give a load below 12.3 mN, a greater hardness or larger surfaces"),
             "{text}"
         );
         assert_eq!(exit_code(&error), 1);
-        assert_eq!(exit_code(&Error::Interrupted), 130);
+        assert_eq!(exit_code(&Error::Interrupted.into()), 130);
         let missing = Case::load(Path::new("nowhere/case.toml")).unwrap_err();
-        assert_eq!(exit_code(&missing), 2);
+        assert_eq!(exit_code(&missing.into()), 2);
     }
 }

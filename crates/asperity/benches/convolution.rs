@@ -30,7 +30,8 @@ fn square(side: usize) -> Grid {
 
 fn measure(bencher: divan::Bencher, operator: &mut dyn Operator, every: usize) {
     let shape = operator.grid().shape;
-    let pressure = Field::from_shape_fn(shape, |(i, j)| if i % every == 0 { (i * j % 7) as f64 } else { 0.0 });
+    let pressure =
+        Field::from_shape_fn(shape, |(i, j)| if i % every == 0 { (i * j % 7) as f64 } else { 0.0 });
     let mut displacement = operator.grid().zeros();
     bencher.bench_local(|| operator.apply(&pressure, &mut displacement));
 }

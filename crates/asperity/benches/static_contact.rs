@@ -29,7 +29,8 @@ fn rough(side: usize) -> Field {
     let wave = |i: usize, j: usize, k: usize| {
         let (s, c) = (2.4 * k as f64).sin_cos();
         let turns = (1 << (k / 6)) as f64 / side as f64;
-        (std::f64::consts::TAU * turns * (c * i as f64 + s * j as f64) + (k * k) as f64).sin() / turns.powf(0.8)
+        (std::f64::consts::TAU * turns * (c * i as f64 + s * j as f64) + (k * k) as f64).sin()
+            / turns.powf(0.8)
     };
     let waves = 6 * (side.ilog2() as usize - 3);
     Field::from_shape_fn([side, side], |(i, j)| 0.1 * (0..waves).map(|k| wave(i, j, k)).sum::<f64>())

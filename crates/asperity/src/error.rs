@@ -124,11 +124,45 @@ pub enum Error {
         /// The mean undeformed gap, the limit of the approach.
         mean_gap: Metre,
     },
+    /// No approach gives the load wanted as the mean over a pass.
+    #[error(
+        "no approach found for the pass-mean load {load:.6e} N in {trials} trials (last approach {approach:.9e} m)"
+    )]
+    LoadNotReached {
+        /// The pass-mean load asked for.
+        load: Newton,
+        /// Approaches tried.
+        trials: usize,
+        /// The last of them.
+        approach: Metre,
+    },
     /// The caller asked for the computation to stop.
     #[error("interrupted")]
     Interrupted,
 
     // ---- results -----------------------------------------------------------------------------------------
+    /// A directory that is to take results is not empty.
+    #[error("{path} {}", if *results { "already holds results" } else { "is not empty, and holds no results of asperity" })]
+    ResultsExist {
+        /// The directory.
+        path: PathBuf,
+        /// Whether it holds results of this program.
+        results: bool,
+    },
+    /// Results that are to be resumed belong to another case.
+    #[error(
+        "{path} holds the results of another case (its case.json differs in more than the number of passes)"
+    )]
+    OtherCase {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A directory without results.
+    #[error("{path} holds no results of asperity (there is no case.json)")]
+    NoResults {
+        /// The directory.
+        path: PathBuf,
+    },
     /// A file could not be read or written.
     #[error("{path}: {source}")]
     File {

@@ -24,6 +24,7 @@ pub mod kernel;
 pub mod operator;
 pub mod solver;
 pub mod motion;
+pub mod verification;
 pub mod io;
 
 pub use error::{Error, Result};

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::motion::{PassRecord, StepRecord};
 
 /// Columns of `steps.csv`.
-pub const STEP_COLUMNS: [&str; 12] = [
+pub const STEP_COLUMNS: [&str; 13] = [
     "pass",
     "step",
     "offset",
@@ -24,6 +24,7 @@ pub const STEP_COLUMNS: [&str; 12] = [
     "contact_area",
     "max_pressure",
     "plastic_cells",
+    "plastic_volume",
     "iterations",
     "convolutions",
     "residual",
@@ -114,6 +115,7 @@ mod tests {
             contact_area: 1e-300,
             max_pressure: 4e9,
             plastic_cells: 0,
+            plastic_volume: 0.0,
             iterations: 12,
             convolutions: 13.25,
             residual: f64::NAN,
@@ -155,6 +157,7 @@ mod tests {
         }
         write_steps(&path, &[]).unwrap();
         let header = "pass,step,offset,overlap_columns,approach,load,contact_area,max_pressure,plastic_cells,\
+                      plastic_volume,\
                       iterations,convolutions,residual\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
         assert_eq!(read_steps(&path).unwrap(), []);

@@ -1,8 +1,21 @@
 //! Two bodies in relative motion: positions, passes, the pair's geometry and its plastic change.
 
-pub mod record;
+mod approach;
+mod contact;
+mod pair;
+mod pass;
+mod path;
+mod plastic;
+mod record;
+mod simulation;
+mod watch;
 
+pub use contact::{Contact, press};
+pub use pair::Pair;
+pub use path::{Position, overlap_positions, shift_positions};
 pub use record::{PassRecord, StaticRecord, StepRecord};
+pub use simulation::Simulation;
+pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::units::{Metre, MetrePerSecond, Newton};
 

@@ -56,6 +56,8 @@ pub struct StepRecord {
     pub max_pressure: Pascal,
     /// Number of cells at the hardness.
     pub plastic_cells: usize,
+    /// ΔA Σ w, w the interference left at the cells at the hardness.
+    pub plastic_volume: CubicMetre,
     /// Iterations of the solver at the last approach tried.
     pub iterations: usize,
     /// Convolutions over all approaches tried.

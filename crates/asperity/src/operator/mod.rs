@@ -1,10 +1,12 @@
 //! Operators: pressure in, displacement out.
 
 mod direct_sum;
+mod family;
 mod free_fft;
 mod periodic_fft;
 
 pub use direct_sum::DirectSum;
+pub use family::{Boundary, Operators};
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::PeriodicFft;
 

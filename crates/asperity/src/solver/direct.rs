@@ -221,8 +221,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                 high = approach;
             }
             let newton = approach - excess / answer.slope;
-            if excess.abs() <= 1e-13 * wanted || high - low <= 4.0 * f64::EPSILON * high.abs().max(low.abs())
-            {
+            let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * high.abs().max(low.abs());
+            if excess.abs() <= 1e-13 * wanted || exhausted {
                 return Ok((answer, approach));
             }
             approach = if answer.slope > 0.0 && low < newton && newton < high {

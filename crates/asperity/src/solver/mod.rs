@@ -152,6 +152,17 @@ impl Problem<'_> {
             Control::Approach(_) => None,
         }
     }
+
+    /// The residual does not see the load.
+    fn check_load(&self, solution: &Solution) -> Result<()> {
+        let Some(wanted) = self.pressure_sum() else { return Ok(()) };
+        let error = (solution.pressure.sum() / wanted - 1.0).abs();
+        if error <= LOAD_TOLERANCE {
+            return Ok(());
+        }
+        let iterations = solution.stats.iterations;
+        Err(Error::NotConverged { iterations, residual: error, tolerance: LOAD_TOLERANCE })
+    }
 }
 
 /// Solves the frictionless contact of a half-space pair: 0 ≤ p ≤ H,
@@ -192,7 +203,7 @@ pub fn solve_normal(
     if let Some(solution) = no_contact(&problem) {
         return Ok(solution);
     }
-    match params.method {
+    let solution = match params.method {
         Method::Direct => direct::solve(operator, &problem, start, params),
         Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
         Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
@@ -202,7 +213,9 @@ pub fn solve_normal(
             }
             None => cascade::solve(operator, &problem, params),
         },
-    }
+    }?;
+    problem.check_load(&solution)?;
+    Ok(solution)
 }
 
 /// Displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
@@ -213,6 +226,9 @@ fn self_influence(operator: &dyn Operator) -> f64 {
         _ => normal_displacement(0.0, 0.0, operator.grid().pitch, operator.modulus()),
     }
 }
+
+/// Relative error of the load at which an answer is accepted.
+const LOAD_TOLERANCE: f64 = 1e-10;
 
 /// Grids of up to so many cells are solved directly by [`Method::Auto`].
 const DIRECT_CELLS: usize = 400;

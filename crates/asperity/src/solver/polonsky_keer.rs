@@ -77,7 +77,8 @@ pub(super) fn solve(
         }
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
-        let step = slope / curvature;
+        // A single free cell under load cannot move, but the cells at the bounds can.
+        let step = if curvature > 0.0 { slope / curvature } else { 1.0 / problem.self_influence };
         let mut reentered = false;
         ndarray::Zip::from(&mut pressure).and(&direction).and(&gap).for_each(|p, t, g| {
             *p = (*p - step * t).clamp(0.0, hardness);

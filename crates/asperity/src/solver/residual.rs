@@ -47,8 +47,9 @@ pub fn residual(
     let mean = sum / cells;
     let deviation = (displacement.iter().map(|u| (u - mean) * (u - mean)).sum::<f64>() / cells).sqrt();
     let local = self_influence * max_pressure;
-    let scale = if deviation > 1e-12 * local { deviation } else { local };
-    let eta = if largest == 0.0 { 0.0 } else { largest / scale };
+    let scale = if deviation <= 1e-12 * local { local } else { deviation };
+    // What is not a number is no answer, though a maximum would pass over it.
+    let eta = if largest == 0.0 && !deviation.is_nan() { 0.0 } else { largest / scale };
     Residual { eta, approach, scale }
 }
 

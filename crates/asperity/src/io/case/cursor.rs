@@ -199,7 +199,10 @@ impl<'a> Entry<'a> {
 
     /// A quantity above 0, or infinity, whose meaning is `infinite`.
     pub(super) fn positive_or_infinite(&self, dimension: Dimension, infinite: &str) -> Result<f64> {
-        let value = self.any_quantity(dimension)?;
+        let value = match self.value.as_str() {
+            Some("inf") => f64::INFINITY,
+            _ => self.any_quantity(dimension)?,
+        };
         if value > 0.0 {
             return Ok(value);
         }

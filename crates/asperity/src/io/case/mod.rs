@@ -13,10 +13,12 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 use self::document::Document;
-pub use self::source::{Amplitude, Axis, Fill, Form, Generate, Level, Source, TopographySpec};
+pub use self::source::{Source, TopographySpec};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
+pub use crate::operator::Boundary;
+pub use crate::solver::Method;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
 /// A case, resolved to SI.
@@ -87,30 +89,6 @@ pub enum Prescribed {
     MeanPressure(Pascal),
     /// From the heights as prepared; of any sign.
     Approach(Metre),
-}
-
-/// At the rim of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Boundary {
-    /// Half-space, loaded on the grid alone.
-    Free,
-    /// The grid repeats itself.
-    Periodic,
-}
-
-/// The solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// The one that suits the size.
-    Auto,
-    /// Dense quadratic programme.
-    Direct,
-    /// The conjugate gradients of Polonsky and Keer.
-    PolonskyKeer,
-    /// Preconditioned conjugate gradients on an active set.
-    ActiveSet,
 }
 
 /// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
@@ -207,26 +185,32 @@ impl Case {
     }
 }
 
-/// JSON has no infinities: they are written as the case file writes them.
+/// A number of the case as it is written out: JSON has no infinities, the case file has `inf`.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Number {
+    Finite(f64),
+    Infinite(&'static str),
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        if value.is_finite() { Self::Finite(value) } else { Self::Infinite("inf") }
+    }
+}
+
 fn with_infinities<S: Serializer>(
     material: &Material,
     serializer: S,
 ) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    #[serde(untagged)]
-    enum Number {
-        Finite(f64),
-        Infinite(&'static str),
-    }
     #[derive(Serialize)]
     struct Keys {
         young: Number,
         poisson: f64,
         hardness: Number,
     }
-    let number = |value: f64| if value.is_finite() { Number::Finite(value) } else { Number::Infinite("inf") };
     let Material { young, poisson, hardness } = *material;
-    Keys { young: number(young), poisson, hardness: number(hardness) }.serialize(serializer)
+    Keys { young: young.into(), poisson, hardness: hardness.into() }.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

@@ -5,12 +5,13 @@ use std::path::Path;
 use super::cursor::{Entry, Table};
 use super::document::{Document, join};
 use super::{
-    Amplitude, Axis, Body, Boundary, Case, Contact, ControlKind, Fill, Form, Generate, Level, Method,
-    MotionSpec, Mount, Output, Prescribed, Source, TopographySpec,
+    Body, Boundary, Case, Contact, ControlKind, Method, MotionSpec, Mount, Output, Prescribed, Source,
+    TopographySpec,
 };
 use crate::error::Result;
 use crate::material::{self, Material};
 use crate::motion::{PlasticUpdate, Strategy};
+use crate::surface::{Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine};
 use crate::units::Dimension;
 
 /// The keys of each table, to tell where a misplaced one belongs.
@@ -54,6 +55,8 @@ const SOURCES: [(&str, &[&str]); 9] = [
 const PREPARATION: [&str; 4] = ["pitch", "level", "resample", "window"];
 
 const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
+
+const LENGTHS: &str = "a length above 0 such as \"0.25 um\", or two";
 
 /// Beyond this no field fits into memory.
 const MOST_CELLS: usize = 1 << 32;
@@ -176,14 +179,14 @@ fn generate(table: &Table<'_>) -> Result<Source> {
     let sq = || table.required("sq", "\"0.2 um\"")?.positive(Dimension::Length);
     let optional = |key| table.get(key).map(|entry| entry.positive(Dimension::Length)).transpose();
     let generate = match kind {
-        Kind::LowPass => Generate::LowPass {
+        Kind::LowPass => Generator::LowPass(LowPass {
             sq: sq()?,
-            cutoff: table.required("cutoff", "\"8 um\"")?.positive(Dimension::Length)?,
-        },
-        Kind::Autocorrelation => Generate::Autocorrelation {
+            cutoff: lengths(&table.required("cutoff", "\"8 um\"")?)?,
+        }),
+        Kind::Autocorrelation => Generator::Autocorrelation(Autocorrelation {
             sq: sq()?,
             correlation_length: lengths(&table.required("correlation_length", "\"8 um\"")?)?,
-        },
+        }),
         Kind::SelfAffine => {
             let amplitude = match table.exactly_one(
                 &["sq", "sdq"],
@@ -205,7 +208,7 @@ fn generate(table: &Table<'_>) -> Result<Source> {
             {
                 return Err(entry.unexpected("a wavelength below that of 'rolloff'", None));
             }
-            Generate::SelfAffine { amplitude, hurst, rolloff, shortest }
+            Generator::SelfAffine(SelfAffine { hurst, rolloff, shortest, amplitude })
         }
     };
     let seed = table.get("seed").map(|entry| entry.whole(0)).transpose()?.unwrap_or(0);
@@ -238,7 +241,7 @@ fn form(table: &Table<'_>) -> Result<Source> {
             radius: radius()?,
             axis: match table.get("axis") {
                 Some(entry) => entry.choice(&[("x", Axis::X), ("y", Axis::Y)])?,
-                None => Axis::Y,
+                None => Axis::default(),
             },
         },
         Kind::Cone => {
@@ -253,7 +256,9 @@ fn form(table: &Table<'_>) -> Result<Source> {
         Kind::Flat => Form::Flat,
         Kind::Sinusoid => Form::Sinusoid {
             amplitude: table.required("amplitude", "\"0.1 um\"")?.positive(Dimension::Length)?,
-            wavelength: lengths(&table.required("wavelength", "\"64 um\"")?)?,
+            wavelength: table.required("wavelength", "\"64 um\"")?.pair(LENGTHS, |item| {
+                item.positive_or_infinite(Dimension::Length, "no variation in that direction")
+            })?,
         },
     };
     Ok(Source::Form { form, shape: shape(&table.required("shape", "[256, 256]")?)? })
@@ -419,7 +424,7 @@ fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
 }
 
 fn lengths(entry: &Entry<'_>) -> Result<[f64; 2]> {
-    entry.pair("a length above 0 such as \"0.25 um\", or two", |item| item.positive(Dimension::Length))
+    entry.pair(LENGTHS, |item| item.positive(Dimension::Length))
 }
 
 fn choice_or<T: Copy>(table: &Table<'_>, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
+use super::Number;
+use crate::surface::{Fill, Form, Generator, Level};
 use crate::units::Metre;
 
 /// A topography as the case file describes it.
@@ -47,7 +49,7 @@ pub enum Source {
     Generate {
         /// The method, with its parameters.
         #[serde(flatten)]
-        generate: Generate,
+        generate: Generator,
         /// Number of cells along x and y.
         shape: [usize; 2],
         /// Same seed, same heights.
@@ -56,123 +58,24 @@ pub enum Source {
     /// A smooth body; its `pitch` is in [`TopographySpec::pitch`].
     Form {
         /// The form, with its parameters.
-        #[serde(flatten)]
+        #[serde(flatten, serialize_with = "with_infinities")]
         form: Form,
         /// Number of cells along x and y.
         shape: [usize; 2],
     },
 }
 
-/// What is subtracted from the heights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Level {
-    /// Nothing.
-    #[default]
-    None,
-    /// The mean height.
-    Mean,
-    /// The least-squares plane.
-    Plane,
-    /// The least-squares polynomial of second order.
-    Quadratic,
-}
-
-/// What becomes of missing heights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fill {
-    /// They are an error.
-    #[default]
-    None,
-    /// They take the nearest height.
-    Nearest,
-    /// They are interpolated harmonically from the rim of the hole.
-    Harmonic,
-}
-
-/// A method of making a random topography.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "generate", rename_all = "kebab-case")]
-pub enum Generate {
-    /// White noise below a cut-off wavelength.
-    LowPass {
-        /// Rms height, > 0.
-        sq: Metre,
-        /// The shortest wavelength, > 0.
-        cutoff: Metre,
-    },
-    /// A prescribed exponential autocorrelation.
-    Autocorrelation {
-        /// Rms height, > 0.
-        sq: Metre,
-        /// Correlation length along x and y, > 0.
-        correlation_length: [Metre; 2],
-    },
-    /// A power-law spectrum.
-    SelfAffine {
-        /// Rms height or rms slope.
-        #[serde(flatten)]
-        amplitude: Amplitude,
-        /// Hurst exponent, 0 < H ≤ 1.
-        hurst: f64,
-        /// Wavelength above which the spectrum is flat, > 0.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        rolloff: Option<Metre>,
-        /// The shortest wavelength, > 0.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        shortest: Option<Metre>,
-    },
-}
-
-/// How rough a self-affine topography is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Amplitude {
-    /// Rms height, > 0.
-    Sq(Metre),
-    /// Rms slope, > 0.
-    Sdq(f64),
-}
-
-/// A smooth body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "form", rename_all = "kebab-case")]
-pub enum Form {
-    /// A sphere.
-    Sphere {
-        /// Radius, > 0.
-        radius: Metre,
-    },
-    /// A cylinder.
-    Cylinder {
-        /// Radius, > 0.
-        radius: Metre,
-        /// The direction of its axis.
-        axis: Axis,
-    },
-    /// A cone.
-    Cone {
-        /// Between its flank and the plane, in radians, 0 < angle < π/2.
-        angle: f64,
-    },
-    /// A plane.
-    Flat,
-    /// A sinusoid along x and y.
-    Sinusoid {
-        /// From mean to crest, > 0.
+fn with_infinities<S: Serializer>(form: &Form, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(tag = "form", rename = "sinusoid")]
+    struct Keys {
         amplitude: Metre,
-        /// Wavelength along x and y, > 0.
-        wavelength: [Metre; 2],
-    },
-}
-
-/// A direction of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Axis {
-    /// The direction of motion.
-    X,
-    /// Across the motion.
-    Y,
+        wavelength: [Number; 2],
+    }
+    match *form {
+        Form::Sinusoid { amplitude, wavelength } => {
+            Keys { amplitude, wavelength: wavelength.map(Number::from) }.serialize(serializer)
+        }
+        form => form.serialize(serializer),
+    }
 }

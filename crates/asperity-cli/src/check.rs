@@ -1,0 +1,142 @@
+//! `asperity check`.
+
+use std::fmt::Write as _;
+
+use asperity::io::case::{Boundary, Case, Method};
+use asperity::io::outlook::{Outlook, outlook};
+use asperity::io::prepare::{Bodies, Prepared, bodies};
+use asperity::motion::{Control, PlasticUpdate, Strategy};
+use asperity::units::{self, Dimension};
+
+use crate::args::Check;
+use crate::report::{Outcome, note, print};
+
+pub(crate) fn check(arguments: &Check) -> Outcome {
+    let case = Case::load(&arguments.case)?;
+    let bodies = bodies(&case)?;
+    let outlook = outlook(&case, &bodies)?;
+    print(&text(&case, &bodies, &outlook));
+    for warning in &outlook.warnings {
+        note(&format!("warning: {warning}"));
+    }
+    Ok(())
+}
+
+fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
+    let rows = [
+        ("lower", body(&bodies.lower)),
+        ("upper", body(&bodies.upper)),
+        ("pair", pair(outlook)),
+        ("contact", contact(case, outlook)),
+        ("motion", motion(case, outlook)),
+        ("memory", memory(outlook)),
+    ];
+    let mut page = format!("{}\n\n", case.title);
+    for (name, value) in rows {
+        let _ = writeln!(page, "{name:<8} {value}");
+    }
+    page
+}
+
+fn body(body: &Prepared) -> String {
+    let (grid, parameters) = (body.topography.grid(), body.topography.parameters());
+    let length = |value| units::format(value, Dimension::Length);
+    let ([nx, ny], [dx, dy], [lx, ly]) = (grid.shape, grid.pitch, grid.extent());
+    let mut text = format!(
+        "{nx} × {ny} cells of {} × {}, {} × {}; Sq {}, Sdq {:.4}",
+        length(dx),
+        length(dy),
+        length(lx),
+        length(ly),
+        length(parameters.sq),
+        parameters.sdq
+    );
+    if let Some(origin) = &body.origin {
+        let [sx, sy] = origin.shape;
+        let _ = write!(text, "; {} `{}`, {sx} × {sy} samples", origin.format, origin.channel);
+        if origin.undefined > 0 {
+            let _ = write!(text, ", {} filled", origin.undefined);
+        }
+    }
+    text
+}
+
+fn pair(outlook: &Outlook) -> String {
+    let pressure = |value| units::format(value, Dimension::Pressure);
+    let modulus = format!("E* {}", pressure(outlook.modulus));
+    if outlook.hardness.is_infinite() {
+        return format!("{modulus}, elastic");
+    }
+    let who = match outlook.lower_share {
+        1.0 => "the lower body deforms",
+        0.0 => "the upper body deforms",
+        _ => "both deform alike",
+    };
+    format!("{modulus}, pressure up to {}; {who} plastically", pressure(outlook.hardness))
+}
+
+fn contact(case: &Case, outlook: &Outlook) -> String {
+    let force = |value| units::format(value, Dimension::Force);
+    let control = match outlook.control {
+        Control::PassLoad(load) => format!("mean load {} over a pass", force(load)),
+        Control::StepLoad(load) if case.motion.is_some() => format!("load {} at each position", force(load)),
+        Control::StepLoad(load) => format!("load {}", force(load)),
+        Control::Approach(approach) => format!("approach {}", units::format(approach, Dimension::Length)),
+    };
+    let boundary = match case.contact.boundary {
+        Boundary::Free => "free boundary",
+        Boundary::Periodic => "periodic boundary",
+    };
+    let method = match case.contact.method {
+        Method::Auto => "auto",
+        Method::Direct => "direct",
+        Method::PolonskyKeer => "polonsky-keer",
+        Method::ActiveSet => "active-set",
+    };
+    let mut text = control;
+    if let (Control::PassLoad(load) | Control::StepLoad(load), true) =
+        (outlook.control, outlook.plastic_limit.is_finite())
+    {
+        let share = 100.0 * load / outlook.plastic_limit;
+        let _ = write!(text, " ({share:.1} % of the plastic limit {})", force(outlook.plastic_limit));
+    }
+    let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);
+    text
+}
+
+fn motion(case: &Case, outlook: &Outlook) -> String {
+    let Some(motion) = case.motion else { return "none: one static contact".to_owned() };
+    let strategy = match motion.strategy {
+        Strategy::Overlap => "overlap",
+        Strategy::Shift { .. } => "shift",
+    };
+    let update = match motion.plastic_update {
+        PlasticUpdate::Pass => "after each pass",
+        PlasticUpdate::Step => "at each position",
+    };
+    let plural =
+        |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+    let mut text = format!(
+        "{strategy}, {} of {}, stride {}",
+        plural(outlook.passes, "pass", "passes"),
+        plural(outlook.positions, "position", "positions"),
+        plural(motion.stride, "cell", "cells")
+    );
+    if outlook.hardness.is_finite() {
+        let _ = write!(text, ", plastic deformation {update}");
+    }
+    text
+}
+
+fn memory(outlook: &Outlook) -> String {
+    let [solver, results] = outlook.memory.map(bytes);
+    format!("about {solver} for each thread, {results} of results")
+}
+
+fn bytes(count: f64) -> String {
+    match count {
+        count if count < 1e6 => format!("{:.0} kB", count / 1e3),
+        count if count < 1e9 => format!("{:.0} MB", count / 1e6),
+        count => format!("{:.1} GB", count / 1e9),
+    }
+}

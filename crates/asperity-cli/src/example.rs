@@ -1,0 +1,95 @@
+//! `asperity example`: cases to start from, part of the program.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::io::atomic;
+
+use crate::args::Example;
+use crate::report::{Failure, Outcome, note, print};
+
+/// A case with its data.
+struct Kit {
+    name: &'static str,
+    about: &'static str,
+    files: &'static [(&'static str, &'static [u8])],
+}
+
+const KITS: [Kit; 4] = [
+    Kit {
+        name: "quickstart",
+        about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
+        files: &[("case.toml", include_bytes!("../examples/quickstart/case.toml"))],
+    },
+    Kit {
+        name: "hertz",
+        about: "a ball on a plane, at rest: compare with Hertz",
+        files: &[("case.toml", include_bytes!("../examples/hertz/case.toml"))],
+    },
+    Kit {
+        name: "measured",
+        about: "a ground disc from an x3p file with missing heights, against a polished plate",
+        files: &[
+            ("case.toml", include_bytes!("../examples/measured/case.toml")),
+            ("disc.x3p", include_bytes!("../examples/measured/disc.x3p")),
+            ("README.md", include_bytes!("../examples/measured/README.md")),
+        ],
+    },
+    Kit {
+        name: "paper",
+        about: "the paper's problem: 100 × 100 cells, every position of 3 passes",
+        files: &[("case.toml", include_bytes!("../examples/paper/case.toml"))],
+    },
+];
+
+pub(crate) fn example(arguments: &Example) -> Outcome {
+    let Some(name) = &arguments.name else {
+        print(&list());
+        return Ok(());
+    };
+    let kit = kit(name)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from(kit.name));
+    if folder.exists() {
+        let message = format!("`{}` exists", folder.display());
+        return Err(Failure::usage(message, Some("name another folder with --out")));
+    }
+    let paths = write(kit, &folder)?;
+    print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
+    note(&format!("next: asperity run {}", folder.join("case.toml").display()));
+    Ok(())
+}
+
+/// Writes the example `name` into `folder`, over what is there of it, and returns the path of its case file.
+pub(crate) fn unpack(name: &str, folder: &Path) -> Outcome<PathBuf> {
+    write(kit(name)?, folder)?;
+    Ok(folder.join("case.toml"))
+}
+
+fn kit(name: &str) -> Outcome<&'static Kit> {
+    KITS.iter().find(|kit| kit.name == name).ok_or_else(|| {
+        let names: Vec<_> = KITS.iter().map(|kit| format!("`{}`", kit.name)).collect();
+        let hint = format!("there are {}", names.join(", "));
+        Failure::usage(format!("no example `{name}`"), Some(&hint))
+    })
+}
+
+fn list() -> String {
+    KITS.iter().fold(String::new(), |mut list, kit| {
+        let _ = writeln!(list, "{:<12} {}", kit.name, kit.about);
+        list
+    })
+}
+
+fn write(kit: &Kit, folder: &Path) -> Outcome<Vec<PathBuf>> {
+    fs::create_dir_all(folder).map_err(|source| Error::File { path: folder.to_owned(), source })?;
+    kit.files
+        .iter()
+        .map(|(name, content)| {
+            let path = folder.join(name);
+            atomic::write(&path, content)?;
+            Ok(path)
+        })
+        .collect()
+}

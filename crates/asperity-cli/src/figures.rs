@@ -1,0 +1,287 @@
+//! The figures of a results directory, drawn from what it holds and from nothing else.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use asperity::io::fields::Fields;
+use asperity::io::results::{Results, pressure_name};
+use asperity::motion::{PassRecord, StepRecord};
+use asperity::{Field, Grid};
+
+use crate::draw::{
+    self, Animation, Axis, Colours, Frame, LineFigure, MapFigure, Mark, Quantity, Series, Unit,
+};
+use crate::report::{Failure, Outcome};
+
+/// Pressure maps on one sheet.
+const SHEET: usize = 6;
+
+/// Draws all figures of `results` into its folder `figures` and returns their paths.
+pub(crate) fn draw(results: &Results) -> Outcome<Vec<PathBuf>> {
+    let folder = results.directory().join("figures");
+    std::fs::create_dir_all(&folder)
+        .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
+    let mut sheet = Sheet { folder, drawn: Vec::new() };
+    let passes = results.passes()?;
+    if passes.is_empty() {
+        static_contact(results, &mut sheet)?;
+    } else {
+        motion(results, &passes, &mut sheet)?;
+    }
+    Ok(sheet.drawn)
+}
+
+/// Where figures go, and which there are.
+struct Sheet {
+    folder: PathBuf,
+    drawn: Vec<PathBuf>,
+}
+
+impl Sheet {
+    fn add(
+        &mut self,
+        name: &str,
+        figure: impl FnOnce(&Path) -> Result<(), draw::Error>,
+    ) -> Result<(), draw::Error> {
+        let path = self.folder.join(name);
+        figure(&path)?;
+        self.drawn.push(path);
+        Ok(())
+    }
+}
+
+/// A field as stored, with the grid that it lies on.
+struct Stored {
+    field: Field,
+    grid: Grid,
+    /// Distance of its corner from the lower body's, in columns.
+    column: usize,
+}
+
+impl Stored {
+    fn read(fields: &Fields, name: &str) -> Outcome<Self> {
+        let stored = fields.read(name)?;
+        let pitch = [stored.pitch[0], stored.pitch[1]];
+        let column = (stored.origin[0] / pitch[0] - 0.5).round().max(0.0) as usize;
+        let field =
+            stored.into_field().ok_or_else(|| Failure::usage(format!("`{name}` is not a field"), None))?;
+        let grid = Grid::new([field.nrows(), field.ncols()], pitch)?;
+        Ok(Self { field, grid, column })
+    }
+
+    fn map(&self, title: impl Into<String>, name: &str, unit: Unit, colours: Colours) -> MapFigure<'_> {
+        MapFigure {
+            title: title.into(),
+            field: &self.field,
+            grid: &self.grid,
+            quantity: Quantity::new(name, unit),
+            colours,
+            range: None,
+        }
+    }
+
+    fn pressure(&self, title: impl Into<String>) -> MapFigure<'_> {
+        self.map(title, "pressure", Unit::Pressure, Colours::Pressure)
+    }
+
+    fn heights(&self, title: impl Into<String>) -> MapFigure<'_> {
+        self.map(title, "height", Unit::Length, Colours::Heights)
+    }
+}
+
+fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
+    let fields = results.static_fields()?;
+    let read = |name| Stored::read(&fields, name);
+    let (lower, upper, pressure) = (read("lower")?, read("upper")?, read("pressure")?);
+    let (gap, plastic) = (read("gap")?, read("plastic")?);
+    let hardness = hardness(&fields)?;
+    let bodies = [lower.heights("lower body"), upper.heights("upper body, underside")];
+    sheet.add("topographies.png", |path| draw::maps(path, &bodies, 2))?;
+    sheet.add("pressure.png", |path| draw::map(path, &pressure.pressure("pressure")))?;
+    let contact = pressure.map("contact", "pressure", Unit::Pressure, Colours::Contact { hardness });
+    sheet.add("contact.png", |path| draw::map(path, &contact))?;
+    let gap = gap.map("deformed gap", "gap", Unit::Length, Colours::Heights);
+    sheet.add("gap.png", |path| draw::map(path, &gap))?;
+    if hardness.is_finite() {
+        let plastic = plastic.map("plastic interference", "depth", Unit::Length, Colours::Pressure);
+        sheet.add("plastic.png", |path| draw::map(path, &plastic))?;
+    }
+    Ok(())
+}
+
+fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome {
+    let steps = results.steps()?;
+    let first = results.fields_after(0)?;
+    let last = results.fields_after(passes.len())?;
+    let before = [Stored::read(&first, "lower")?, Stored::read(&first, "upper")?];
+    let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
+    let hardness = hardness(&last)?;
+
+    let bodies = [
+        before[0].heights("lower body, before"),
+        before[1].heights("upper body (underside), before"),
+        after[0].heights(format!("lower body, after pass {}", passes.len())),
+        after[1].heights(format!("upper body (underside), after pass {}", passes.len())),
+    ];
+    sheet.add("topographies.png", |path| draw::maps(path, &bodies, 2))?;
+    let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
+    let means =
+        [mean[0].pressure("mean pressure, lower body"), mean[1].pressure("mean pressure, upper body")];
+    sheet.add("mean_pressure.png", |path| draw::maps(path, &means, 2))?;
+    if hardness.is_finite() {
+        plastic_depth(&before, &after, sheet)?;
+    }
+    pressures(&last, &steps, passes.len(), before[0].grid, hardness, sheet)?;
+    sheet.add("load.png", |path| draw::lines(path, &over_positions(&steps, passes.len(), "load")))?;
+    sheet.add("contact_area.png", |path| {
+        draw::lines(path, &over_positions(&steps, passes.len(), "real contact area"))
+    })?;
+    let roughness = roughness_over_passes(passes, &before);
+    sheet.add("roughness.png", |path| draw::lines(path, &roughness))?;
+    sheet.add("approach.png", |path| draw::lines(path, &approach_over_passes(passes)))?;
+    Ok(())
+}
+
+/// How deep each body has been flattened since the beginning.
+fn plastic_depth(before: &[Stored; 2], after: &[Stored; 2], sheet: &mut Sheet) -> Result<(), draw::Error> {
+    let depth = |field, body: usize| Stored { field, grid: before[body].grid, column: 0 };
+    let lower = depth(&before[0].field - &after[0].field, 0);
+    let upper = depth(&after[1].field - &before[1].field, 1);
+    let maps = [
+        lower.map("plastic deformation, lower body", "depth", Unit::Length, Colours::Pressure),
+        upper.map("plastic deformation, upper body", "depth", Unit::Length, Colours::Pressure),
+    ];
+    sheet.add("plastic.png", |path| draw::maps(path, &maps, 2))
+}
+
+/// Maps and an animation of the pressures that were kept of the last pass.
+fn pressures(
+    fields: &Fields,
+    steps: &[StepRecord],
+    pass: usize,
+    lower: Grid,
+    hardness: f64,
+    sheet: &mut Sheet,
+) -> Outcome {
+    let names = fields.names()?;
+    let kept: Vec<&StepRecord> =
+        steps.iter().filter(|s| s.pass == pass && names.contains(&pressure_name(s.step))).collect();
+    if kept.is_empty() {
+        return Ok(());
+    }
+    let pressure = |step: &StepRecord| Stored::read(fields, &pressure_name(step.step));
+    let range = [0.0, kept.iter().map(|s| s.max_pressure).fold(f64::MIN_POSITIVE, f64::max)];
+    let shown: Vec<(String, Stored)> = (0..SHEET.min(kept.len()))
+        .map(|k| {
+            // The middles of equal parts of the pass: its very ends show next to nothing.
+            let step = kept[(2 * k + 1) * kept.len() / (2 * SHEET.min(kept.len()))];
+            let stored = pressure(step)?;
+            let field = in_frame_of(&stored.field, stored.column, lower);
+            let title = format!(
+                "position {}: {}",
+                step.step,
+                asperity::units::format(step.load, asperity::units::Dimension::Force,)
+            );
+            Ok((title, Stored { field, grid: lower, column: 0 }))
+        })
+        .collect::<Outcome<_>>()?;
+    let maps: Vec<MapFigure> = shown
+        .iter()
+        .map(|(title, stored)| MapFigure { range: Some(range), ..stored.pressure(title) })
+        .collect();
+    sheet.add("pressure.png", |path| draw::maps(path, &maps, 3))?;
+    let contacts: Vec<MapFigure> = shown
+        .iter()
+        .map(|(title, stored)| stored.map(title, "pressure", Unit::Pressure, Colours::Contact { hardness }))
+        .collect();
+    sheet.add("contact.png", |path| draw::maps(path, &contacts, 3))?;
+    let frames: Vec<(String, Stored)> = kept
+        .iter()
+        .map(|step| Ok((format!("pass {pass}, position {}", step.step), pressure(step)?)))
+        .collect::<Outcome<_>>()?;
+    let animation = Animation {
+        grid: &lower,
+        quantity: Quantity::new("pressure", Unit::Pressure),
+        colours: Colours::Pressure,
+        range,
+        delay: 12,
+    };
+    let frames = frames.iter().map(|(title, stored)| Frame {
+        title: title.clone(),
+        field: Cow::Borrowed(&stored.field),
+        offset: stored.column,
+    });
+    sheet.add("pressure.gif", |path| draw::animation(path, &animation, frames))?;
+    Ok(())
+}
+
+/// A field whose first column is the lower body's `first`, on that body's grid; what does not face the upper body is
+/// undefined.
+pub(crate) fn in_frame_of(field: &Field, first: usize, grid: Grid) -> Field {
+    let mut framed = Field::from_elem(grid.shape, f64::NAN);
+    for (column, values) in field.outer_iter().enumerate() {
+        framed.row_mut((first + column) % grid.shape[0]).assign(&values);
+    }
+    framed
+}
+
+/// A quantity of the positions in the first, a middle and the last pass.
+fn over_positions(steps: &[StepRecord], passes: usize, quantity: &str) -> LineFigure {
+    let (unit, value): (Unit, fn(&StepRecord) -> f64) = match quantity {
+        "load" => (Unit::Force, |s| s.load),
+        _ => (Unit::Area, |s| s.contact_area),
+    };
+    let mut shown = vec![1, passes.div_ceil(2), passes];
+    shown.dedup();
+    let series = shown.into_iter().map(|pass| {
+        let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
+        Series::new(format!("pass {pass}"), points, Mark::Line)
+    });
+    LineFigure {
+        title: format!("{quantity} over the positions"),
+        x: Axis::linear("offset of the upper body", Unit::Length),
+        y: Axis::linear(quantity, unit),
+        right: None,
+        series: series.collect(),
+    }
+}
+
+fn roughness_over_passes(passes: &[PassRecord], before: &[Stored; 2]) -> LineFigure {
+    let points = |body: usize, value: fn(&PassRecord) -> f64| {
+        let first = [0.0, before[body].field.std(0.0)];
+        std::iter::once(first).chain(passes.iter().map(|p| [p.pass as f64, value(p)])).collect()
+    };
+    LineFigure {
+        title: "roughness over the passes".to_owned(),
+        x: Axis::linear("pass", Unit::Number),
+        y: Axis::linear("Sq", Unit::Length),
+        right: None,
+        series: vec![
+            Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
+            Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
+        ],
+    }
+}
+
+fn approach_over_passes(passes: &[PassRecord]) -> LineFigure {
+    let points = |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [p.pass as f64, value(p)]).collect();
+    LineFigure {
+        title: "approach and plastic volume over the passes".to_owned(),
+        x: Axis::linear("pass", Unit::Number),
+        y: Axis::linear("approach", Unit::Length),
+        right: Some(Axis::linear("plastic volume in the pass", Unit::Volume)),
+        series: vec![
+            Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
+            Series::new("lower body", points(|p| p.plastic_volume_lower), Mark::LineAndPoints).on_the_right(),
+            Series::new("upper body", points(|p| p.plastic_volume_upper), Mark::LineAndPoints).on_the_right(),
+        ],
+    }
+}
+
+fn hardness(fields: &Fields) -> Outcome<f64> {
+    use asperity::io::fields::Attribute;
+    match fields.attributes()?.get("hardness") {
+        Some(Attribute::Number(hardness)) => Ok(*hardness),
+        _ => Ok(f64::INFINITY),
+    }
+}

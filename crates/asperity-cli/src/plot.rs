@@ -1,0 +1,15 @@
+//! `asperity plot`: the figures of a results directory, drawn again.
+
+use asperity::io::results::Results;
+
+use crate::args::Plot;
+use crate::figures;
+use crate::report::{Outcome, print};
+
+/// Draws the figures and prints their paths.
+pub(crate) fn plot(arguments: &Plot) -> Outcome {
+    for path in figures::draw(&Results::open(&arguments.directory)?)? {
+        print(&format!("{}\n", path.display()));
+    }
+    Ok(())
+}

@@ -1,0 +1,174 @@
+//! `asperity run`: a case from its surfaces to its figures.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use asperity::io::case::Case;
+use asperity::io::engine;
+use asperity::io::results::{Existing, Results};
+use asperity::io::summary::{Outcome, Summary};
+use asperity::motion::{PassRecord, Progress, StaticRecord, Watch};
+use asperity::units::{Dimension, format};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::args::Run;
+use crate::report::{self, note, print};
+use crate::{example, figures};
+
+/// Runs the case, prints a table of its outcome, draws its figures.
+pub(crate) fn run(arguments: &Run) -> report::Outcome {
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
+        pool.expect("the pool is made once");
+    }
+    let (file, directory) = match (&arguments.case, &arguments.example) {
+        (Some(file), _) => (file.clone(), arguments.out.clone().unwrap_or_else(|| beside(file))),
+        (None, Some(name)) => {
+            let directory = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+            (example::unpack(name, &directory.join("case"))?, directory.join("results"))
+        }
+        (None, None) => unreachable!("the parser asks for one of them"),
+    };
+    let case = Case::load(&file)?;
+    let existing = match (arguments.resume, arguments.overwrite) {
+        (true, _) => Existing::Resume,
+        (_, true) => Existing::Overwrite,
+        _ => Existing::Keep,
+    };
+    let display = Display::new(arguments.quiet);
+    let outcome = engine::run(&case, &directory, existing, &display);
+    display.clear();
+    let summary = outcome?;
+    for warning in &summary.warnings {
+        note(&format!("warning: {warning}"));
+    }
+    print(&table(&summary));
+    let results = Results::open(&directory)?;
+    figures::draw(&results)?;
+    note(&format!("results and figures in {}", directory.display()));
+    Ok(())
+}
+
+/// `surfaces/disc.toml` → `surfaces/disc-results`.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push("-results");
+    file.with_file_name(name)
+}
+
+/// The progress bar on stderr, and the ear for Ctrl-C.
+struct Display {
+    bar: ProgressBar,
+    began: Instant,
+    /// When the present pass began.
+    pass: Mutex<(usize, Instant)>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Display {
+    fn new(quiet: bool) -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let heard = Arc::clone(&stop);
+        // A second handler cannot be set, and none is: this is the only one.
+        let _ = ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed));
+        let bar = ProgressBar::with_draw_target(
+            None,
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() },
+        );
+        let style = ProgressStyle::with_template("{bar:32.cyan/dim} {msg}").expect("a valid template");
+        bar.set_style(style);
+        Self { bar, began: Instant::now(), pass: Mutex::new((1, Instant::now())), stop }
+    }
+
+    fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Time left, by the passes done so far; a first pass is taken to need four approaches.
+    fn time_left(&self, progress: &Progress) -> Duration {
+        let mut pass = self.pass.lock().expect("no holder panics");
+        if pass.0 != progress.pass {
+            *pass = (progress.pass, Instant::now());
+        }
+        let done = (progress.pass - 1) as f64;
+        let in_pass = progress.solved as f64 / progress.positions as f64;
+        let trials = 4.0f64.max(progress.trial as f64);
+        let part = done + (progress.trial as f64 - 1.0 + in_pass) / trials;
+        self.began.elapsed().mul_f64((progress.passes as f64 / part.max(1e-3) - 1.0).max(0.0))
+    }
+}
+
+impl Watch for Display {
+    fn at(&self, progress: &Progress) {
+        let Progress { pass, passes, trial, solved, positions, load } = *progress;
+        self.bar.set_length((passes * positions) as u64);
+        self.bar.set_position(((pass - 1) * positions + solved) as u64);
+        let seconds = self.time_left(progress).as_secs();
+        self.bar.set_message(format!(
+            "pass {pass}/{passes}, approach {trial}, position {solved}/{positions}, load {}, {}:{:02} left",
+            format(load, Dimension::Force),
+            seconds / 60,
+            seconds % 60,
+        ));
+    }
+
+    fn stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+fn table(summary: &Summary) -> String {
+    match &summary.outcome {
+        Outcome::Static(record) => static_table(record),
+        Outcome::Passes(passes) => passes_table(passes),
+    }
+}
+
+fn static_table(record: &StaticRecord) -> String {
+    let share = 100.0 * record.contact_area / record.apparent_area;
+    let rows = [
+        ("load", format(record.load, Dimension::Force)),
+        ("approach", format(record.approach, Dimension::Length)),
+        ("contact area", format!("{} ({share:.3} %)", format(record.contact_area, Dimension::Area))),
+        ("largest pressure", format(record.max_pressure, Dimension::Pressure)),
+        ("mean gap", format(record.mean_gap, Dimension::Length)),
+        ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
+        ("plastic cells", record.plastic_cells.to_string()),
+        ("plastic volume", format(record.plastic_volume, Dimension::Volume)),
+        ("residual", format!("{:.1e}", record.residual)),
+        ("convolutions", format!("{:.1}", record.convolutions)),
+    ];
+    rows.map(|(name, value)| format!("{name:<17} {value}\n")).concat()
+}
+
+fn passes_table(passes: &[PassRecord]) -> String {
+    const HEADS: [&str; 8] = [
+        "pass",
+        "approach",
+        "mean load",
+        "mean area",
+        "max pressure",
+        "plastic volume",
+        "Sq lower",
+        "Sq upper",
+    ];
+    let mut text = HEADS.map(|head| format!("{head:>15}")).concat() + "\n";
+    for pass in passes {
+        let plastic = pass.plastic_volume_lower + pass.plastic_volume_upper;
+        let cells = [
+            pass.pass.to_string(),
+            format(pass.approach, Dimension::Length),
+            format(pass.mean_load, Dimension::Force),
+            format(pass.mean_contact_area, Dimension::Area),
+            format(pass.max_pressure, Dimension::Pressure),
+            format(plastic, Dimension::Volume),
+            format(pass.sq_lower, Dimension::Length),
+            format(pass.sq_upper, Dimension::Length),
+        ];
+        text.push_str(&cells.map(|cell| format!("{cell:>15}")).concat());
+        text.push('\n');
+    }
+    text
+}

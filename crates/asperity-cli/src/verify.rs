@@ -1,0 +1,115 @@
+//! `asperity verify`: the closed-form cases, their errors and orders of convergence.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use asperity::Error;
+use asperity::verification::{CASES, Case, Check, Expected};
+
+use crate::report::{Failure, Outcome};
+
+/// Computes all cases and prints each as it is done.
+pub(crate) fn verify() -> Outcome {
+    let Tally { passed, failed } = table(&mut io::stdout().lock(), CASES)
+        .map_err(|source| Error::File { path: PathBuf::from("standard output"), source })?;
+    if failed == 0 { Ok(()) } else { Err(Failure::Checks { failed, all: passed + failed }) }
+}
+
+/// Checks by their verdict.
+struct Tally {
+    passed: usize,
+    failed: usize,
+}
+
+/// Writes the table.
+fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<Tally> {
+    let (mut passed, mut failed) = (0, 0);
+    for case in cases {
+        writeln!(out, "{} — {}", case.name, case.source)?;
+        match (case.checks)() {
+            Ok(checks) => {
+                if let Some(first) = checks.first() {
+                    let sizes: String = first.sizes.iter().map(|n| format!("{n:>9}")).collect();
+                    writeln!(out, "  {:<22}{sizes}   order", first.refinement)?;
+                }
+                for check in &checks {
+                    writeln!(out, "  {}", row(check))?;
+                    if check.passed() { passed += 1 } else { failed += 1 }
+                }
+            }
+            Err(error) => {
+                writeln!(out, "  FAILED: {error}")?;
+                failed += 1;
+            }
+        }
+        writeln!(out)?;
+    }
+    match failed {
+        0 => writeln!(out, "all {passed} checks passed")?,
+        _ => writeln!(out, "{failed} of {} checks FAILED", passed + failed)?,
+    }
+    Ok(Tally { passed, failed })
+}
+
+/// Quantity, errors, order where one is expected, what is expected, verdict.
+fn row(check: &Check) -> String {
+    let errors: String = check.errors.iter().map(|error| format!("{error:>9.1e}")).collect();
+    let (order, expected) = match &check.expected {
+        Expected::RoundOff(tolerance) => (String::new(), format!("|error| ≤ {tolerance:.0e}")),
+        Expected::Counted(cells) => (String::new(), format!("|error| ≤ {cells}/({})", check.refinement)),
+        Expected::Order { order, finest } => (
+            format!("{:.2}", check.order()),
+            format!("order {:.1} to {:.1}, last ≤ {finest:.0e}", order.start(), order.end()),
+        ),
+    };
+    let verdict = if check.passed() { "ok" } else { "FAILED" };
+    format!("{:<22}{errors}   {order:<5}  {expected:<32} {verdict}", check.quantity)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(cases: &[Case]) -> (String, bool) {
+        let mut out = Vec::new();
+        let passed = table(&mut out, cases).unwrap();
+        (String::from_utf8(out).unwrap(), passed.failed == 0)
+    }
+
+    fn second_order(order_of_the_last: f64) -> Vec<Check> {
+        vec![Check {
+            quantity: "peak pressure",
+            refinement: "a/Δx",
+            sizes: vec![8, 16],
+            errors: vec![-4e-3, -4e-3 * 0.5f64.powf(order_of_the_last)],
+            expected: Expected::Order { order: 1.8..=2.2, finest: 1e-2 },
+        }]
+    }
+
+    #[test]
+    fn a_case_is_shown_with_its_errors_their_order_and_the_verdict() {
+        let case = Case { name: "sphere", source: "Hertz (1882)", checks: || Ok(second_order(2.0)) };
+        let (text, passed) = written(&[case]);
+        let expected = "\
+sphere — Hertz (1882)
+  a/Δx                          8       16   order
+  peak pressure           -4.0e-3  -1.0e-3   2.00   order 1.8 to 2.2, last ≤ 1e-2    ok
+
+all 1 checks passed
+";
+        assert_eq!(text, expected);
+        assert!(passed);
+    }
+
+    #[test]
+    fn a_wrong_order_and_a_case_without_an_answer_fail() {
+        let wrong = Case { name: "", source: "", checks: || Ok(second_order(1.0)) };
+        let error = || Err(Error::NotConverged { iterations: 3, residual: 1.0, tolerance: 1e-6 });
+        let none = Case { name: "", source: "", checks: error };
+        let (text, passed) = written(&[wrong, none]);
+        assert!(text.contains("1.00   order 1.8 to 2.2, last ≤ 1e-2    FAILED"), "{text}");
+        assert!(text.contains("  FAILED: no equilibrium after 3 iterations"), "{text}");
+        assert!(text.ends_with("2 of 2 checks FAILED\n"), "{text}");
+        assert!(!passed);
+    }
+}

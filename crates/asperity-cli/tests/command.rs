@@ -1,0 +1,302 @@
+//! The command line as its users meet it: what goes to stdout, to stderr, and the exit code.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+#[test]
+fn every_command_has_help_with_an_exit_code() {
+    let help = ok(&run(Path::new("."), "--help"));
+    for word in ["check", "example", "surface", "Exit code"] {
+        assert!(help.contains(word), "{help}");
+    }
+    for command in
+        ["check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
+    {
+        let help = ok(&run(Path::new("."), &format!("{command} --help")));
+        assert!(help.contains("Usage: asperity"), "{help}");
+    }
+}
+
+#[test]
+fn bad_usage_is_exit_code_2() {
+    let folder = folder();
+    for arguments in [
+        "",
+        "nonsense",
+        "check",
+        "check nowhere.toml",
+        "surface info nowhere.x3p",
+        "surface generate low-pass --shape 8x8 --pitch 1um --sq 1um --out z.npy",
+        "surface generate low-pass --shape 8x8 --pitch 1ux --sq 1um --cutoff 4um --out z.npy",
+        "surface generate low-pass --shape 8x8 --pitch 1um --sq 1um --cutoff 1um --out z.npy",
+        "surface generate self-affine --shape 8x8 --pitch 1um --out z.npy",
+        "surface generate self-affine --shape 8x8 --pitch 1um --sq 1um --sdq 0.1 --out z.npy",
+        "example nonsense",
+        "example --out somewhere",
+    ] {
+        let output = run(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "{arguments}");
+    }
+    assert!(!folder.path().join("z.npy").exists());
+}
+
+#[test]
+fn a_surface_survives_every_format_that_holds_it() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    let make = "surface generate low-pass --shape 64x48 --pitch 0.5um,1um --sq 0.2um --cutoff 8um --seed 7";
+    assert!(ok(&at(&format!("{make} --out z.npy"))).is_empty());
+    ok(&at("surface convert z.npy z.x3p --pitch 0.5um,1um"));
+    ok(&at("surface convert z.x3p again.npy"));
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("z.npy"), bytes("again.npy"));
+    ok(&at("surface convert z.x3p z.vtk"));
+    ok(&at("surface convert z.x3p z.png"));
+    assert!(bytes("z.vtk").starts_with(b"# vtk") && bytes("z.png").starts_with(b"\x89PNG"));
+
+    let info: Value = serde_json::from_str(&ok(&at("surface info z.x3p --json"))).unwrap();
+    let keys: Vec<_> = info.as_object().unwrap().keys().map(String::as_str).collect();
+    let expected =
+        ["channel", "channels", "format", "max", "mean", "min", "parameters", "pitch", "shape", "undefined"];
+    assert_eq!(keys, expected);
+    assert_eq!((&info["format"], &info["shape"]), (&"x3p".into(), &serde_json::json!([64, 48])));
+    assert_eq!((&info["pitch"], &info["undefined"]), (&serde_json::json!([0.5e-6, 1e-6]), &0.into()));
+    assert!((info["parameters"]["Sq"].as_f64().unwrap() / 0.2e-6 - 1.0).abs() < 1e-9);
+
+    let text = ok(&at("surface info z.x3p"));
+    for part in ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "Sq         0.2 µm", "Sdq"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn conversion_prepares_in_its_order() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    let file = folder.path().join("z.txt");
+    fs::write(file, "1e-6 2e-6 3e-6 4e-6\nnan 2e-6 3e-6 4e-6\n1e-6 2e-6 3e-6 4e-6\n1e-6 2e-6 3e-6 4e-6\n")
+        .unwrap();
+    let info = |name: &str| -> Value {
+        serde_json::from_str(&ok(&at(&format!("surface info {name} --json")))).unwrap()
+    };
+    assert_eq!(info("z.txt")["undefined"], 1);
+    assert_eq!((&info("z.txt")["pitch"], &info("z.txt")["parameters"]["Sdq"]), (&Value::Null, &Value::Null));
+    ok(&at("surface convert z.txt z.x3p --pitch 1um --fill nearest --level plane --resample 2x2"));
+    let after = info("z.x3p");
+    assert_eq!((&after["shape"], &after["undefined"]), (&serde_json::json!([2, 2]), &0.into()));
+    assert_eq!(after["pitch"], serde_json::json!([2e-6, 2e-6]));
+    ok(&at("surface convert z.txt part.npy --window 2,0,2,2"));
+    assert_eq!(info("part.npy")["shape"], serde_json::json!([2, 2]));
+    let error = refused(&at("surface convert z.txt part.x3p --window 2,0,2,2"));
+    assert!(error.contains("needs a pitch") && error.contains("hint: give it: --pitch"), "{error}");
+}
+
+#[test]
+fn an_existing_file_is_replaced_only_on_request() {
+    let folder = folder();
+    let make = "surface generate flat --shape 8x8 --pitch 1um --out z.npy";
+    ok(&run(folder.path(), make));
+    let error = refused(&run(folder.path(), make));
+    assert!(error.contains("`z.npy` exists") && error.contains("hint: --overwrite"), "{error}");
+    ok(&run(folder.path(), &format!("{make} --overwrite")));
+    let error = refused(&run(folder.path(), "surface convert z.npy z.jpg"));
+    assert!(error.contains(".npy, .x3p, .vtk or .png"), "{error}");
+}
+
+#[test]
+fn a_channel_that_is_not_there_names_those_that_are() {
+    let folder = folder();
+    ok(&run(folder.path(), "surface generate flat --shape 8x8 --pitch 1um --out z.x3p"));
+    let error = refused(&run(folder.path(), "surface info z.x3p --channel phase"));
+    assert!(error.contains("no height channel `phase`"), "{error}");
+    assert!(error.contains("hint: it holds `height`; choose one with --channel"), "{error}");
+}
+
+#[test]
+fn every_example_is_accepted_by_check_without_a_warning() {
+    let folder = folder();
+    let list = ok(&run(folder.path(), "example"));
+    let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(names, ["quickstart", "hertz", "measured", "paper"]);
+    for name in names {
+        ok(&run(folder.path(), &format!("example {name}")));
+        let output = run(folder.path(), &format!("check {name}/case.toml"));
+        let page = ok(&output);
+        assert!(page.contains("E* 115.4 GPa"), "{page}");
+        assert_eq!(stderr(&output), "", "{name}");
+        let error = refused(&run(folder.path(), &format!("example {name}")));
+        assert!(error.contains("exists"), "{error}");
+    }
+}
+
+#[test]
+fn check_counts_the_positions_and_weighs_the_load() {
+    let folder = folder();
+    ok(&run(folder.path(), "example paper --out p"));
+    let page = ok(&run(folder.path(), "check p/case.toml"));
+    for part in ["100 × 100 cells of 1 µm × 1 µm", "3 passes of 199 positions", "1.0 % of the plastic limit"]
+    {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    change(folder.path(), "p/case.toml", "load = \"0.2 N\"", "load = \"21 N\"");
+    let output = run(folder.path(), "check p/case.toml");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("exceeds the plastic limit"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("hint: give a load below 20.1 N"), "{}", stderr(&output));
+}
+
+#[test]
+fn check_warns_of_a_coarse_mesh_of_steep_and_of_soft_surfaces() {
+    let folder = folder();
+    ok(&run(folder.path(), "example paper --out p"));
+    change(folder.path(), "p/case.toml", "cutoff = \"12 um\"", "cutoff = \"3 um\"");
+    change(folder.path(), "p/case.toml", "sq = \"55 nm\"", "sq = \"1 um\"");
+    let output = run(folder.path(), "check p/case.toml");
+    ok(&output);
+    for part in ["warning: the mesh is coarse for the lower", "steep", "most of the contact will be plastic"]
+    {
+        assert!(stderr(&output).contains(part), "{part}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_mistake_is_shown_at_its_line_with_a_hint() {
+    let folder = folder();
+    ok(&run(folder.path(), "example quickstart --out q"));
+    change(folder.path(), "q/case.toml", "hardness = \"4 GPa\"  ", "hardness = \"4 GPb\"  ");
+    let error = refused(&run(folder.path(), "check q/case.toml"));
+    assert!(error.starts_with("error: unknown unit 'GPb' in 'hardness'"), "{error}");
+    assert!(error.contains("q/case.toml:13:12") && error.contains("hint: did you mean `GPa`?"), "{error}");
+}
+
+#[test]
+fn surfaces_that_do_not_fit_are_told_how_to() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    ok(&at("example measured --out m"));
+    change(folder.path(), "m/case.toml", "pitch = \"1 um\"", "pitch = \"0.5 um\"");
+    let error = refused(&at("check m/case.toml"));
+    assert!(error.contains("different pitches: lower 1 µm × 1 µm, upper 0.5 µm × 0.5 µm"), "{error}");
+    assert!(error.contains("hint: set `pitch = \"1 um\"` in [upper.topography]"), "{error}");
+    assert!(error.contains("m/case.toml:27"), "{error}");
+
+    change(folder.path(), "m/case.toml", "pitch = \"0.5 um\"", "pitch = \"1 um\"");
+    change(folder.path(), "m/case.toml", "shape = [64, 128]", "shape = [64, 100]");
+    let error = refused(&at("check m/case.toml"));
+    assert!(error.contains("numbers of cells along y: lower 96 × 128, upper 64 × 100"), "{error}");
+    assert!(error.contains("hint: set `window = [0, 0, 96, 100]` in [lower.topography]"), "{error}");
+    change(folder.path(), "m/case.toml", "window = [0, 0, 96, 128]", "window = [0, 0, 96, 100]");
+    ok(&at("check m/case.toml"));
+
+    // Two files over one extent: as many cells as the other has.
+    ok(&at("surface convert m/disc.x3p m/half.x3p --fill nearest --resample 64x64"));
+    let upper = "[upper.topography]\nfile = \"half.x3p\"\n";
+    let case = format!("{BODIES}fill = \"nearest\"\n{upper}[contact]\nload = 1\n[motion]\n");
+    fs::write(folder.path().join("m/two.toml"), &case).unwrap();
+    let error = refused(&at("check m/two.toml"));
+    assert!(error.contains("hint: set `resample = [64, 64]` in [lower.topography]"), "{error}");
+    let case = case.replace("fill = \"nearest\"\n", "fill = \"nearest\"\nresample = [64, 64]\n");
+    fs::write(folder.path().join("m/two.toml"), &case).unwrap();
+    ok(&at("check m/two.toml"));
+}
+
+#[test]
+fn a_static_contact_needs_one_length_too() {
+    let folder = folder();
+    ok(&run(folder.path(), "example hertz --out h"));
+    change(
+        folder.path(),
+        "h/case.toml",
+        "form = \"flat\"\nshape = [128, 128]",
+        "form = \"flat\"\nshape = [130, 128]",
+    );
+    let error = refused(&run(folder.path(), "check h/case.toml"));
+    assert!(error.contains("along x: lower 130 × 128, upper 128 × 128"), "{error}");
+    assert!(error.contains("hint: set `shape = [128, 128]` in [lower.topography]"), "{error}");
+}
+
+#[test]
+fn a_file_that_cannot_be_used_is_named_at_its_line() {
+    let folder = folder();
+    ok(&run(folder.path(), "example measured --out m"));
+    let check = |case: &str| {
+        fs::write(folder.path().join("m/case.toml"), case).unwrap();
+        refused(&run(folder.path(), "check m/case.toml"))
+    };
+    let flat =
+        "[upper.topography]\nform = \"flat\"\nshape = [128, 128]\npitch = \"1 um\"\n[contact]\nload = 1\n";
+    let case = format!("{BODIES}{flat}");
+
+    let error = check(&case);
+    assert!(error.contains("115 of 16384 heights of m/disc.x3p are missing"), "{error}");
+    assert!(
+        error.contains("m/case.toml:8:8") && error.contains("hint: set `fill = \"harmonic\"`"),
+        "{error}"
+    );
+
+    let error = check(&case.replace("disc.x3p", "disk.x3p"));
+    assert!(error.contains("m/disk.x3p: ") && error.contains("case file's folder"), "{error}");
+
+    let error = check(&case.replace("disc.x3p\"", "disc.x3p\"\nchannel = \"phase\""));
+    assert!(error.contains("no height channel `phase`") && error.contains("m/case.toml:9:11"), "{error}");
+    assert!(error.contains("hint: it holds `height`; choose one with `channel`"), "{error}");
+
+    let error = check(&case.replace("disc.x3p\"", "disc.x3p\"\nwindow = [100, 0, 100, 100]"));
+    assert!(error.contains("is not a part of the 128 × 128 samples"), "{error}");
+
+    ok(&run(folder.path(), "surface convert m/disc.x3p m/disc.npy --fill nearest"));
+    let error = check(&case.replace("disc.x3p", "disc.npy"));
+    assert!(error.contains("(npy) has no pitch") && error.contains("hint: add the distance"), "{error}");
+
+    let path = folder.path().join("m/disc.x3p");
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle..middle + 64].fill(0);
+    fs::write(&path, bytes).unwrap();
+    let error = check(&case);
+    assert!(error.starts_with("error: m/disc.x3p: x3p: "), "{error}");
+    assert!(error.contains("m/case.toml:8:8"), "{error}");
+}
+
+/// A file below; ends in its topography.
+const BODIES: &str = "lower.young = 210e9\nlower.poisson = 0.3\nupper.young = 210e9\nupper.poisson = 0.3\n\
+                      \n\n[lower.topography]\nfile = \"disc.x3p\"\n";
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// `arguments` are split at spaces.
+fn run(folder: &Path, arguments: &str) -> Output {
+    let mut command = Command::cargo_bin("asperity").unwrap();
+    command.current_dir(folder).args(arguments.split_whitespace()).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What is on stdout after success.
+fn ok(output: &Output) -> String {
+    assert!(output.status.success(), "{}", stderr(output));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// What is on stderr after exit code 2.
+fn refused(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
+    stderr(output)
+}
+
+fn change(folder: &Path, file: &str, from: &str, to: &str) {
+    let path = folder.join(file);
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{from}");
+    fs::write(path, text.replace(from, to)).unwrap();
+}

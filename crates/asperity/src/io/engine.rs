@@ -1,0 +1,85 @@
+//! From a case to its results: what the command line and every other caller run.
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::error::Result;
+use crate::io::case::{Case, Prescribed};
+use crate::io::outlook::outlook;
+use crate::io::prepare::bodies;
+use crate::io::results::{Existing, Results};
+use crate::io::summary::{Outcome, Summary};
+use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, press};
+use crate::solver::{Control, Params};
+use crate::surface::Topography;
+
+/// Computes `case` and writes its results to `directory`.
+///
+/// # Errors
+/// Everything that can be wrong with a case, its surfaces, the contact or the directory. A motion that ends early
+/// leaves its finished passes, from which [`Existing::Resume`] goes on.
+pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch) -> Result<Summary> {
+    let began = Instant::now();
+    let bodies = bodies(case)?;
+    let outlook = outlook(case, &bodies)?;
+    let resolved = serde_json::to_value(case).expect("a case can be written as JSON");
+    let results = Results::create(directory, &resolved, existing)?;
+    let pair = pair(case, [bodies.lower.topography, bodies.upper.topography])?;
+    let params =
+        Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
+    let area = outlook.apparent_area;
+    let outcome = match case.motion(area) {
+        None => {
+            let control = match case.contact.prescribed {
+                Prescribed::Load(load) => Control::Load(load),
+                Prescribed::MeanPressure(pressure) => Control::Load(pressure * area),
+                Prescribed::Approach(approach) => Control::Approach(approach),
+            };
+            let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
+            results.write_static(&pair, &solution)?;
+            Outcome::Static(record)
+        }
+        Some(motion) => Outcome::Passes(move_over(case, &results, pair, motion, params, watch)?),
+    };
+    let summary = Summary {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        case: resolved,
+        outcome,
+        warnings: outlook.warnings,
+        wall_time_s: began.elapsed().as_secs_f64(),
+    };
+    results.finish(&summary)?;
+    Ok(summary)
+}
+
+fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
+    let [lower, upper] = surfaces;
+    Pair::new(lower, upper, [&case.lower.material, &case.upper.material])
+}
+
+/// The passes that are not yet there.
+fn move_over(
+    case: &Case,
+    results: &Results,
+    initial: Pair,
+    motion: Motion,
+    params: Params,
+    watch: &dyn Watch,
+) -> Result<Vec<PassRecord>> {
+    let boundary = case.contact.boundary;
+    let done = results.passes()?;
+    let mut simulation = match done.last() {
+        None => {
+            let simulation = Simulation::new(initial, boundary, motion, params)?;
+            results.write_initial(simulation.pair())?;
+            simulation
+        }
+        Some(last) => {
+            let pair = pair(case, results.surfaces_after(done.len())?)?;
+            Simulation::new(pair, boundary, motion, params)?.resumed(done.len(), last.approach)
+        }
+    };
+    let mut writer = results.writer(case.output.pressure_every)?;
+    simulation.run(watch, &mut [&mut writer])?;
+    Ok(writer.passes().to_vec())
+}

@@ -1,0 +1,266 @@
+//! What a case will take, and what to be wary of, told before anything is solved.
+
+use super::case::{Body, Boundary, Case, Prescribed, Source};
+use super::prepare::{Bodies, Prepared};
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::material::{composite_hardness, composite_modulus, plastic_share};
+use crate::motion::{Control, Strategy, overlap_positions};
+use crate::surface::{Level, Topography};
+use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
+
+/// What is known of a computation before it starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outlook {
+    /// Composite modulus E* of the pair.
+    pub modulus: Pascal,
+    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair.
+    pub hardness: Pascal,
+    /// The lower body's share of the plastic deformation, 0 to 1.
+    pub lower_share: f64,
+    /// What is prescribed; the load of a static contact is a [`Control::StepLoad`].
+    pub control: Control,
+    /// Number of positions in a pass; 1 for a static contact.
+    pub positions: usize,
+    /// Number of passes; 1 for a static contact.
+    pub passes: usize,
+    /// Largest apparent area of a position.
+    pub apparent_area: SquareMetre,
+    /// Largest load that the control could ask for, every facing cell at the hardness; infinite for an elastic pair.
+    pub plastic_limit: Newton,
+    /// Rms slope of the initial gap, as if the surfaces were independent.
+    pub gap_slope: f64,
+    /// Memory that one solver needs, and that the results take until they are written, bytes.
+    pub memory: [f64; 2],
+    /// What the user should know before trusting the result.
+    pub warnings: Vec<String>,
+}
+
+/// What `case` will take on its `bodies`.
+///
+/// # Errors
+/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
+pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
+    let (lower, upper) = (&case.lower.material, &case.upper.material);
+    let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
+    let overlaps = overlaps(case, lower_grid.shape[0], upper_grid.shape[0]);
+    let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
+    let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
+    let apparent_area = facing as f64 * column;
+    let control = match (case.motion(apparent_area), case.contact.prescribed) {
+        (Some(motion), _) => motion.control,
+        (None, Prescribed::Load(load)) => Control::StepLoad(load),
+        (None, Prescribed::MeanPressure(pressure)) => Control::StepLoad(pressure * apparent_area),
+        (None, Prescribed::Approach(approach)) => Control::Approach(approach),
+    };
+    let hardness = composite_hardness(lower, upper);
+    let mean_columns = overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64;
+    let columns = match control {
+        Control::PassLoad(_) => mean_columns,
+        Control::StepLoad(_) => overlaps.iter().copied().min().unwrap_or(facing) as f64,
+        Control::Approach(_) => facing as f64,
+    };
+    let plastic_limit = hardness * column * columns;
+    if let Control::PassLoad(load) | Control::StepLoad(load) = control
+        && load >= plastic_limit
+    {
+        return Err(Error::BeyondPlasticLimit { load, limit: plastic_limit });
+    }
+    let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.parameters().sdq);
+    let mut outlook = Outlook {
+        modulus: composite_modulus(lower, upper)?,
+        hardness,
+        lower_share: plastic_share(lower, upper),
+        control,
+        positions: overlaps.len(),
+        passes: case.motion.map_or(1, |motion| motion.passes),
+        apparent_area,
+        plastic_limit,
+        gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
+        memory: memory(case, bodies, &overlaps),
+        warnings: Vec::new(),
+    };
+    outlook.warnings = warnings(case, bodies, &outlook);
+    Ok(outlook)
+}
+
+/// Columns that face each other at each position of a pass.
+fn overlaps(case: &Case, lower: usize, upper: usize) -> Vec<usize> {
+    match case.motion {
+        None => vec![lower.min(upper)],
+        Some(motion) if motion.strategy == Strategy::Overlap => {
+            overlap_positions(lower, upper, motion.stride).iter().map(|position| position.columns).collect()
+        }
+        Some(motion) => vec![lower; lower.div_ceil(motion.stride)],
+    }
+}
+
+fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize]) -> [f64; 2] {
+    const NUMBER: f64 = 8.0;
+    let [lower, upper] = [&bodies.lower, &bodies.upper].map(|body| body.topography.grid());
+    let [nx, ny] = [lower.shape[0].min(upper.shape[0]), lower.shape[1]].map(|n| n as f64);
+    // Some twenty fields of the iteration; of the padded transform half is stored, and its real kernel.
+    let padded = if case.contact.boundary == Boundary::Free { 2.0 } else { 1.0 };
+    let solver = NUMBER * (20.0 * nx * ny + padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded));
+    let cells = (lower.cells() + upper.cells()) as f64;
+    let results = case.motion.map_or(6.0 * nx * ny, |motion| {
+        let passes = motion.passes as f64;
+        let kept = match case.output.pressure_every {
+            0 => 0.0,
+            every => overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
+        };
+        (passes + 1.0) * cells + passes * (cells + kept)
+    });
+    [solver, NUMBER * results]
+}
+
+fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (name, body, spec) in
+        [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
+    {
+        coarse(name, body, &mut warnings);
+        if matches!(spec.source, Source::File { .. }) && spec.level == Level::None {
+            tilted(name, body, &mut warnings);
+        }
+        let wraps = case.contact.boundary == Boundary::Periodic
+            || matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
+        if wraps {
+            torn(name, body, &mut warnings);
+        }
+    }
+    /// Up to here tan and sin of a slope agree to some 5 %.
+    const STEEP: f64 = 0.3;
+    if outlook.gap_slope > STEEP {
+        warnings.push(format!(
+            "the surfaces are steep for a half-space theory of small slopes: rms slope of the gap {:.2}",
+            outlook.gap_slope
+        ));
+    }
+    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). Real contact is near it at any load.
+    // A form's slope is that of its rim, far from the contact.
+    let pressure = 0.5 * outlook.modulus * outlook.gap_slope;
+    let is_form = |body: &Body| matches!(body.topography.source, Source::Form { .. });
+    if pressure > outlook.hardness && ![&case.lower, &case.upper].into_iter().any(is_form) {
+        warnings.push(format!(
+            "most of the contact will be plastic: slopes of {:.2} call for pressures of {}, the hardness is {}",
+            outlook.gap_slope,
+            units::format(pressure, Dimension::Pressure),
+            units::format(outlook.hardness, Dimension::Pressure)
+        ));
+    }
+    if let Control::PassLoad(load) | Control::StepLoad(load) = outlook.control
+        && load > 0.5 * outlook.plastic_limit
+    {
+        warnings.push(format!(
+            "the load is near the plastic limit, {}: contact will be almost complete",
+            units::format(outlook.plastic_limit, Dimension::Force)
+        ));
+    }
+    warnings
+}
+
+/// A mesh on which the waves that make the slope have too few cells.
+///
+/// A wave of n cells has a slope by differences over one cell greater by 1/cos(π/n) than over two.
+fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    const CELLS_PER_WAVE: f64 = 8.0;
+    for axis in 0..2 {
+        let [one, two] = [1, 2].map(|cells| difference(body.topography.heights(), axis, cells));
+        if one > 0.0 && two > 0.0 && one > two {
+            let cells = std::f64::consts::PI / (two / one).acos();
+            if cells < CELLS_PER_WAVE {
+                warnings.push(format!(
+                    "the mesh is coarse for the {name} surface: along {} the waves that make its slope have about \
+                     {cells:.1} cells, {CELLS_PER_WAVE} or more are needed for a contact area within some 10 %",
+                    ["x", "y"][axis]
+                ));
+                return;
+            }
+        }
+    }
+}
+
+/// Rms difference of heights `cells` apart, per cell of the distance.
+fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
+    let n = heights.len_of(ndarray::Axis(axis));
+    if n <= cells {
+        return 0.0;
+    }
+    let far = heights.slice_axis(ndarray::Axis(axis), (cells..).into());
+    let near = heights.slice_axis(ndarray::Axis(axis), (..n - cells).into());
+    let sum: f64 = far.iter().zip(near).map(|(far, near)| (far - near).powi(2)).sum();
+    (sum / far.len() as f64).sqrt() / cells as f64
+}
+
+/// A measured surface that stands askew.
+fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    let rms = |topography: &Topography| topography.parameters().sq;
+    let (as_is, levelled) = (rms(&body.topography), rms(&body.topography.clone().level(Level::Plane)));
+    if as_is > 1.5 * levelled {
+        warnings.push(format!(
+            "the {name} surface is tilted: Sq is {}, without its plane {}; `level = \"plane\"` removes it",
+            units::format(as_is, Dimension::Length),
+            units::format(levelled, Dimension::Length)
+        ));
+    }
+}
+
+/// A surface that does not continue over its edge where it is taken to.
+fn torn(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    let heights = body.topography.heights();
+    for axis in 0..2 {
+        let n = heights.len_of(ndarray::Axis(axis));
+        let (first, last) =
+            (heights.index_axis(ndarray::Axis(axis), 0), heights.index_axis(ndarray::Axis(axis), n - 1));
+        let sum: f64 = first.iter().zip(last).map(|(first, last)| (first - last).powi(2)).sum();
+        let jump: Metre = (sum / first.len() as f64).sqrt();
+        if jump > 3.0 * difference(heights, axis, 1) {
+            warnings.push(format!(
+                "the {name} surface is repeated, but its edges along {} do not meet: a step of {} rms",
+                ["x", "y"][axis],
+                units::format(jump, Dimension::Length)
+            ));
+            return;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::prepare::bodies;
+
+    fn case(motion: &str, load: &str) -> Case {
+        let body = |name: &str, columns: usize| {
+            format!(
+                "[{name}]\nyoung = 1e9\npoisson = 0.3\nhardness = 1e9\n[{name}.topography]\nform = \"sphere\"\n\
+                 radius = 1\nshape = [{columns}, 4]\npitch = 1e-3\n"
+            )
+        };
+        let text = format!("{}{}[contact]\n{load}\n{motion}", body("lower", 5), body("upper", 3));
+        Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    }
+
+    #[test]
+    fn every_position_of_a_pass_has_a_column_that_faces_another() {
+        let columns = |stride| overlaps(&case(&format!("[motion]\nstride = {stride}"), "load = 1"), 5, 3);
+        assert_eq!(columns(1), [1, 2, 3, 3, 3, 2, 1]);
+        assert_eq!(columns(2), [1, 3, 3, 1]);
+        assert_eq!(columns(9), [3]);
+    }
+
+    #[test]
+    fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
+        let outlook = |control: &str, load: &str| {
+            let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
+            super::outlook(&case, &bodies(&case).unwrap())
+        };
+        // A column of 4 mm² bears 4 kN; seven positions share 15 columns.
+        let limit = outlook("pass-load", "load = 1").unwrap().plastic_limit;
+        assert!((limit / (4e3 * 15.0 / 7.0) - 1.0).abs() < 1e-12, "{limit}");
+        assert!(outlook("pass-load", "load = 8e3").is_ok());
+        let beyond = outlook("step-load", "load = 8e3").unwrap_err();
+        assert!(matches!(beyond, Error::BeyondPlasticLimit { limit, .. } if (limit - 4e3).abs() < 1e-6));
+    }
+}

@@ -1,0 +1,305 @@
+//! A results directory: what a computation leaves, and how it is found again.
+//!
+//! ```text
+//! DIR/case.json            the case as resolved, SI: what --resume compares
+//!     steps.csv passes.csv a motion: a row per position, a row per pass
+//!     fields/initial.h5    the surfaces before the first pass
+//!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
+//!     fields.h5            a static contact
+//!     summary.json         once all is done
+//!     figures/             pictures
+//! ```
+//!
+//! A pass is there once its row stands in `passes.csv`, which is written last.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::fields::{FieldFile, Fields};
+use super::{atomic, summary, tables};
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::io::summary::Summary;
+use crate::motion::{Output, Pair, PassRecord, PassReport, StepRecord};
+use crate::solver::Solution;
+use crate::surface::Topography;
+
+/// What to do about results that are there already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Refuse.
+    Keep,
+    /// Replace them.
+    Overwrite,
+    /// Go on from the last finished pass.
+    Resume,
+}
+
+/// A results directory.
+#[derive(Debug, Clone)]
+pub struct Results {
+    directory: PathBuf,
+}
+
+impl Results {
+    /// Makes the directory for the results of `case`, or enters it again.
+    ///
+    /// # Errors
+    /// [`Error::ResultsExist`] where there is something that must be kept, [`Error::OtherCase`] if results to be
+    /// resumed are those of another case (more passes of the same are welcome), [`Error::File`].
+    pub fn create(directory: &Path, case: &serde_json::Value, existing: Existing) -> Result<Self> {
+        let results = Self { directory: directory.to_owned() };
+        fs::create_dir_all(directory).map_err(|source| results.failed(directory, source))?;
+        let occupied =
+            fs::read_dir(directory).map_err(|source| results.failed(directory, source))?.next().is_some();
+        let ours = results.case_path().exists();
+        match existing {
+            Existing::Keep if occupied => {
+                return Err(Error::ResultsExist { path: directory.to_owned(), results: ours });
+            }
+            Existing::Overwrite if occupied && !ours => {
+                return Err(Error::ResultsExist { path: directory.to_owned(), results: false });
+            }
+            Existing::Overwrite => results.clear()?,
+            Existing::Resume if ours => {
+                let mut before = results.case()?;
+                let mut now = case.clone();
+                for case in [&mut before, &mut now] {
+                    if let Some(passes) = case.pointer_mut("/motion/passes") {
+                        passes.take();
+                    }
+                }
+                if before != now {
+                    return Err(Error::OtherCase { path: directory.to_owned() });
+                }
+            }
+            Existing::Keep | Existing::Resume => {}
+        }
+        let fields = results.directory.join("fields");
+        fs::create_dir_all(&fields).map_err(|source| results.failed(&fields, source))?;
+        let text = serde_json::to_vec_pretty(case).expect("a JSON value can be written");
+        atomic::write(&results.case_path(), &text)?;
+        Ok(results)
+    }
+
+    /// Opens a directory that holds results.
+    ///
+    /// # Errors
+    /// [`Error::NoResults`].
+    pub fn open(directory: &Path) -> Result<Self> {
+        let results = Self { directory: directory.to_owned() };
+        if results.case_path().exists() {
+            Ok(results)
+        } else {
+            Err(Error::NoResults { path: directory.to_owned() })
+        }
+    }
+
+    /// The directory.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// The case as resolved.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn case(&self) -> Result<serde_json::Value> {
+        let path = self.case_path();
+        let text = fs::read(&path).map_err(|source| self.failed(&path, source))?;
+        serde_json::from_slice(&text).map_err(|error| self.failed(&path, error.into()))
+    }
+
+    /// The summary, which is there once all is done.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn summary(&self) -> Result<Summary> {
+        summary::read(&self.summary_path())
+    }
+
+    /// Writes the summary.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn finish(&self, content: &Summary) -> Result<()> {
+        summary::write(&self.summary_path(), content)
+    }
+
+    /// The finished passes; none where nothing moved yet.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn passes(&self) -> Result<Vec<PassRecord>> {
+        let path = self.directory.join("passes.csv");
+        if path.exists() { tables::read_passes(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The positions of the finished passes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn steps(&self) -> Result<Vec<StepRecord>> {
+        let path = self.directory.join("steps.csv");
+        let finished = self.passes()?.len();
+        let steps = if path.exists() { tables::read_steps(&path)? } else { Vec::new() };
+        Ok(steps.into_iter().filter(|step| step.pass <= finished).collect())
+    }
+
+    /// The fields of a motion after so many passes, 0 for those before the first.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn fields_after(&self, passes: usize) -> Result<Fields> {
+        Fields::open(&self.fields_path(passes))
+    }
+
+    /// The fields of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn static_fields(&self) -> Result<Fields> {
+        Fields::open(&self.directory.join("fields.h5"))
+    }
+
+    /// Writes the fields of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
+        let grid = pair.lower_grid();
+        let gap = &pair.upper - &pair.lower;
+        let mut file = FieldFile::new();
+        file.set("version", env!("CARGO_PKG_VERSION"))
+            .set("approach", solution.approach)
+            .set("hardness", pair.hardness());
+        let plastic = solution.plastic_interference(&gap, pair.hardness());
+        for (name, unit, field) in [
+            ("pressure", "Pa", &solution.pressure),
+            ("displacement", "m", &solution.displacement),
+            ("gap", "m", &solution.gap(&gap)),
+            ("lower", "m", &pair.lower),
+            ("upper", "m", &pair.upper),
+            ("plastic", "m", &plastic),
+        ] {
+            file.add_field(name, unit, &grid, [0.0, 0.0], field);
+        }
+        file.write(&self.directory.join("fields.h5"))
+    }
+
+    /// Writes the surfaces before the first pass.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_initial(&self, pair: &Pair) -> Result<()> {
+        let mut file = FieldFile::new();
+        file.set("version", env!("CARGO_PKG_VERSION")).set("pass", 0).set("hardness", pair.hardness());
+        add_surfaces(&mut file, pair);
+        file.write(&self.fields_path(0))
+    }
+
+    /// The surfaces after so many passes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn surfaces_after(&self, passes: usize) -> Result<[Topography; 2]> {
+        let fields = self.fields_after(passes)?;
+        let topography = |name| -> Result<Topography> {
+            let stored = fields.read(name)?;
+            let pitch = [stored.pitch[0], stored.pitch[1]];
+            let heights = stored.into_field().ok_or(Error::Unsupported("a surface that is not a matrix"))?;
+            Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)
+        };
+        Ok([topography("lower")?, topography("upper")?])
+    }
+
+    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none).
+    ///
+    /// # Errors
+    /// [`Error::File`] if the rows of earlier passes cannot be read.
+    pub fn writer(&self, pressure_every: usize) -> Result<PassWriter> {
+        Ok(PassWriter { steps: self.steps()?, passes: self.passes()?, results: self.clone(), pressure_every })
+    }
+
+    /// Removes what an earlier computation left, and nothing else.
+    fn clear(&self) -> Result<()> {
+        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "case.json"];
+        for path in files.map(|name| self.directory.join(name)).iter().filter(|path| path.exists()) {
+            fs::remove_file(path).map_err(|source| self.failed(path, source))?;
+        }
+        for path in ["fields", "figures"].map(|name| self.directory.join(name)).iter().filter(|p| p.exists())
+        {
+            fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
+        }
+        Ok(())
+    }
+
+    fn case_path(&self) -> PathBuf {
+        self.directory.join("case.json")
+    }
+
+    fn summary_path(&self) -> PathBuf {
+        self.directory.join("summary.json")
+    }
+
+    fn fields_path(&self, passes: usize) -> PathBuf {
+        let name = if passes == 0 { "initial.h5".to_owned() } else { format!("pass-{passes:04}.h5") };
+        self.directory.join("fields").join(name)
+    }
+
+    fn failed(&self, path: &Path, source: std::io::Error) -> Error {
+        Error::File { path: path.to_owned(), source }
+    }
+}
+
+/// Writes passes as they are finished: fields, then positions, then the pass itself.
+pub struct PassWriter {
+    results: Results,
+    steps: Vec<StepRecord>,
+    passes: Vec<PassRecord>,
+    pressure_every: usize,
+}
+
+impl PassWriter {
+    /// The passes written so far.
+    pub fn passes(&self) -> &[PassRecord] {
+        &self.passes
+    }
+}
+
+impl Output for PassWriter {
+    fn pass(&mut self, report: &PassReport) -> Result<()> {
+        let pair = report.pair;
+        let mut file = FieldFile::new();
+        file.set("version", env!("CARGO_PKG_VERSION"))
+            .set("pass", report.record.pass)
+            .set("hardness", pair.hardness());
+        add_surfaces(&mut file, pair);
+        let [lower, upper] = report.mean_pressure();
+        file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
+        file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
+        for (index, contact) in report.contacts.iter().enumerate() {
+            if self.pressure_every > 0 && index % self.pressure_every == 0 {
+                let pressure: Field = contact.pressure_field(pair.lower.ncols());
+                let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
+                let grid = pair.grid(contact.position.columns);
+                file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+            }
+        }
+        file.write(&self.results.fields_path(report.record.pass))?;
+        self.steps.extend_from_slice(report.steps);
+        self.passes.push(report.record.clone());
+        tables::write_steps(&self.results.directory.join("steps.csv"), &self.steps)?;
+        tables::write_passes(&self.results.directory.join("passes.csv"), &self.passes)
+    }
+}
+
+/// Name of the pressure field of a position, which is counted from 1.
+pub fn pressure_name(step: usize) -> String {
+    format!("pressure_{step:05}")
+}
+
+fn add_surfaces(file: &mut FieldFile, pair: &Pair) {
+    file.add_field("lower", "m", &pair.lower_grid(), [0.0, 0.0], &pair.lower);
+    file.add_field("upper", "m", &pair.upper_grid(), [0.0, 0.0], &pair.upper);
+}

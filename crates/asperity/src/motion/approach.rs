@@ -1,0 +1,124 @@
+//! The search for the one approach of a pass whose mean load is the load wanted.
+
+use crate::error::{Error, Result};
+use crate::units::{Metre, Newton};
+
+/// Trials after which the search is given up.
+const MOST_TRIALS: usize = 100;
+
+/// Where to begin: an approach, and the relative change of the load with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Guess {
+    pub(super) approach: Metre,
+    /// d ln W/dδ, 1/m; the load of rough bodies grows about exponentially with the approach.
+    pub(super) slope: f64,
+}
+
+/// What is searched.
+pub(super) struct Search {
+    pub(super) load: Newton,
+    /// Relative tolerance on the load.
+    pub(super) tolerance: f64,
+    /// Residual η of the accepted answer.
+    pub(super) residual: f64,
+    /// Approach at which the bodies first touch: there is no load below it.
+    pub(super) touch: Metre,
+}
+
+/// An accepted trial.
+pub(super) struct Found<T> {
+    pub(super) outcome: T,
+    /// The approach and the slope there, to begin the next search with.
+    pub(super) guess: Guess,
+    pub(super) trials: usize,
+}
+
+impl Search {
+    /// Tries approaches by a bracketed secant iteration on ln W(δ).
+    ///
+    /// `trial(δ, η)` gives the mean load at an approach, from positions solved to the residual η. Far from the load
+    /// a rough answer is enough to find the next approach; only the last trial is solved to the wanted residual.
+    pub(super) fn run<T>(
+        &self,
+        first: Guess,
+        mut trial: impl FnMut(Metre, f64) -> Result<(Newton, T)>,
+    ) -> Result<Found<T>> {
+        let Guess { mut approach, mut slope } = first;
+        let (mut low, mut high) = (self.touch, f64::INFINITY);
+        let mut before: Option<(Metre, f64)> = None;
+        let mut residual = self.residual_for(0.1);
+        for trials in 1..=MOST_TRIALS {
+            let (load, outcome) = trial(approach, residual)?;
+            let excess = load / self.load - 1.0;
+            let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
+            if excess.abs() <= self.tolerance || exhausted {
+                if residual <= self.residual {
+                    return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
+                }
+                residual = self.residual;
+                continue;
+            }
+            if excess < 0.0 {
+                low = approach;
+            } else {
+                high = approach;
+            }
+            if low >= high {
+                // A rough answer misled the bracket.
+                (low, high) = (self.touch, f64::INFINITY);
+            }
+            let logarithm = (load / self.load).ln();
+            if let Some((other, value)) = before {
+                let secant = (logarithm - value) / (approach - other);
+                if secant.is_finite() && secant > 0.0 {
+                    slope = secant;
+                }
+            }
+            if logarithm.is_finite() {
+                before = Some((approach, logarithm));
+            }
+            let newton = approach - logarithm / slope;
+            approach = if low < newton && newton < high && newton.is_finite() {
+                newton
+            } else if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                approach + 1.0 / slope
+            };
+            residual = self.residual_for(excess);
+        }
+        Err(Error::LoadNotReached { load: self.load, trials: MOST_TRIALS, approach })
+    }
+
+    /// The residual that is enough for the next trial after one that missed the load by `excess`.
+    fn residual_for(&self, excess: f64) -> f64 {
+        (1e-3 * excess.abs()).clamp(self.residual, 1e-3_f64.max(self.residual))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(tolerance: f64) -> Search {
+        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0 }
+    }
+
+    #[test]
+    fn it_finds_the_load_of_a_hertzian_curve_in_a_few_trials() {
+        let found = search(1e-12)
+            .run(Guess { approach: 0.3, slope: 2.0 }, |delta, eta| Ok((delta.powf(1.5), eta)))
+            .unwrap();
+        assert!((found.guess.approach - 2f64.powf(2.0 / 3.0)).abs() < 1e-11);
+        assert_eq!(found.outcome, 1e-6, "the last trial is solved to the wanted residual");
+        assert!(found.trials <= 10, "{} trials", found.trials);
+    }
+
+    #[test]
+    fn it_finds_its_way_from_no_contact_and_over_a_kink() {
+        let curve = |delta: f64| (delta - 1.0).max(0.0) + 20.0 * (delta - 2.5).max(0.0);
+        let found =
+            search(1e-9).run(Guess { approach: 0.1, slope: 3.0 }, |delta, _| Ok((curve(delta), ()))).unwrap();
+        assert!((curve(found.guess.approach) - 2.0).abs() < 1e-8);
+    }
+}

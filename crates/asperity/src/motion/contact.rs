@@ -1,0 +1,143 @@
+//! The contact at one position, kept in proportion to the real area of contact.
+
+use crate::error::Result;
+use crate::grid::{Field, Grid};
+use crate::motion::pair::Pair;
+use crate::motion::path::Position;
+use crate::motion::record::{StaticRecord, StepRecord};
+use crate::operator::{Boundary, Operators};
+use crate::solver::{Control, Params, Solution, Stats, solve_normal};
+use crate::units::{CubicMetre, Metre, Newton, Pascal};
+
+/// The solution at one position: only the cells in contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Where.
+    pub position: Position,
+    /// Flat cells with p > 0 and their pressure, Pa.
+    pub pressure: Vec<(u32, Pascal)>,
+    /// Flat cells at the hardness and their plastic interference w, m.
+    pub plastic: Vec<(u32, Metre)>,
+    /// Load W = ΔA Σ p.
+    pub load: Newton,
+    /// Approach δ.
+    pub approach: Metre,
+    /// Residual η.
+    pub residual: f64,
+    /// Cost: iterations of this solution, convolutions of all that led to it.
+    pub stats: Stats,
+}
+
+impl Contact {
+    /// Solves the contact of `pair` at `position`, from the pressure of `before` where there is one.
+    pub(super) fn solve(
+        pair: &Pair,
+        operators: &Operators,
+        position: Position,
+        control: Control,
+        start: Option<&Field>,
+        params: &Params,
+    ) -> Result<Self> {
+        let gap = pair.initial_gap(&position);
+        let mut operator = operators.on([position.columns, gap.ncols()]);
+        let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, start, params)?;
+        Ok(Self::new(pair, position, &gap, &solution))
+    }
+
+    fn new(pair: &Pair, position: Position, gap: &Field, solution: &Solution) -> Self {
+        let mut pressure = Vec::new();
+        let mut plastic = Vec::new();
+        let cells = solution.pressure.iter().zip(&solution.displacement).zip(gap);
+        for (cell, ((&p, u), h)) in cells.enumerate() {
+            if p > 0.0 {
+                pressure.push((cell as u32, p));
+            }
+            if p >= pair.hardness() {
+                plastic.push((cell as u32, (solution.approach - h - u).max(0.0)));
+            }
+        }
+        Self {
+            position,
+            pressure,
+            plastic,
+            load: solution.load(pair.cell_area()),
+            approach: solution.approach,
+            residual: solution.residual,
+            stats: solution.stats,
+        }
+    }
+
+    /// The pressure on all cells that face each other, `width` across.
+    pub fn pressure_field(&self, width: usize) -> Field {
+        let mut field = Field::zeros([self.position.columns, width]);
+        let cells = field.as_slice_mut().expect("standard layout");
+        self.pressure.iter().for_each(|(cell, p)| cells[*cell as usize] = *p);
+        field
+    }
+
+    /// Largest pressure.
+    pub fn max_pressure(&self) -> Pascal {
+        self.pressure.iter().map(|(_, p)| *p).fold(0.0, f64::max)
+    }
+
+    /// ΔA Σ w.
+    pub fn plastic_volume(&self, pair: &Pair) -> CubicMetre {
+        pair.cell_area() * self.plastic.iter().map(|(_, w)| w).sum::<f64>()
+    }
+
+    /// The row of `steps.csv`.
+    pub(super) fn record(&self, pair: &Pair, pass: usize, step: usize) -> StepRecord {
+        StepRecord {
+            pass,
+            step,
+            offset: self.position.offset as f64 * pair.pitch()[0],
+            overlap_columns: self.position.columns,
+            approach: self.approach,
+            load: self.load,
+            contact_area: pair.cell_area() * self.pressure.len() as f64,
+            max_pressure: self.max_pressure(),
+            plastic_cells: self.plastic.len(),
+            plastic_volume: self.plastic_volume(pair),
+            iterations: self.stats.iterations,
+            convolutions: self.stats.convolutions,
+            residual: self.residual,
+        }
+    }
+}
+
+/// A static contact of a pair whose bodies face each other with all their columns.
+///
+/// # Errors
+/// Those of [`solve_normal`].
+///
+/// # Panics
+/// If the bodies have different shapes.
+pub fn press(
+    pair: &Pair,
+    boundary: Boundary,
+    control: Control,
+    params: &Params,
+) -> Result<(StaticRecord, Solution)> {
+    assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
+    let grid: Grid = pair.lower_grid();
+    let gap = &pair.upper - &pair.lower;
+    let mut operator = Operators::new(pair.pitch(), pair.modulus(), boundary).on(grid.shape);
+    let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
+    let area = pair.cell_area();
+    let record = StaticRecord {
+        load: solution.load(area),
+        approach: solution.approach,
+        contact_area: area * solution.contact_cells() as f64,
+        apparent_area: grid.area(),
+        max_pressure: solution.max_pressure(),
+        mean_gap: solution.gap(&gap).mean().unwrap_or(0.0),
+        elastic_energy: solution.elastic_energy(area),
+        plastic_cells: solution.plastic_cells(pair.hardness()),
+        plastic_volume: solution.plastic_volume(&gap, pair.hardness(), area),
+        iterations: solution.stats.iterations,
+        convolutions: solution.stats.convolutions,
+        residual: solution.residual,
+        converged: true,
+    };
+    Ok((record, solution))
+}

@@ -1,0 +1,133 @@
+//! Two bodies that face each other.
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::material::{Material, composite_hardness, composite_modulus, plastic_share};
+use crate::motion::path::Position;
+use crate::surface::Topography;
+use crate::units::{Metre, Pascal, SquareMetre};
+
+/// The two surfaces, and what the materials make of them together.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// Heights of the lower surface, m.
+    pub lower: Field,
+    /// Heights of the upper body's underside, m.
+    pub upper: Field,
+    pitch: [Metre; 2],
+    modulus: Pascal,
+    hardness: Pascal,
+    share: f64,
+}
+
+impl Pair {
+    /// Two bodies; `upper` is the height of the underside.
+    ///
+    /// # Errors
+    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] where heights are
+    /// missing, [`Error::OutOfRange`] if both materials are rigid.
+    pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
+        let (a, b) = (*lower.grid(), *upper.grid());
+        if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
+            let text = |g: Grid| format!("{:e} m × {:e} m", g.pitch[0], g.pitch[1]);
+            return Err(Error::GridMismatch {
+                what: "pitch of the two bodies",
+                left: text(a),
+                right: text(b),
+            });
+        }
+        if a.shape[1] != b.shape[1] {
+            let text = |g: Grid| format!("{} cells across", g.shape[1]);
+            return Err(Error::GridMismatch {
+                what: "transverse width of the two bodies",
+                left: text(a),
+                right: text(b),
+            });
+        }
+        for body in [&lower, &upper] {
+            let undefined = body.undefined();
+            if undefined > 0 {
+                return Err(Error::UndefinedSamples { undefined, samples: body.grid().cells() });
+            }
+        }
+        Ok(Self {
+            pitch: a.pitch,
+            lower: lower.into_heights(),
+            upper: upper.into_heights(),
+            modulus: composite_modulus(materials[0], materials[1])?,
+            hardness: composite_hardness(materials[0], materials[1]),
+            share: plastic_share(materials[0], materials[1]),
+        })
+    }
+
+    /// The same pair with another division of the plastic deformation: `share` of it to the lower body, 0 … 1.
+    pub fn with_plastic_share(self, share: f64) -> Self {
+        Self { share, ..self }
+    }
+
+    /// Size of a cell.
+    pub fn pitch(&self) -> [Metre; 2] {
+        self.pitch
+    }
+
+    /// Composite modulus E*.
+    pub fn modulus(&self) -> Pascal {
+        self.modulus
+    }
+
+    /// Hardness of the pair, infinite where both bodies are elastic.
+    pub fn hardness(&self) -> Pascal {
+        self.hardness
+    }
+
+    /// The lower body's share of the plastic deformation.
+    pub fn plastic_share(&self) -> f64 {
+        self.share
+    }
+
+    /// Whether the pair can deform plastically.
+    pub fn yields(&self) -> bool {
+        self.hardness.is_finite()
+    }
+
+    /// Area ΔA of a cell.
+    pub fn cell_area(&self) -> SquareMetre {
+        self.pitch[0] * self.pitch[1]
+    }
+
+    /// The lower body's grid.
+    pub fn lower_grid(&self) -> Grid {
+        self.grid(self.lower.nrows())
+    }
+
+    /// The upper body's grid.
+    pub fn upper_grid(&self) -> Grid {
+        self.grid(self.upper.nrows())
+    }
+
+    /// A grid of so many columns of this pair.
+    pub fn grid(&self, columns: usize) -> Grid {
+        Grid { shape: [columns, self.lower.ncols()], pitch: self.pitch }
+    }
+
+    /// Undeformed gap h = z₂ − z₁ of the cells that face each other.
+    pub fn initial_gap(&self, position: &Position) -> Field {
+        let mut gap = Field::zeros([position.columns, self.lower.ncols()]);
+        for (j, mut row) in gap.outer_iter_mut().enumerate() {
+            let lower = self.lower.row((position.lower + j) % self.lower.nrows());
+            let upper = self.upper.row((position.upper + j) % self.upper.nrows());
+            ndarray::Zip::from(&mut row).and(lower).and(upper).for_each(|h, z1, z2| *h = z2 - z1);
+        }
+        gap
+    }
+
+    /// Of a flat cell of the contact at `position`: its flat cells of the lower and of the upper body.
+    pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
+        let width = self.lower.ncols();
+        let (column, across) = (cell / width, cell % width);
+        [
+            (position.lower + column) % self.lower.nrows() * width + across,
+            (position.upper + column) % self.upper.nrows() * width + across,
+        ]
+    }
+}

@@ -1,0 +1,107 @@
+//! All positions of one pass.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::path::Position;
+use crate::motion::plastic::{LostVolume, deform_after, deform_at};
+use crate::motion::watch::{Progress, Watch};
+use crate::motion::{Motion, PlasticUpdate};
+use crate::operator::Operators;
+use crate::solver::{Control, Params};
+use crate::units::Newton;
+
+/// A pass at one prescribed load or approach: its contacts, and the pair as it leaves it.
+pub(super) struct Pass {
+    pub(super) contacts: Vec<Contact>,
+    pub(super) pair: Pair,
+    pub(super) lost: LostVolume,
+}
+
+impl Pass {
+    /// Mean load over the positions.
+    pub(super) fn mean_load(&self) -> Newton {
+        self.contacts.iter().map(|c| c.load).sum::<f64>() / self.contacts.len() as f64
+    }
+}
+
+/// What a pass is solved with.
+pub(super) struct Solver<'a> {
+    pub(super) operators: &'a Operators,
+    pub(super) positions: &'a [Position],
+    pub(super) motion: &'a Motion,
+    pub(super) watch: &'a dyn Watch,
+    /// Pass and trial, for the watch.
+    pub(super) progress: Progress,
+}
+
+impl Solver<'_> {
+    /// Solves all positions, from the contacts of up to two earlier trials at the same positions, the latest first.
+    pub(super) fn solve(
+        &self,
+        pair: &Pair,
+        control: Control,
+        params: &Params,
+        earlier: &[Vec<Contact>],
+    ) -> Result<Pass> {
+        let solved = AtomicUsize::new(0);
+        let solve = |pair: &Pair, index: usize| {
+            if self.watch.stop() {
+                return Err(Error::Interrupted);
+            }
+            let position = self.positions[index];
+            let start = first_guess(earlier, index, control, pair.lower.ncols());
+            let mut contact =
+                Contact::solve(pair, self.operators, position, control, start.as_ref(), params)?;
+            if let Some(latest) = earlier.first() {
+                contact.stats.convolutions += latest[index].stats.convolutions;
+            }
+            let solved = solved.fetch_add(1, Ordering::Relaxed) + 1;
+            self.watch.at(&Progress { solved, load: contact.load, ..self.progress });
+            Ok(contact)
+        };
+        let mut after = pair.clone();
+        if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
+            let mut contacts = Vec::with_capacity(self.positions.len());
+            let mut lost = [0.0; 2];
+            for index in 0..self.positions.len() {
+                let contact = solve(&after, index)?;
+                let here = deform_at(&mut after, &contact);
+                lost = [lost[0] + here[0], lost[1] + here[1]];
+                contacts.push(contact);
+            }
+            return Ok(Pass { contacts, pair: after, lost });
+        }
+        let contacts: Vec<Contact> = (0..self.positions.len())
+            .into_par_iter()
+            .map(|index| solve(pair, index))
+            .collect::<Result<_>>()?;
+        let lost = deform_after(&mut after, &contacts);
+        Ok(Pass { contacts, pair: after, lost })
+    }
+}
+
+/// The pressure at a position, extrapolated over the approach from those of earlier trials.
+fn first_guess(earlier: &[Vec<Contact>], index: usize, control: Control, width: usize) -> Option<Field> {
+    let latest = &earlier.first()?[index];
+    if latest.pressure.is_empty() {
+        return None;
+    }
+    let mut guess = latest.pressure_field(width);
+    if let (Some(before), Control::Approach(approach)) = (earlier.get(1), control) {
+        let before = &before[index];
+        let step = (approach - latest.approach) / (latest.approach - before.approach);
+        if step.is_finite() && !before.pressure.is_empty() {
+            let step = step.clamp(-0.5, 1.0);
+            let change = &guess - &before.pressure_field(width);
+            guess.scaled_add(step, &change);
+            guess.mapv_inplace(|p| p.max(0.0));
+        }
+    }
+    Some(guess)
+}

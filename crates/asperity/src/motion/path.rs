@@ -1,0 +1,100 @@
+//! The relative positions of a pass.
+
+use crate::units::MetrePerSecond;
+
+/// One relative position: which columns of the lower body face which of the upper one.
+///
+/// Column `j` of the contact is column `lower + j` of the lower body and `upper + j` of the upper one, both counted
+/// cyclically (in an overlap neither wraps around).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Position {
+    /// Columns by which the upper body has moved to the right of the lower one.
+    pub offset: isize,
+    /// First column of the lower body.
+    pub lower: usize,
+    /// First column of the upper body.
+    pub upper: usize,
+    /// Columns that face each other.
+    pub columns: usize,
+}
+
+/// The positions of an overlap pass: the upper body enters from the left, passes over and leaves on the right.
+///
+/// Of the `lower + upper − 1` positions at which bodies of so many columns face each other, every `stride`-th, the
+/// one at which their left edges are flush always among them.
+pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Position> {
+    let (lower, upper, stride) = (lower as isize, upper as isize, stride as isize);
+    let first = -((upper - 1) / stride);
+    let last = (lower - 1) / stride;
+    (first..=last)
+        .map(|k| {
+            let offset = k * stride;
+            let start = offset.max(0);
+            let end = lower.min(upper + offset);
+            Position {
+                offset,
+                lower: start as usize,
+                upper: (start - offset) as usize,
+                columns: (end - start) as usize,
+            }
+        })
+        .collect()
+}
+
+/// The positions of a pass by circular shift: the faster surface goes once around, `stride` columns a step.
+///
+/// All of the `columns` face each other throughout. Equal speeds roll, a zero speed slides.
+pub fn shift_positions(
+    columns: usize,
+    stride: usize,
+    speed_lower: MetrePerSecond,
+    speed_upper: MetrePerSecond,
+) -> Vec<Position> {
+    let fastest = speed_lower.abs().max(speed_upper.abs());
+    (0..columns.div_ceil(stride))
+        .map(|step| {
+            let moved = |speed: f64| ((step * stride) as f64 * speed / fastest).round() as isize;
+            let (lower, upper) = (moved(speed_lower), moved(speed_upper));
+            let start = |moved: isize| (-moved).rem_euclid(columns as isize) as usize;
+            Position { offset: upper - lower, lower: start(lower), upper: start(upper), columns }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_upper_body_enters_on_the_left_and_leaves_on_the_right() {
+        let positions = overlap_positions(4, 4, 1);
+        let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
+        assert_eq!(columns, [1, 2, 3, 4, 3, 2, 1]);
+        assert_eq!(positions[0], Position { offset: -3, lower: 0, upper: 3, columns: 1 });
+        assert_eq!(positions[6], Position { offset: 3, lower: 3, upper: 0, columns: 1 });
+    }
+
+    #[test]
+    fn a_stride_keeps_the_position_at_which_all_faces_all() {
+        for (lower, upper, stride) in [(10, 10, 3), (10, 4, 4), (3, 12, 5), (7, 7, 20)] {
+            let positions = overlap_positions(lower, upper, stride);
+            let flush = positions.iter().find(|p| p.offset == 0).unwrap();
+            assert_eq!(flush.columns, lower.min(upper));
+            for p in &positions {
+                assert!(p.columns >= 1 && p.lower + p.columns <= lower && p.upper + p.columns <= upper);
+                assert_eq!(p.lower as isize - p.upper as isize, p.offset);
+                assert_eq!(p.offset % stride as isize, 0);
+            }
+        }
+    }
+
+    #[test]
+    fn rolling_turns_both_surfaces_and_sliding_one() {
+        let rolling = shift_positions(5, 2, 1.0, 1.0);
+        assert_eq!(rolling.iter().map(|p| (p.lower, p.upper)).collect::<Vec<_>>(), [(0, 0), (3, 3), (1, 1)]);
+        let sliding = shift_positions(5, 1, 0.0, 2.0);
+        assert!(sliding.iter().all(|p| p.lower == 0) && sliding[1].upper == 4 && sliding.len() == 5);
+        let slip = shift_positions(8, 1, 1.0, -0.5);
+        assert_eq!(slip[2], Position { offset: -3, lower: 6, upper: 1, columns: 8 });
+    }
+}

@@ -1,0 +1,243 @@
+//! The motion itself: pass after pass.
+
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::motion::approach::{Guess, Search};
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Pass, Solver};
+use crate::motion::path::{Position, overlap_positions, shift_positions};
+use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::watch::{Output, PassReport, Progress, Watch};
+use crate::motion::{Control, Motion, Strategy};
+use crate::operator::{Boundary, Operators};
+use crate::solver::{self, Params};
+use crate::units::{Metre, Newton};
+
+/// Two bodies that pass over each other.
+pub struct Simulation {
+    pair: Pair,
+    motion: Motion,
+    params: Params,
+    positions: Vec<Position>,
+    operators: Operators,
+    passes_done: usize,
+    guess: Option<Guess>,
+    /// Contacts of the last pass.
+    latest: Option<Vec<Contact>>,
+}
+
+impl Simulation {
+    /// A motion from its beginning.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], [`Error::Unsupported`] or [`Error::GridMismatch`] for input without meaning,
+    /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
+    pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
+        let positions = positions(&pair, boundary, &motion)?;
+        check_limit(&pair, &motion, &positions)?;
+        let operators = Operators::new(pair.pitch(), pair.modulus(), boundary);
+        Ok(Self { pair, motion, params, positions, operators, passes_done: 0, guess: None, latest: None })
+    }
+
+    /// The same motion with `passes` already done, the last one at `approach`; the pair is that after them.
+    pub fn resumed(mut self, passes: usize, approach: Metre) -> Self {
+        self.passes_done = passes;
+        self.guess = Some(Guess { approach, slope: 1.0 / self.height_scale() });
+        self
+    }
+
+    /// The bodies as they are now.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// The positions of a pass.
+    pub fn positions(&self) -> &[Position] {
+        &self.positions
+    }
+
+    /// Runs the passes that are left.
+    ///
+    /// # Errors
+    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`], and those of the
+    /// outputs.
+    pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
+        while self.passes_done < self.motion.passes {
+            let began = Instant::now();
+            let pass = self.passes_done + 1;
+            let (outcome, trials) = self.solve_pass(pass, watch)?;
+            let steps: Vec<StepRecord> = outcome
+                .contacts
+                .iter()
+                .enumerate()
+                .map(|(k, c)| c.record(&outcome.pair, pass, k + 1))
+                .collect();
+            let mut record = summarise(&outcome, &steps, pass);
+            record.outer_iterations = trials;
+            record.wall_time_s = began.elapsed().as_secs_f64();
+            for output in outputs.iter_mut() {
+                let (contacts, pair) = (&outcome.contacts, &outcome.pair);
+                output.pass(&PassReport { record: &record, steps: &steps, contacts, pair })?;
+            }
+            self.pair = outcome.pair;
+            self.latest = Some(outcome.contacts);
+            self.passes_done = pass;
+        }
+        Ok(())
+    }
+
+    /// One pass from the present geometry, and the number of approaches tried.
+    fn solve_pass(&mut self, pass: usize, watch: &dyn Watch) -> Result<(Pass, usize)> {
+        let mut earlier: Vec<Vec<Contact>> = self.latest.take().into_iter().collect();
+        for contact in earlier.iter_mut().flatten() {
+            contact.stats.convolutions = 0.0;
+        }
+        let progress = Progress {
+            pass,
+            passes: self.motion.passes,
+            trial: 1,
+            solved: 0,
+            positions: self.positions.len(),
+            load: 0.0,
+        };
+        let mut solver = Solver {
+            operators: &self.operators,
+            positions: &self.positions,
+            motion: &self.motion,
+            watch,
+            progress,
+        };
+        let load = match self.motion.control {
+            Control::PassLoad(load) => load,
+            Control::StepLoad(load) => {
+                let control = solver::Control::Load(load);
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+            }
+            Control::Approach(approach) => {
+                let control = solver::Control::Approach(approach);
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+            }
+        };
+        let guess = match self.guess {
+            Some(guess) => guess,
+            None => self.first_guess(load)?,
+        };
+        let search = Search {
+            load,
+            tolerance: self.motion.load_tolerance,
+            residual: self.params.tolerance,
+            touch: self.touch(),
+        };
+        let found = search.run(guess, |approach, residual| {
+            let params = Params { tolerance: residual, ..self.params };
+            let control = solver::Control::Approach(approach);
+            let outcome = solver.solve(&self.pair, control, &params, &earlier)?;
+            solver.progress.trial += 1;
+            earlier.insert(0, outcome.contacts.clone());
+            earlier.truncate(2);
+            Ok((outcome.mean_load(), outcome))
+        })?;
+        self.guess = Some(found.guess);
+        Ok((found.outcome, found.trials))
+    }
+
+    /// The position with the most columns, at two loads near its share of the pass-mean load.
+    fn first_guess(&self, load: Newton) -> Result<Guess> {
+        let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
+        let share = fullest.columns as f64 / mean_columns(&self.positions);
+        let limit = self.pair.hardness() * self.pair.grid(fullest.columns).area();
+        let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
+        let solve = |load: Newton, start: Option<&Contact>| {
+            let start = start.map(|c| c.pressure_field(self.pair.lower.ncols()));
+            let control = solver::Control::Load(load);
+            Contact::solve(&self.pair, &self.operators, *fullest, control, start.as_ref(), &params)
+        };
+        let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
+        let first = solve(less, None)?;
+        let second = solve(more, Some(&first))?;
+        let slope = (more / less).ln() / (second.approach - first.approach);
+        let slope = if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / self.height_scale() };
+        Ok(Guess { approach: first.approach, slope })
+    }
+
+    /// The approach at which some position of the pass first touches.
+    fn touch(&self) -> Metre {
+        let lowest = |position| self.pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
+        self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A length over which the load changes by a factor: a tenth of the roughness.
+    fn height_scale(&self) -> Metre {
+        let roughness = self.pair.lower.std(0.0).hypot(self.pair.upper.std(0.0));
+        if roughness > 0.0 { 0.1 * roughness } else { self.pair.pitch()[0] }
+    }
+}
+
+fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {
+    let range = |quantity, value: f64, good: bool, expected| {
+        if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+    };
+    range("passes", motion.passes as f64, motion.passes > 0, "at least one pass")?;
+    range("stride", motion.stride as f64, motion.stride > 0, "at least one cell")?;
+    let tolerance = motion.load_tolerance;
+    range("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
+    if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
+        range("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+    }
+    let (lower, upper) = (pair.lower.nrows(), pair.upper.nrows());
+    match motion.strategy {
+        Strategy::Overlap if boundary == Boundary::Periodic => {
+            Err(Error::Unsupported("an overlap is a finite contact: its boundary is free"))
+        }
+        Strategy::Overlap => Ok(overlap_positions(lower, upper, motion.stride)),
+        Strategy::Shift { .. } if lower != upper => Err(Error::GridMismatch {
+            what: "length of the two bodies, which a circular shift needs equal",
+            left: format!("{lower} cells along x"),
+            right: format!("{upper} cells along x"),
+        }),
+        Strategy::Shift { speed_lower, speed_upper } => {
+            let fastest = speed_lower.abs().max(speed_upper.abs());
+            range("speed", fastest, fastest > 0.0 && fastest.is_finite(), "a surface that moves")?;
+            Ok(shift_positions(lower, motion.stride, speed_lower, speed_upper))
+        }
+    }
+}
+
+/// The bodies bear at most H ΔA for each cell that faces another: in the mean over a pass, or at each position.
+fn check_limit(pair: &Pair, motion: &Motion, positions: &[Position]) -> Result<()> {
+    let (load, columns) = match motion.control {
+        Control::PassLoad(load) => (load, mean_columns(positions)),
+        Control::StepLoad(load) => (load, positions.iter().map(|p| p.columns).min().unwrap_or(0) as f64),
+        Control::Approach(_) => return Ok(()),
+    };
+    let limit = pair.hardness() * pair.cell_area() * columns * pair.lower.ncols() as f64;
+    if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
+}
+
+fn mean_columns(positions: &[Position]) -> f64 {
+    positions.iter().map(|p| p.columns).sum::<usize>() as f64 / positions.len() as f64
+}
+
+/// The row of `passes.csv`, but for what the search alone knows.
+fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
+    let mean = |value: fn(&StepRecord) -> f64| steps.iter().map(value).sum::<f64>() / steps.len() as f64;
+    let most = |value: fn(&StepRecord) -> f64| steps.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+    PassRecord {
+        pass,
+        approach: mean(|s| s.approach),
+        mean_load: mean(|s| s.load),
+        min_load: -most(|s| -s.load),
+        max_load: most(|s| s.load),
+        mean_contact_area: mean(|s| s.contact_area),
+        max_pressure: most(|s| s.max_pressure),
+        plastic_volume_lower: outcome.lost[0],
+        plastic_volume_upper: outcome.lost[1],
+        sq_lower: outcome.pair.lower.std(0.0),
+        sq_upper: outcome.pair.upper.std(0.0),
+        outer_iterations: 1,
+        convolutions: steps.iter().map(|s| s.convolutions).sum(),
+        wall_time_s: 0.0,
+    }
+}

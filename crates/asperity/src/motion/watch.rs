@@ -1,0 +1,80 @@
+//! Who looks on while a motion is computed.
+
+use crate::error::Result;
+use crate::grid::Field;
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::record::{PassRecord, StepRecord};
+use crate::units::Newton;
+
+/// How far a motion has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// The pass under way, from 1.
+    pub pass: usize,
+    /// Passes in all.
+    pub passes: usize,
+    /// The approach being tried in this pass, from 1.
+    pub trial: usize,
+    /// Positions solved in this trial.
+    pub solved: usize,
+    /// Positions of a pass.
+    pub positions: usize,
+    /// Load at the position solved last.
+    pub load: Newton,
+}
+
+/// Looks on, from the threads that solve.
+pub trait Watch: Sync {
+    /// A position has been solved.
+    fn at(&self, progress: &Progress);
+
+    /// Whether to stop: the motion then ends with [`crate::Error::Interrupted`] at the next position.
+    fn stop(&self) -> bool;
+}
+
+/// Nobody looks on.
+impl Watch for () {
+    fn at(&self, _: &Progress) {}
+
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// A finished pass.
+pub struct PassReport<'a> {
+    /// The pass in numbers.
+    pub record: &'a PassRecord,
+    /// Its positions in numbers.
+    pub steps: &'a [StepRecord],
+    /// Its contacts, position by position.
+    pub contacts: &'a [Contact],
+    /// The bodies after the pass.
+    pub pair: &'a Pair,
+}
+
+impl PassReport<'_> {
+    /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
+    pub fn mean_pressure(&self) -> [Field; 2] {
+        let mut mean = [Field::zeros(self.pair.lower.raw_dim()), Field::zeros(self.pair.upper.raw_dim())];
+        for contact in self.contacts {
+            for &(cell, p) in &contact.pressure {
+                let bodies = self.pair.cells_of_bodies(&contact.position, cell as usize);
+                for (mean, cell) in mean.iter_mut().zip(bodies) {
+                    mean.as_slice_mut().expect("standard layout")[cell] += p;
+                }
+            }
+        }
+        mean.map(|sum| sum / self.contacts.len() as f64)
+    }
+}
+
+/// Takes what a motion yields. An output that cannot be written ends the motion.
+pub trait Output {
+    /// Takes a finished pass.
+    ///
+    /// # Errors
+    /// What kept it from being written.
+    fn pass(&mut self, report: &PassReport) -> Result<()>;
+}

@@ -1,0 +1,200 @@
+//! Verification: the whole program against closed forms, by the order in which its error vanishes.
+//!
+//! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s asks of one
+//! quantity that the error vanishes as theory expects it to. A lucky per cent passes no check; an order does.
+//! What one may expect of pressures that are constant in each cell and displacements taken at its centre:
+//!
+//! ```text
+//! load, approach, mean gap, energy: what follows from the least energy
+//!     order 2   the centre of a cell sinks Δx² ∇²u/24 less or more than its mean
+//!     order 3   the rest, the square of the pressure's error in the norm of the energy, Δx^(3/2)
+//!     order 1   where the pressure ends as 1/√distance: that error is Δx^(1/2)
+//! pressure, rms over the contact
+//!     order 1   where it ends as √distance: wrong by √Δx in a share Δx of the cells
+//! contact, counted by cells
+//!     order 1   a cell at each edge is in or out
+//! ```
+
+mod operators;
+mod rough;
+mod sinusoid;
+mod smooth;
+
+use std::ops::RangeInclusive;
+
+use crate::error::Result;
+use crate::grid::Field;
+use crate::operator::Operator;
+use crate::solver::{Control, Method, Params, Solution, solve_normal};
+use crate::units::Pascal;
+
+/// A closed form, or an identity of the theory, that the program is held against.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// What is computed.
+    pub name: &'static str,
+    /// Where the closed form is found.
+    pub source: &'static str,
+    /// Computes it on all grids.
+    pub checks: fn() -> Result<Vec<Check>>,
+}
+
+/// One quantity of a [`Case`] on finer and finer grids.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Check {
+    /// What is compared.
+    pub quantity: &'static str,
+    /// What grows: cells per length, steps, a ratio.
+    pub refinement: &'static str,
+    /// Its values, ascending.
+    pub sizes: Vec<usize>,
+    /// Relative error at each size.
+    pub errors: Vec<f64>,
+    /// What theory expects.
+    pub expected: Expected,
+}
+
+/// How an error vanishes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Expected {
+    /// |error| is no more than this at every size.
+    RoundOff(f64),
+    /// |error| × size is no more than this at every size: cells are counted, and one at an edge is in or out.
+    Counted(f64),
+    /// The error falls as a power of the size.
+    Order {
+        /// Where [`Check::order`] lies: around the theory's order, as far as staircase edges scatter it.
+        order: RangeInclusive<f64>,
+        /// The largest |error| at the last size.
+        finest: f64,
+    },
+}
+
+impl Check {
+    /// Order k of |error| ∝ size^(−k): the least squares fit to the logarithms over all sizes. NaN where an error
+    /// is 0 or there is a single size.
+    pub fn order(&self) -> f64 {
+        let points = || self.sizes.iter().zip(&self.errors).map(|(n, e)| ((*n as f64).ln(), e.abs().ln()));
+        let count = self.sizes.len() as f64;
+        let (x, y) = points().fold((0.0, 0.0), |(x, y), (s, t)| (x + s / count, y + t / count));
+        let (above, below) =
+            points().fold((0.0, 0.0), |(a, b), (s, t)| (a + (s - x) * (t - y), b + (s - x) * (s - x)));
+        -above / below
+    }
+
+    /// Whether the errors are as expected; never with a NaN among them.
+    pub fn passed(&self) -> bool {
+        let all_within = |bound: &dyn Fn(usize) -> f64| {
+            self.sizes.iter().zip(&self.errors).all(|(n, error)| error.abs() <= bound(*n))
+        };
+        match &self.expected {
+            Expected::RoundOff(tolerance) => all_within(&|_| *tolerance),
+            Expected::Counted(cells) => all_within(&|n| cells / n as f64),
+            Expected::Order { order, finest } => {
+                let last = self.errors.last().is_some_and(|error| error.abs() <= *finest);
+                last && order.contains(&self.order())
+            }
+        }
+    }
+}
+
+/// All cases: operators first, then what is solved with them.
+pub const CASES: &[Case] = &[
+    operators::LOADED_RECTANGLE,
+    operators::FREE_TRANSFORM,
+    operators::PERIODIC_TRANSFORM,
+    smooth::SPHERE,
+    smooth::LINE,
+    smooth::PUNCH,
+    sinusoid::QUARTER,
+    sinusoid::HALF,
+    sinusoid::THREE_QUARTERS,
+    sinusoid::FULL,
+    rough::PLASTIC_LIMIT,
+    rough::WORK,
+    rough::METHODS,
+];
+
+/// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.
+fn study<const N: usize>(
+    refinement: &'static str,
+    sizes: &[usize],
+    checks: [(&'static str, Expected); N],
+    mut errors_at: impl FnMut(usize) -> Result<[f64; N]>,
+) -> Result<Vec<Check>> {
+    let errors = sizes.iter().map(|&n| errors_at(n)).collect::<Result<Vec<_>>>()?;
+    let check = |(i, (quantity, expected))| Check {
+        quantity,
+        refinement,
+        sizes: sizes.to_vec(),
+        errors: errors.iter().map(|at_size: &[f64; N]| at_size[i]).collect(),
+        expected,
+    };
+    Ok(checks.into_iter().enumerate().map(check).collect())
+}
+
+fn relative(computed: f64, exact: f64) -> f64 {
+    computed / exact - 1.0
+}
+
+/// Root mean square difference over the root mean square of the exact field.
+fn relative_rms(computed: &Field, exact: &Field) -> f64 {
+    let square = |field: &Field| field.iter().map(|v| v * v).sum::<f64>();
+    (square(&(computed - exact)) / square(exact)).sqrt()
+}
+
+/// Largest difference over the largest exact value.
+fn relative_max(computed: &Field, exact: &Field) -> f64 {
+    largest(&(computed - exact)) / largest(exact)
+}
+
+/// Largest magnitude; NaN if there is one, which `f64::max` would pass over.
+fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |m: f64, v| if v.abs() > m || v.is_nan() { v.abs() } else { m })
+}
+
+/// Far below the error of any grid here.
+const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, method: Method::Auto };
+
+fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {
+    solve_normal(operator, gap, hardness, control, None, &PARAMS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn check(errors: [f64; 3], expected: Expected) -> Check {
+        let sizes = vec![10, 20, 40];
+        Check { quantity: "load", refinement: "cells", sizes, errors: errors.to_vec(), expected }
+    }
+
+    #[test]
+    fn an_error_that_falls_to_a_quarter_when_the_cells_are_halved_is_of_order_2() {
+        let expected = Expected::Order { order: 1.9..=2.1, finest: 1e-3 };
+        let check = |errors| check(errors, expected.clone());
+        assert_relative_eq!(check([-1.6e-2, -4e-3, -1e-3]).order(), 2.0, max_relative = 1e-14);
+        assert!(check([-1.6e-2, -4e-3, -1e-3]).passed());
+        assert!(!check([-3.2e-2, -8e-3, -2e-3]).passed(), "of order 2, but too large");
+        assert!(!check([4e-3, 2e-3, 1e-3]).passed(), "small, but of order 1");
+    }
+
+    #[test]
+    fn a_count_may_be_wrong_by_so_many_cells_and_round_off_by_the_same_everywhere() {
+        assert!(check([0.1, 0.0, -0.02], Expected::Counted(1.0)).passed());
+        assert!(!check([0.1, 0.0, 0.03], Expected::Counted(1.0)).passed());
+        assert!(check([1e-16, 0.0, -1e-14], Expected::RoundOff(1e-14)).passed());
+        assert!(!check([1e-13, 0.0, 0.0], Expected::RoundOff(1e-14)).passed());
+    }
+
+    #[test]
+    fn what_is_not_a_number_passes_nothing() {
+        let order = Expected::Order { order: 0.0..=9.0, finest: 1.0 };
+        for expected in [order, Expected::Counted(1e9), Expected::RoundOff(1e9)] {
+            assert!(!check([0.1, f64::NAN, 0.01], expected).passed());
+        }
+        let field = ndarray::arr2(&[[1.0, f64::NAN, 2.0]]);
+        assert!(relative_max(&field, &ndarray::arr2(&[[1.0, 1.0, 2.0]])).is_nan());
+    }
+}

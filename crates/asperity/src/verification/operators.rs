@@ -1,0 +1,89 @@
+//! Pressure in, displacement out: exact but for round-off.
+
+use std::f64::consts::TAU;
+
+use super::{Case, Check, Expected, relative, relative_max, study};
+use crate::error::Result;
+use crate::grid::{Field, Grid};
+use crate::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
+use crate::reference::cell::{corner_displacement, mean_displacement};
+
+const MODULUS: f64 = 115e9;
+
+fn displacement(mut operator: impl Operator, pressure: &Field) -> Field {
+    let mut displacement = operator.grid().zeros();
+    operator.apply(pressure, &mut displacement);
+    displacement
+}
+
+/// A rectangle under uniform pressure, made of n × n cells: superposition gives the displacement of every cell
+/// without error. Its mean is that of the cells' centres, the midpoint rule, of order 2 but for the
+/// logarithmic slope at the edges: Δx² ln Δx.
+pub(super) const LOADED_RECTANGLE: Case = Case {
+    name: "Love: uniformly loaded rectangle",
+    source: "Love (1929); Johnson (1985), eq. 3.25",
+    checks: || {
+        let sides = [1.5e-6, 1e-6];
+        let pressure = 1e9;
+        let midpoint = Expected::Order { order: 1.6..=2.1, finest: 1e-3 };
+        let checks = [
+            ("cells, direct sum", Expected::RoundOff(1e-13)),
+            ("cells, free FFT", Expected::RoundOff(1e-13)),
+            ("mean", midpoint),
+        ];
+        study("cells a side", &[4, 8, 16, 32], checks, |n| {
+            let grid = Grid::new([n, n], sides.map(|side| side / n as f64))?;
+            // A point divides the rectangle into four that have it as a corner.
+            let exact = Field::from_shape_fn(grid.shape, |(i, j)| {
+                let [x, y] = [grid.centre(0, i), grid.centre(1, j)];
+                let quarter = |u, v| corner_displacement(pressure, [u, v], MODULUS);
+                [x, sides[0] - x].iter().map(|&u| quarter(u, y) + quarter(u, sides[1] - y)).sum()
+            });
+            let loaded = grid.zeros() + pressure;
+            let direct = displacement(DirectSum::new(grid, MODULUS), &loaded);
+            let fast = displacement(FreeFft::new(grid, MODULUS), &loaded);
+            let mean = direct.sum() / grid.cells() as f64;
+            Ok([
+                relative_max(&direct, &exact),
+                relative_max(&fast, &exact),
+                relative(mean, mean_displacement(pressure, sides, MODULUS)),
+            ])
+        })
+    },
+};
+
+/// Zero padding makes the circular convolution the free one, on grids of any shape.
+pub(super) const FREE_TRANSFORM: Case = Case {
+    name: "free FFT: the direct sum",
+    source: "convolution theorem",
+    checks: || {
+        study("cells a side", &[5, 16, 31, 64], [("displacement", Expected::RoundOff(1e-14))], |n| {
+            let grid = Grid::new([n, 2 * n / 3], [1e-6, 0.7e-6])?;
+            let patchy = Field::from_shape_fn(grid.shape, |(i, j)| {
+                if (i / 2 + j / 3) % 3 == 1 { 0.0 } else { 1e8 * ((7 * i + 3 * j * j) % 11) as f64 }
+            });
+            let exact = displacement(DirectSum::new(grid, MODULUS), &patchy);
+            Ok([relative_max(&displacement(FreeFft::new(grid, MODULUS), &patchy), &exact)])
+        })
+    },
+};
+
+/// Each harmonic is an eigenfunction, u = 2p/(E*|q|), on the grid as on the half-space.
+pub(super) const PERIODIC_TRANSFORM: Case = Case {
+    name: "periodic FFT: oblique sinusoid",
+    source: "Johnson (1985), eq. 13.6",
+    checks: oblique_sinusoid,
+};
+
+fn oblique_sinusoid() -> Result<Vec<Check>> {
+    study("cells a side", &[8, 15, 32, 64], [("displacement", Expected::RoundOff(1e-14))], |n| {
+        let grid = Grid::new([n, n + 1], [1e-6, 0.7e-6])?;
+        let [lx, ly] = grid.extent();
+        let wave = Field::from_shape_fn(grid.shape, |(i, j)| {
+            (TAU * (3.0 * grid.centre(0, i) / lx - 2.0 * grid.centre(1, j) / ly)).sin()
+        });
+        let q = TAU * (3.0 / lx).hypot(2.0 / ly);
+        let computed = displacement(PeriodicFft::new(grid, MODULUS), &(1e9 * (1.0 + &wave)));
+        Ok([relative_max(&computed, &(2e9 / (MODULUS * q) * wave))])
+    })
+}

@@ -1,0 +1,106 @@
+//! One smooth body on a plane.
+
+use std::f64::consts::PI;
+
+use super::{Case, Check, Expected, press, relative, relative_rms, study};
+use crate::error::Result;
+use crate::grid::{Field, Grid};
+use crate::operator::{FreeFft, PeriodicFft};
+use crate::reference::{FlatPunch, HertzLine, HertzSphere};
+use crate::solver::Control;
+use crate::surface::{Axis, Form};
+
+const ELASTIC: f64 = f64::INFINITY;
+const RADIUS: f64 = 4.0;
+const MODULUS: f64 = 5.0;
+
+/// The apex stands where four cells meet, and the peak pressure is that of a cell beside it: of its error, about
+/// (Δx/2a)² is the distance to the apex. In the energy, under a given load, the orders 2 and 3 are alike in size.
+pub(super) const SPHERE: Case =
+    Case { name: "Hertz: sphere", source: "Hertz (1882); Johnson (1985), eqs. 4.22–4.24", checks: sphere };
+
+fn sphere() -> Result<Vec<Check>> {
+    let hertz = HertzSphere { radius: RADIUS, modulus: MODULUS, load: 7.0 };
+    let a = hertz.contact_radius();
+    let second = |finest| Expected::Order { order: 1.8..=2.2, finest };
+    let checks = [
+        ("peak pressure", second(1e-4)),
+        ("approach", second(1e-4)),
+        ("elastic energy", Expected::Order { order: 1.8..=3.0, finest: 1e-4 }),
+        ("pressure, rms", Expected::Order { order: 0.8..=1.2, finest: 1e-2 }),
+        ("contact area", Expected::Counted(1.0)),
+    ];
+    study("a/Δx", &[8, 16, 32, 64], checks, |n| {
+        let grid = Grid::new([3 * n; 2], [a / n as f64; 2])?;
+        let gap = -Form::Sphere { radius: RADIUS }.on(&grid)?.into_heights();
+        let solution = press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Load(hertz.load))?;
+        let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
+        let area = solution.contact_cells() as f64 * grid.cell_area();
+        Ok([
+            relative(solution.max_pressure(), hertz.peak_pressure()),
+            relative(solution.approach, hertz.approach()),
+            relative(solution.elastic_energy(grid.cell_area()), hertz.elastic_energy()),
+            relative_rms(&solution.pressure, &exact),
+            relative(area, PI * a * a),
+        ])
+    })
+}
+
+/// A cylinder on a periodic grid one cell wide, because a free line of contact has an end and an unbounded approach.
+///
+/// The other lines of contact, a period L away, are felt as a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, and
+/// the second term is linear in x whatever the pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), but for
+/// terms of (a/L)⁴ = 1e-6.
+pub(super) const LINE: Case =
+    Case { name: "Hertz: cylinder, period 32 a", source: "Johnson (1985), eqs. 4.43–4.45", checks: line };
+
+fn line() -> Result<Vec<Check>> {
+    const PERIOD: usize = 32;
+    let a = 0.5;
+    let radius = RADIUS * (1.0 - (PI / PERIOD as f64).powi(2) / 6.0);
+    let hertz =
+        HertzLine { radius, modulus: MODULUS, load_per_length: PI * MODULUS * a * a / (4.0 * radius) };
+    let checks = [
+        ("peak pressure", Expected::Order { order: 1.8..=2.2, finest: 1e-4 }),
+        ("pressure, rms", Expected::Order { order: 0.8..=1.2, finest: 1e-2 }),
+        ("contact width", Expected::Counted(1.0)),
+    ];
+    study("a/Δx", &[16, 32, 64, 128], checks, |n| {
+        let pitch = a / n as f64;
+        let grid = Grid::new([PERIOD * n, 1], [pitch, pitch])?;
+        let gap = -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights();
+        let load = Control::Load(hertz.load_per_length * pitch);
+        let solution = press(&mut PeriodicFft::new(grid, MODULUS), &gap, ELASTIC, load)?;
+        let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
+        let width = solution.contact_cells() as f64 * pitch;
+        Ok([
+            relative(solution.max_pressure(), hertz.peak_pressure()),
+            relative_rms(&solution.pressure, &exact),
+            relative(width, 2.0 * a),
+        ])
+    })
+}
+
+/// The pressure is infinite at the edge, and the edge a staircase: order 1.
+pub(super) const PUNCH: Case =
+    Case { name: "flat punch", source: "Boussinesq (1885); Johnson (1985), eqs. 3.34–3.37", checks: punch };
+
+fn punch() -> Result<Vec<Check>> {
+    let punch = FlatPunch::from_approach(1.0, MODULUS, 1e-3);
+    let first = |finest| Expected::Order { order: 0.8..=1.3, finest };
+    let checks = [("load", first(1e-2)), ("pressure on the axis", first(1e-2))];
+    study("a/Δx", &[8, 16, 32, 64], checks, |n| {
+        let grid = Grid::new([2 * n + 1; 2], [punch.radius / n as f64; 2])?;
+        let inside = |i: usize, j: usize| {
+            let [x, y] = [i, j].map(|k| k as f64 - n as f64);
+            x * x + y * y <= (n * n) as f64
+        };
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 1.0 });
+        let solution =
+            press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Approach(punch.approach()))?;
+        Ok([
+            relative(solution.load(grid.cell_area()), punch.load),
+            relative(solution.pressure[[n, n]], punch.pressure(0.0)),
+        ])
+    })
+}

@@ -1,0 +1,39 @@
+//! The cases of `asperity verify`, one sentence of physics each.
+
+use asperity::verification::{CASES, Check};
+
+/// One test for each case, and one that none is left out.
+macro_rules! cases {
+    ($($sentence:ident: $name:literal,)*) => {
+        $(#[test] fn $sentence() { holds($name) })*
+
+        #[test]
+        fn every_case_has_its_sentence() {
+            let names: Vec<_> = CASES.iter().map(|case| case.name).collect();
+            assert_eq!(names, [$($name),*]);
+        }
+    };
+}
+
+cases! {
+    a_loaded_rectangle_sinks_as_its_parts_together: "Love: uniformly loaded rectangle",
+    zero_padding_frees_the_surface: "free FFT: the direct sum",
+    a_harmonic_pressure_bends_the_surface_into_itself: "periodic FFT: oblique sinusoid",
+    a_sphere_is_flattened_over_a_circle: "Hertz: sphere",
+    a_cylinder_is_flattened_along_a_line: "Hertz: cylinder, period 32 a",
+    a_flat_punch_sinks_in_proportion_to_its_load: "flat punch",
+    a_wave_touches_over_a_quarter: "Westergaard: contact of 1/4",
+    a_wave_touches_over_a_half: "Westergaard: contact of 1/2",
+    a_wave_touches_over_three_quarters: "Westergaard: contact of 3/4",
+    a_wave_is_pressed_flat: "Westergaard: p̄/p* = 1.2",
+    what_flows_everywhere_bears_its_hardness: "fully plastic: W = 0.2 H A₀",
+    the_bodies_store_the_work_of_the_load: "rough contact: work of the load",
+    the_contact_does_not_depend_on_how_it_is_found: "rough contact: three methods",
+}
+
+fn holds(name: &str) {
+    let case = CASES.iter().find(|case| case.name == name).unwrap();
+    let checks = (case.checks)().unwrap();
+    let failed: Vec<&Check> = checks.iter().filter(|check| !check.passed()).collect();
+    assert!(failed.is_empty(), "{name}: {failed:#?}");
+}
