@@ -195,14 +195,16 @@ impl CoarseCorrection {
         let shape = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
         let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
         let cells = factor[0] * factor[1];
+        let longest = grid.extent()[0].max(grid.extent()[1]);
         let stiffness = Kernel::from_transform(shape, |k, l| {
             let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
             let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
-            let wide = if k == 0 && l == 0 && !operator.periodic() {
+            let wide = match (k, l) {
+                // The mean of a periodic surface is softer than any wave; it counts under approach control alone.
+                (0, 0) if operator.periodic() => std::f64::consts::PI / longest,
                 // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean.
-                1.0 / (0.95 * grid.area().sqrt())
-            } else {
-                0.5 * qx.hypot(qy)
+                (0, 0) => 1.0 / (0.95 * grid.area().sqrt()),
+                _ => 0.5 * qx.hypot(qy),
             };
             operator.modulus() * wide / cells
         });
