@@ -13,7 +13,7 @@ const LEAVE: f64 = 3.0;
 /// Conjugate gradient steps on one active set, at the most.
 const MOST_INNER: usize = 60;
 /// The equations are met when they are below so much of what is asked of the answer, which is taken at its bounds.
-const NEARLY: f64 = 0.7;
+const NEARLY: f64 = 0.9;
 /// Radius, in cells, within which the effect of lifted cells is foreseen without a convolution.
 const FORESIGHT: usize = 4;
 
