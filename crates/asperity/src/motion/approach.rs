@@ -61,14 +61,11 @@ impl Search {
                 residual = self.residual;
                 continue;
             }
-            if excess < 0.0 {
-                low = approach;
-            } else {
-                high = approach;
-            }
-            if low >= high {
-                // A rough answer misled the bracket.
-                (low, high) = (self.touch, f64::INFINITY);
+            // A rough answer that is near the load does not tell on which side of it.
+            if excess < -0.1 * residual {
+                low = low.max(approach);
+            } else if excess > 0.1 * residual {
+                high = high.min(approach);
             }
             let logarithm = (load / self.load).ln();
             if let Some((other, value)) = before {
