@@ -87,9 +87,11 @@ fn code(error: &Error) -> u8 {
 }
 
 fn code_of_io(error: &std::io::Error) -> u8 {
-    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied};
+    use std::io::ErrorKind::{
+        InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied, ReadOnlyFilesystem,
+    };
     match error.kind() {
-        NotFound | PermissionDenied | InvalidData | IsADirectory | NotADirectory => 2,
+        NotFound | PermissionDenied | ReadOnlyFilesystem | InvalidData | IsADirectory | NotADirectory => 2,
         _ => 1,
     }
 }
@@ -159,9 +161,6 @@ fn hint(error: &Error) -> Option<String> {
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {
                 Some("`asperity example` lists cases to start from".to_owned())
-            }
-            ErrorKind::NotFound => {
-                Some("the files of a case are looked for in the case file's folder".to_owned())
             }
             ErrorKind::InvalidData => Some("a case file is text in UTF-8".to_owned())
                 .filter(|_| path.extension().is_some_and(|extension| extension == "toml")),

@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         (_, true) => Existing::Overwrite,
         _ => Existing::Keep,
     };
-    let display = Display::new(arguments.quiet);
+    let display = Display::new(arguments.quiet, case.motion.is_some());
     let outcome = engine::run(&case, &directory, existing, &display);
     display.clear();
     let summary = outcome?;
@@ -68,11 +68,19 @@ struct Display {
 }
 
 impl Display {
-    fn new(quiet: bool) -> Self {
+    /// `passes`: whether there will be finished passes to keep at Ctrl-C. A static contact has none, and whoever asks
+    /// a second time does not want to wait for the position under way: then the process ends at once, which leaves
+    /// whole files, as every file is written under a temporary name.
+    fn new(quiet: bool, passes: bool) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let heard = Arc::clone(&stop);
         // A second handler cannot be set, and none is: this is the only one.
-        let _ = ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed));
+        let _ = ctrlc::set_handler(move || {
+            if heard.swap(true, Ordering::Relaxed) || !passes {
+                note("error: interrupted");
+                std::process::exit(130);
+            }
+        });
         let bar = ProgressBar::with_draw_target(
             None,
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() },

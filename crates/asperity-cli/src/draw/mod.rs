@@ -58,8 +58,8 @@ fn invalid(path: &Path, message: String) -> Error {
 
 /// Writes `bytes` under a temporary name beside `path`, then renames.
 fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path)).map_err(at(path))
+    asperity::io::atomic::write(path, bytes).map_err(|error| match error {
+        asperity::Error::File { source, .. } => at(path)(source),
+        other => at(path)(io::Error::other(other.to_string())),
+    })
 }

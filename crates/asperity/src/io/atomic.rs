@@ -19,7 +19,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
 /// Replaces the file at `path` by what `contents` writes.
 ///
 /// The data reach the disk before the name does: a process killed at any moment leaves either the file as it
-/// was, or the new one in full, and beside it at most a temporary file whose name starts with `.tmp`.
+/// was, or the new one in full, and beside it at most a temporary file that [`sweep`] removes.
 ///
 /// # Errors
 /// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, the disk is full, or
@@ -27,6 +27,26 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
 pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     replace(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
 }
+
+/// Removes the temporary files that killed processes have left in `directory`.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn sweep(directory: &Path) -> Result<()> {
+    let left = || -> io::Result<()> {
+        for entry in std::fs::read_dir(directory)? {
+            let entry = entry?;
+            if entry.file_name().to_string_lossy().starts_with(PREFIX) {
+                std::fs::remove_file(entry.path())?;
+            }
+        }
+        Ok(())
+    };
+    left().map_err(|source| Error::File { path: directory.to_owned(), source })
+}
+
+/// How the names of temporary files begin.
+const PREFIX: &str = ".asperity-";
 
 fn replace(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let directory = match path.parent() {
@@ -55,7 +75,7 @@ fn create_in(directory: &Path) -> io::Result<NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(directory)
+    builder.prefix(PREFIX).tempfile_in(directory)
 }
 
 /// The name of a file that nobody asked for would only confuse.
@@ -95,6 +115,18 @@ mod tests {
         write(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
         assert_eq!(names(directory.path()), ["summary.json"]);
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_swept_away_and_nothing_else() {
+        let directory = tempfile::tempdir().unwrap();
+        for name in [".asperity-Zx81Qa", ".tmpZx81Qa", "summary.json"] {
+            std::fs::write(directory.path().join(name), b"half").unwrap();
+        }
+        sweep(directory.path()).unwrap();
+        let mut left = names(directory.path());
+        left.sort();
+        assert_eq!(left, [".tmpZx81Qa", "summary.json"]);
     }
 
     #[test]

@@ -12,8 +12,8 @@
 //!
 //! A pass is there once its row stands in `passes.csv`, which is written last.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use super::fields::{FieldFile, Fields};
 use super::{atomic, summary, tables};
@@ -49,7 +49,10 @@ impl Results {
     /// resumed are those of another case (more passes of the same are welcome), [`Error::File`].
     pub fn create(directory: &Path, case: &serde_json::Value, existing: Existing) -> Result<Self> {
         let results = Self { directory: directory.to_owned() };
-        fs::create_dir_all(directory).map_err(|source| results.failed(directory, source))?;
+        fs::create_dir_all(directory).map_err(|source| match source.kind() {
+            io::ErrorKind::AlreadyExists => results.failed(directory, io::ErrorKind::NotADirectory.into()),
+            _ => results.failed(directory, source),
+        })?;
         let occupied =
             fs::read_dir(directory).map_err(|source| results.failed(directory, source))?.next().is_some();
         let ours = results.case_path().exists();
@@ -57,7 +60,7 @@ impl Results {
             Existing::Keep if occupied => {
                 return Err(Error::ResultsExist { path: directory.to_owned(), results: ours });
             }
-            Existing::Overwrite if occupied && !ours => {
+            Existing::Overwrite | Existing::Resume if occupied && !ours => {
                 return Err(Error::ResultsExist { path: directory.to_owned(), results: false });
             }
             Existing::Overwrite => results.clear()?,
@@ -68,15 +71,28 @@ impl Results {
                     if let Some(passes) = case.pointer_mut("/motion/passes") {
                         passes.take();
                     }
+                    // Its folder is seen from wherever the program was called.
+                    for file in ["/lower/topography/file", "/upper/topography/file"] {
+                        if let Some(file) = case.pointer_mut(file) {
+                            *file = Path::new(file.as_str().unwrap_or_default())
+                                .file_name()
+                                .map_or(serde_json::Value::Null, |name| name.to_string_lossy().into());
+                        }
+                    }
                 }
                 if before != now {
                     return Err(Error::OtherCase { path: directory.to_owned() });
                 }
+                // It tells of all passes, or is not there.
+                results.remove("summary.json")?;
             }
             Existing::Keep | Existing::Resume => {}
         }
         let fields = results.directory.join("fields");
         fs::create_dir_all(&fields).map_err(|source| results.failed(&fields, source))?;
+        for directory in [directory, &fields] {
+            atomic::sweep(directory)?;
+        }
         let text = serde_json::to_vec_pretty(case).expect("a JSON value can be written");
         atomic::write(&results.case_path(), &text)?;
         Ok(results)
@@ -223,15 +239,21 @@ impl Results {
 
     /// Removes what an earlier computation left, and nothing else.
     fn clear(&self) -> Result<()> {
-        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "case.json"];
-        for path in files.map(|name| self.directory.join(name)).iter().filter(|path| path.exists()) {
-            fs::remove_file(path).map_err(|source| self.failed(path, source))?;
-        }
         for path in ["fields", "figures"].map(|name| self.directory.join(name)).iter().filter(|p| p.exists())
         {
             fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
         }
-        Ok(())
+        // Last the file by which the directory is known as ours.
+        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "case.json"];
+        files.iter().try_for_each(|name| self.remove(name))
+    }
+
+    fn remove(&self, name: &str) -> Result<()> {
+        let path = self.directory.join(name);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(self.failed(&path, source)),
+            _ => Ok(()),
+        }
     }
 
     fn case_path(&self) -> PathBuf {

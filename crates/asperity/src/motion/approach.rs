@@ -8,6 +8,10 @@ const LOOSEST: f64 = 0.1;
 /// Trials after which the search is given up.
 const MOST_TRIALS: usize = 100;
 
+/// A load from positions solved to the residual η is uncertain by some part of it, in η: no approach need meet a load
+/// more closely than that.
+const ROUNDOFF: f64 = 100.0;
+
 /// Where to begin: an approach, and the relative change of the load with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Guess {
@@ -54,6 +58,12 @@ impl Search {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
+            if exhausted
+                && excess.abs() > self.tolerance.max(ROUNDOFF * self.residual)
+                && residual <= self.residual
+            {
+                return Err(Error::LoadNotReached { load: self.load, trials, approach });
+            }
             if excess.abs() <= self.tolerance || exhausted {
                 if residual <= self.residual {
                     return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
@@ -127,5 +137,25 @@ mod tests {
         let found =
             search(1e-9).run(Guess { approach: 0.1, slope: 3.0 }, |delta, _| Ok((curve(delta), ()))).unwrap();
         assert!((curve(found.guess.approach) - 2.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_load_that_the_curve_jumps_over_is_not_reached() {
+        let curve = |delta: f64| if delta < 1.0 { 1.0 + 0.1 * delta } else { 3.0 + delta };
+        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, |delta, _| Ok((curve(delta), ())));
+        match found.map(|found| found.guess) {
+            Err(Error::LoadNotReached { load, approach, .. }) => {
+                assert_eq!(load, 2.0);
+                assert!((approach - 1.0).abs() < 1e-12, "{approach}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_load_that_is_never_there_is_given_up() {
+        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, |_, _| Ok((1.0, ())));
+        let error = found.map(|found| found.guess).unwrap_err();
+        assert!(matches!(error, Error::LoadNotReached { trials: MOST_TRIALS, .. }), "{error:?}");
     }
 }

@@ -186,6 +186,9 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
         range("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
     }
+    if let Control::Approach(approach) = motion.control {
+        range("approach", approach, approach.is_finite(), "a finite length")?;
+    }
     let (lower, upper) = (pair.lower.nrows(), pair.upper.nrows());
     match motion.strategy {
         Strategy::Overlap if boundary == Boundary::Periodic => {

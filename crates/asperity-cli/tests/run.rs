@@ -1,0 +1,685 @@
+//! `asperity run` and what it leaves, from its users' side: files, streams, exit codes, a run that is stopped.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use asperity::io::fields::{Fields, StoredField};
+use asperity::io::results::{Results, pressure_name};
+use asperity::io::tables::{PASS_COLUMNS, STEP_COLUMNS};
+use asperity::motion::PassRecord;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+// ---- what a run leaves -----------------------------------------------------------------------------------
+
+#[test]
+fn a_motion_leaves_every_file_promised_and_nothing_else() {
+    let folder = folder_with("case.toml", &moving(2, 4));
+    let output = run(&folder, "case.toml");
+    let table = ok(&output);
+    assert_eq!(table.lines().count(), 3, "a head and a line per pass: {table}");
+    assert!(table.contains("mean load") && table.contains("20 mN"), "{table}");
+    assert_eq!(stderr(&output), "results and figures in case-results\n");
+
+    let figures = [
+        "approach.png",
+        "contact.png",
+        "contact_area.png",
+        "load.png",
+        "mean_pressure.png",
+        "plastic.png",
+        "pressure.gif",
+        "pressure.png",
+        "roughness.png",
+        "topographies.png",
+    ];
+    let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
+    expected.extend(["initial.h5", "pass-0001.h5", "pass-0002.h5"].map(|name| format!("fields/{name}")));
+    expected.extend(["case.json", "passes.csv", "steps.csv", "summary.json"].map(str::to_owned));
+    assert_eq!(files(&folder.path().join("case-results")), expected);
+}
+
+#[test]
+fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
+    let folder = folder_with("ball.toml", BALL);
+    let output = run(&folder, "ball.toml --out results/of/ball");
+    let table = ok(&output);
+    assert!(table.starts_with("load              20 mN\napproach  "), "{table}");
+    let figures = ["contact.png", "gap.png", "plastic.png", "pressure.png", "topographies.png"];
+    let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
+    expected.extend(["case.json", "fields.h5", "summary.json"].map(str::to_owned));
+    assert_eq!(files(&folder.path().join("results/of/ball")), expected);
+}
+
+#[test]
+fn the_summary_of_a_motion_has_the_keys_and_numbers_of_its_tables() {
+    let folder = folder_with("case.toml", &moving(2, 4));
+    ok(&run(&folder, "case.toml"));
+    let directory = folder.path().join("case-results");
+    let summary = summary(&directory);
+    assert_eq!(keys(&summary), set(["case", "passes", "version", "wall_time_s", "warnings"]));
+    assert_eq!(keys(&summary["case"]), set(["contact", "lower", "motion", "output", "title", "upper"]));
+    assert_eq!(summary["case"]["contact"]["load"], json!(0.02), "SI");
+    assert_eq!(summary["version"], env!("CARGO_PKG_VERSION"));
+    assert!(summary["warnings"].is_array() && summary["wall_time_s"].as_f64().unwrap() > 0.0);
+    let passes = summary["passes"].as_array().unwrap();
+    let rows = table(&directory.join("passes.csv"), &PASS_COLUMNS);
+    assert_eq!((passes.len(), rows.len()), (2, 2));
+    for (pass, row) in passes.iter().zip(&rows) {
+        assert_eq!(keys(pass), set(PASS_COLUMNS));
+        for (column, cell) in PASS_COLUMNS.iter().zip(row) {
+            assert_eq!(pass[column].as_f64(), Some(*cell), "{column}");
+        }
+    }
+}
+
+#[test]
+fn the_summary_of_a_static_contact_has_the_keys_promised() {
+    let folder = folder_with("ball.toml", BALL);
+    ok(&run(&folder, "ball.toml"));
+    let summary = summary(&folder.path().join("ball-results"));
+    assert_eq!(keys(&summary), set(["case", "static", "version", "wall_time_s", "warnings"]));
+    let expected = [
+        "load",
+        "approach",
+        "contact_area",
+        "apparent_area",
+        "max_pressure",
+        "mean_gap",
+        "elastic_energy",
+        "plastic_cells",
+        "plastic_volume",
+        "iterations",
+        "convolutions",
+        "residual",
+        "converged",
+    ];
+    assert_eq!(keys(&summary["static"]), set(expected));
+    assert_eq!((&summary["static"]["converged"], &summary["case"]["motion"]), (&json!(true), &Value::Null));
+    assert!((number(&summary["static"]["load"]) / 0.02 - 1.0).abs() < 1e-10);
+    assert!((number(&summary["static"]["apparent_area"]) / 1024e-12 - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn steps_csv_has_a_row_per_position_whose_mean_is_that_of_the_pass() {
+    let folder = folder_with("case.toml", &moving(2, 4));
+    ok(&run(&folder, "case.toml"));
+    let directory = folder.path().join("case-results");
+    let steps = table(&directory.join("steps.csv"), &STEP_COLUMNS);
+    let passes = table(&directory.join("passes.csv"), &PASS_COLUMNS);
+    let column = |name: &str| STEP_COLUMNS.iter().position(|column| *column == name).unwrap();
+    // Offsets of −28, −24, … 28 of 32 columns.
+    assert_eq!(steps.len(), 2 * 15);
+    for (k, row) in steps.iter().enumerate() {
+        let (pass, step) = (1 + k / 15, 1 + k % 15);
+        assert_eq!((row[0], row[1]), (pass as f64, step as f64));
+        assert!((row[column("offset")] - (4 * step as i64 - 32) as f64 * 1e-6).abs() < 1e-18);
+        assert_eq!(row[column("overlap_columns")], 32.0 - (4.0 * step as f64 - 32.0).abs());
+        assert!(row[column("residual")] < 1e-6 && row[column("max_pressure")] <= 4e9);
+    }
+    for (rows, pass) in steps.chunks(15).zip(&passes) {
+        let mean = |name: &str| rows.iter().map(|row| row[column(name)]).sum::<f64>() / 15.0;
+        assert!((mean("load") / pass[2] - 1.0).abs() < 1e-12 && (pass[2] / 0.02 - 1.0).abs() <= 1e-4);
+        assert!((mean("contact_area") / pass[5] - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_fields_of_a_motion_carry_its_loads_and_its_surfaces() {
+    let folder = folder_with("case.toml", &moving(2, 4));
+    ok(&run(&folder, "case.toml"));
+    let results = Results::open(&folder.path().join("case-results")).unwrap();
+    let steps = results.steps().unwrap();
+    let initial = results.fields_after(0).unwrap();
+    assert_eq!(initial.names().unwrap(), ["lower", "upper"]);
+    for (pass, record) in results.passes().unwrap().iter().enumerate() {
+        let fields = results.fields_after(pass + 1).unwrap();
+        let kept = [1, 5, 9, 13].map(pressure_name);
+        let mut names = ["lower", "mean_pressure_lower", "mean_pressure_upper"].map(str::to_owned).to_vec();
+        names.extend(kept);
+        names.push("upper".to_owned());
+        assert_eq!(fields.names().unwrap(), names);
+        for (name, sq) in [("lower", record.sq_lower), ("upper", record.sq_upper)] {
+            let heights = field(&fields, name, "m").into_field().unwrap();
+            assert!((heights.std(0.0) / sq - 1.0).abs() < 1e-12);
+        }
+        for name in ["mean_pressure_lower", "mean_pressure_upper"] {
+            let load = 1e-12 * field(&fields, name, "Pa").values.sum();
+            assert!((load / record.mean_load - 1.0).abs() < 1e-12, "{name} carries {load:e} N");
+        }
+        for step in [1, 5, 9, 13] {
+            let row = steps.iter().find(|row| row.pass == pass + 1 && row.step == step).unwrap();
+            let pressure = field(&fields, &pressure_name(step), "Pa");
+            assert_eq!(pressure.values.shape(), [row.overlap_columns, 32]);
+            let load = 1e-12 * pressure.values.sum();
+            assert!((load / row.load - 1.0).abs() < 1e-12, "position {step} carries {load:e} N");
+            // In the frame of the lower body.
+            assert!((pressure.origin[0] - (row.offset.max(0.0) + 0.5e-6)).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn the_fields_of_a_static_contact_are_in_equilibrium() {
+    let folder = folder_with("ball.toml", BALL);
+    ok(&run(&folder, "ball.toml"));
+    let directory = folder.path().join("ball-results");
+    let record = &summary(&directory)["static"];
+    let fields = Results::open(&directory).unwrap().static_fields().unwrap();
+    assert_eq!(fields.names().unwrap(), ["displacement", "gap", "lower", "plastic", "pressure", "upper"]);
+    let read = |name, unit| field(&fields, name, unit).into_field().unwrap();
+    let (p, u) = (read("pressure", "Pa"), read("displacement", "m"));
+    let (gap, plastic) = (read("gap", "m"), read("plastic", "m"));
+    let initial = read("upper", "m") - read("lower", "m");
+    assert!((1e-12 * p.sum() / number(&record["load"]) - 1.0).abs() < 1e-12);
+    assert!((1e-12 * plastic.sum() / number(&record["plastic_volume"]) - 1.0).abs() < 1e-12);
+    let scale = u.fold(0.0, |a: f64, b| a.max(*b));
+    for (cell, p) in p.indexed_iter() {
+        assert!((gap[cell] - (initial[cell] + u[cell] - number(&record["approach"]))).abs() < 1e-12 * scale);
+        match *p {
+            0.0 => assert!(gap[cell] >= -1e-5 * scale),
+            p if p < 1e9 => assert!(gap[cell].abs() <= 1e-5 * scale && plastic[cell] == 0.0),
+            p => assert!(p == 1e9 && (plastic[cell] + gap[cell].min(0.0)).abs() < 1e-12 * scale),
+        }
+    }
+}
+
+#[test]
+fn without_kept_pressures_there_are_no_maps_of_them() {
+    let case = moving(1, 4).replace("pressure_every = 4", "pressure_every = 0");
+    let folder = folder_with("case.toml", &case);
+    ok(&run(&folder, "case.toml"));
+    let fields = Fields::open(&folder.path().join("case-results/fields/pass-0001.h5")).unwrap();
+    assert_eq!(fields.names().unwrap(), ["lower", "mean_pressure_lower", "mean_pressure_upper", "upper"]);
+    assert!(!folder.path().join("case-results/figures/pressure.png").exists());
+}
+
+#[test]
+fn the_answer_is_the_same_on_one_thread_and_in_quiet() {
+    let folder = folder_with("case.toml", &moving(2, 4));
+    let two = run(&folder, "case.toml --out two --threads 2");
+    let one = run(&folder, "case.toml --out one --threads 1 --quiet");
+    assert_eq!(ok(&one), ok(&two));
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    for name in ["steps.csv", "fields/pass-0002.h5", "figures/pressure.png"] {
+        assert!(bytes(&format!("one/{name}")) == bytes(&format!("two/{name}")), "{name} differs");
+    }
+}
+
+#[test]
+fn a_ball_on_a_plane_is_hertz() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(&folder, "--example hertz");
+    assert!(ok(&output).contains("largest pressure"));
+    assert!(folder.path().join("hertz/case/case.toml").exists());
+    let record = &summary(&folder.path().join("hertz/results"))["static"];
+    for (key, closed_form, tolerance) in
+        [("approach", 348.2e-9, 2e-3), ("max_pressure", 1.371e9, 2e-3), ("contact_area", 1094e-12, 2e-2)]
+    {
+        let error = number(&record[key]) / closed_form - 1.0;
+        assert!(error.abs() < tolerance, "{key}: {error:e}");
+    }
+    refused(&run(&folder, "--example hertz"));
+    ok(&run(&folder, "--example hertz --overwrite"));
+    refused(&run(&folder, "--example nonsense"));
+}
+
+#[test]
+fn figures_are_drawn_again_from_what_is_there() {
+    let folder = folder_with("case.toml", &moving(1, 4));
+    ok(&run(&folder, "case.toml"));
+    let figures = folder.path().join("case-results/figures");
+    let before = files(&figures);
+    let map = fs::read(figures.join("topographies.png")).unwrap();
+    fs::remove_dir_all(&figures).unwrap();
+    let listed = ok(&asperity(&folder, "plot case-results"));
+    assert_eq!(listed.lines().count(), before.len());
+    for path in listed.lines() {
+        assert!(folder.path().join(path).exists(), "{path}");
+    }
+    assert_eq!(files(&figures), before);
+    assert!(fs::read(figures.join("topographies.png")).unwrap() == map);
+    let error = refused(&asperity(&folder, "plot ."));
+    assert!(error.contains("holds no results of asperity"), "{error}");
+}
+
+// ---- directories that are there already ------------------------------------------------------------------
+
+#[test]
+fn results_are_replaced_only_on_request_and_strangers_never() {
+    let folder = folder_with("case.toml", &moving(2, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let error = refused(&run(&folder, "case.toml --out out"));
+    assert!(error.starts_with("error: out already holds results"), "{error}");
+    assert!(error.contains("hint: --overwrite replaces them, --resume goes on from them"), "{error}");
+
+    fs::write(folder.path().join("out/notes.txt"), "mine").unwrap();
+    fs::write(folder.path().join("case.toml"), BALL).unwrap();
+    ok(&run(&folder, "case.toml --out out --overwrite"));
+    let left = files(&folder.path().join("out"));
+    assert!(left.contains("notes.txt") && left.contains("fields.h5"), "{left:?}");
+    assert!(!left.contains("passes.csv") && !left.contains("fields/pass-0001.h5"), "{left:?}");
+}
+
+#[test]
+fn a_directory_of_something_else_is_left_alone() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    fs::create_dir(folder.path().join("photos")).unwrap();
+    fs::write(folder.path().join("photos/passes.csv"), "mine").unwrap();
+    for flag in ["", " --overwrite", " --resume"] {
+        let error = refused(&run(&folder, &format!("case.toml --out photos{flag}")));
+        assert!(error.contains("photos is not empty, and holds no results of asperity"), "{flag}: {error}");
+        assert!(error.contains("hint: --out names another directory"), "{error}");
+        assert_eq!(files(&folder.path().join("photos")), ["passes.csv".to_owned()].into());
+    }
+    assert_eq!(fs::read(folder.path().join("photos/passes.csv")).unwrap(), b"mine");
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    ok(&run(&folder, "case.toml --out empty"));
+}
+
+#[test]
+fn a_place_where_nothing_can_be_written_is_named() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    fs::write(folder.path().join("file"), "mine").unwrap();
+    let error = refused(&run(&folder, "case.toml --out file"));
+    assert!(error.starts_with("error: file: not a directory"), "{error}");
+    let error = refused(&run(&folder, "case.toml --out file/inside"));
+    assert!(error.starts_with("error: file/inside: Not a directory"), "{error}");
+    assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
+    if cfg!(target_os = "linux") {
+        // Nobody, root neither, makes a directory there.
+        let error = refused(&run(&folder, "case.toml --out /proc/asperity"));
+        assert!(error.starts_with("error: /proc/asperity: No such file or directory"), "{error}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    // Files of at most so many KiB: first the fields, then only a figure are too large.
+    for (limit, named, left) in [
+        (8, "out/fields/initial.h5", vec!["case.json"]),
+        (
+            28,
+            "out/figures/",
+            vec!["case.json", "fields/initial.h5", "passes.csv", "steps.csv", "summary.json"],
+        ),
+    ] {
+        let script = format!(
+            "trap '' XFSZ; ulimit -f {limit}; exec '{}' run case.toml --out out --overwrite",
+            env!("CARGO_BIN_EXE_asperity")
+        );
+        let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).starts_with(&format!("error: {named}")), "{}", stderr(&output));
+        assert!(stderr(&output).contains(": File too large"), "{}", stderr(&output));
+        let found = files(&folder.path().join("out"));
+        assert!(left.iter().all(|name| found.contains(*name)), "{found:?}");
+        for name in &found {
+            let whole = ["json", "csv", "h5", "png", "gif"].iter().any(|end| name.ends_with(end));
+            assert!(whole && !name.contains("asperity-"), "{found:?}");
+            if name.ends_with("h5") {
+                Fields::open(&folder.path().join("out").join(name)).unwrap();
+            }
+        }
+        assert!(!found.contains(named));
+    }
+    ok(&run(&folder, "case.toml --out out --overwrite"));
+}
+
+// ---- runs that go on -------------------------------------------------------------------------------------
+
+#[test]
+fn more_passes_are_appended_to_finished_ones() {
+    let folder = folder_with("case.toml", &moving(3, 4));
+    ok(&run(&folder, "case.toml --out whole"));
+    change(&folder, "passes = 3", "passes = 1");
+    ok(&run(&folder, "case.toml --out parts"));
+    change(&folder, "passes = 1", "passes = 3");
+    let table = ok(&run(&folder, "case.toml --out parts --resume"));
+    assert_eq!(table.lines().count(), 4, "{table}");
+    assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
+    assert_eq!(summary(&folder.path().join("parts"))["case"]["motion"]["passes"], 3);
+    // Nothing is left to do, and nothing is done.
+    let steps = fs::read(folder.path().join("parts/steps.csv")).unwrap();
+    assert_eq!(ok(&run(&folder, "case.toml --out parts --resume")), table);
+    assert!(fs::read(folder.path().join("parts/steps.csv")).unwrap() == steps);
+}
+
+#[test]
+fn the_results_of_another_case_are_not_resumed() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let before = files(&folder.path().join("out"));
+    change(&folder, "20 mN", "21 mN");
+    let error = refused(&run(&folder, "case.toml --out out --resume"));
+    assert!(error.starts_with("error: out holds the results of another case"), "{error}");
+    assert!(error.contains("hint: "), "{error}");
+    assert_eq!(files(&folder.path().join("out")), before);
+    let error = refused(&run(&folder, "case.toml --out out --resume --overwrite"));
+    assert!(error.contains("cannot be used with"), "{error}");
+}
+
+#[test]
+fn a_case_is_known_again_from_another_folder_and_by_numbers_of_any_length() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    let at = |arguments: &str| asperity(&folder, arguments);
+    ok(&at(
+        "surface generate low-pass --shape 32x32 --pitch 1um --sq 35nm --cutoff 8um --seed 1 --out sub/a.npy",
+    ));
+    let case = moving(1, 8)
+        .replace(
+            "generate = \"low-pass\", shape = [32, 32], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1",
+            "file = \"a.npy\", pitch = \"0.32412785700896 um\"",
+        )
+        .replace("pitch = \"1 um\"", "pitch = \"0.32412785700896 um\"")
+        .replace("cutoff = \"8 um\"", "cutoff = \"3.333333333333331 um\"")
+        .replace("20 mN", "2.0173912345678901 mN");
+    fs::write(folder.path().join("sub/case.toml"), case).unwrap();
+    ok(&at("run sub/case.toml --out out"));
+    ok(&at("run sub/case.toml --out out --resume"));
+    let inside = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["run", "case.toml", "--out", "../out", "--resume"])
+        .current_dir(folder.path().join("sub"))
+        .output()
+        .unwrap();
+    ok(&inside);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_run_that_is_interrupted_goes_on_where_it_was() {
+    stopped_and_resumed("INT", Some(130));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_run_that_is_killed_goes_on_where_it_was() {
+    stopped_and_resumed("KILL", None);
+}
+
+/// A motion without end is stopped by a signal, then resumed for two passes more.
+fn stopped_and_resumed(signal: &str, code: Option<i32>) {
+    let folder = folder_with("case.toml", &moving(100_000, 4));
+    let out = folder.path().join("out");
+    let mut child = spawn(&folder, "case.toml --out out");
+    wait_for(&mut child, &out.join("passes.csv"));
+    send(signal, &child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), code, "{}", stderr(&output));
+    assert!(output.stdout.is_empty());
+    if signal == "INT" {
+        assert!(stderr(&output).ends_with("error: interrupted\nhint: continue with `--resume`\n"));
+    }
+    assert!(!out.join("summary.json").exists() && !out.join("figures").exists());
+
+    let done = Results::open(&out).unwrap().passes().unwrap().len();
+    assert!(done >= 1);
+    // A moment earlier: the positions and fields of a pass were there, its row was not yet.
+    let rows = fs::read_to_string(out.join("passes.csv")).unwrap();
+    let part: Vec<&str> = rows.lines().take(done).collect();
+    fs::write(out.join("passes.csv"), part.join("\n") + "\n").unwrap();
+    fs::write(out.join("fields/.asperity-half"), "half").unwrap();
+
+    change(&folder, "passes = 100000", &format!("passes = {}", done + 2));
+    ok(&run(&folder, "case.toml --out out --resume"));
+    ok(&run(&folder, "case.toml --out whole"));
+    assert_same_passes(&out, &folder.path().join("whole"));
+    assert_eq!(files(&out), files(&folder.path().join("whole")));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_static_contact_is_interrupted_at_once() {
+    let slow = BALL.replace("[32, 32]", "[512, 512]").replace(
+        "load = \"20 mN\"",
+        "load = \"20 mN\"\nmethod = \"polonsky-keer\"\ntolerance = 1e-30\nboundary = \"free\"",
+    );
+    let folder = folder_with("ball.toml", &slow);
+    let mut child = spawn(&folder, "ball.toml --out out");
+    wait_for(&mut child, &folder.path().join("out/case.json"));
+    std::thread::sleep(Duration::from_millis(100));
+    let began = Instant::now();
+    send("INT", &child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
+    assert_eq!(stderr(&output), "error: interrupted\n");
+}
+
+// ---- bad input -------------------------------------------------------------------------------------------
+
+/// Each case of `data/` begins with the exit code, the error and the hint that it must produce.
+#[test]
+fn every_bad_input_has_its_own_message() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    for entry in fs::read_dir(data).unwrap() {
+        let path = entry.unwrap().path();
+        fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+    }
+    let before = files(folder.path());
+    let cases: Vec<_> = before.iter().filter(|name| name.ends_with(".toml")).collect();
+    assert!(cases.len() >= 14, "{cases:?}");
+    for name in cases {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        let promised: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
+        let code: i32 = promised[0].strip_prefix("exit code ").unwrap().parse().unwrap();
+        let output = run(&folder, &format!("{name} --out out"));
+        let messages: Vec<String> = stderr(&output)
+            .lines()
+            .filter(|line| line.starts_with("error: ") || line.starts_with("hint: "))
+            .map(str::to_owned)
+            .collect();
+        assert_eq!(
+            (output.status.code(), messages),
+            (Some(code), promised[1..].iter().map(|l| (*l).to_owned()).collect()),
+            "{name}"
+        );
+        assert!(output.stdout.is_empty(), "{name}");
+        // What is wrong before anything is computed leaves no directory behind.
+        let out = folder.path().join("out");
+        assert!(code == 1 || !out.exists(), "{name}");
+        let _ = fs::remove_dir_all(out);
+    }
+    assert_eq!(files(folder.path()), before);
+}
+
+#[test]
+fn bad_usage_of_run_is_exit_code_2() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    for arguments in
+        ["", "nowhere.toml", "case.toml --threads 0", "case.toml --threads many", "case.toml --example hertz"]
+    {
+        refused(&run(&folder, arguments));
+    }
+    assert_eq!(files(folder.path()), ["case.toml".to_owned()].into());
+}
+
+// ---- helpers ---------------------------------------------------------------------------------------------
+
+/// Two rough steel surfaces of 32 × 32 cells that yield a little.
+fn moving(passes: usize, stride: usize) -> String {
+    let body = |name: &str, seed: usize| {
+        format!(
+            "{name} = {{ young = \"210 GPa\", poisson = 0.3, hardness = \"4 GPa\", topography = {{ \
+             generate = \"low-pass\", shape = [32, 32], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", \
+             seed = {seed} }} }}\n"
+        )
+    };
+    format!(
+        "{}{}contact = {{ load = \"20 mN\" }}\n\
+         motion = {{ passes = {passes}, stride = {stride}, load_tolerance = 1e-6 }}\n\
+         output = {{ pressure_every = 4 }}\n",
+        body("lower", 1),
+        body("upper", 2)
+    )
+}
+
+/// A ball that sinks into a softer plane.
+const BALL: &str = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+hardness = "1 GPa"
+topography = { form = "flat", shape = [32, 32], pitch = "1 um" }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "sphere", radius = "0.1 mm", shape = [32, 32], pitch = "1 um" }
+[contact]
+load = "20 mN"
+"#;
+
+fn folder_with(name: &str, text: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), text).unwrap();
+    folder
+}
+
+/// `asperity run`; `arguments` are split at spaces.
+fn run(folder: &TempDir, arguments: &str) -> Output {
+    asperity(folder, &format!("run {arguments}"))
+}
+
+fn asperity(folder: &TempDir, arguments: &str) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+fn spawn(folder: &TempDir, arguments: &str) -> Child {
+    command(folder, &format!("run {arguments}"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn command(folder: &TempDir, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.current_dir(folder).args(arguments.split_whitespace());
+    command
+}
+
+/// Waits until a running process has written `file`.
+fn wait_for(child: &mut Child, file: &Path) {
+    let began = Instant::now();
+    while !file.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote {}", file.display());
+        if began.elapsed() > Duration::from_secs(120) {
+            child.kill().unwrap();
+            panic!("{} is not there after two minutes", file.display());
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What is on stdout after success.
+#[track_caller]
+fn ok(output: &Output) -> String {
+    assert!(output.status.success(), "{}", stderr(output));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// What is on stderr after exit code 2, with nothing on stdout.
+#[track_caller]
+fn refused(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
+    assert!(output.stdout.is_empty());
+    stderr(output)
+}
+
+fn change(folder: &TempDir, from: &str, to: &str) {
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{from}");
+    fs::write(path, text.replace(from, to)).unwrap();
+}
+
+/// Paths of all files beneath, relative to `folder`.
+fn files(folder: &Path) -> BTreeSet<String> {
+    fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { visit(&path, found) } else { found.push(path) }
+        }
+    }
+    let mut found = Vec::new();
+    visit(folder, &mut found);
+    found.iter().map(|path| path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned()).collect()
+}
+
+fn summary(directory: &Path) -> Value {
+    serde_json::from_slice(&fs::read(directory.join("summary.json")).unwrap()).unwrap()
+}
+
+fn keys(value: &Value) -> BTreeSet<String> {
+    value.as_object().unwrap().keys().cloned().collect()
+}
+
+fn set<const N: usize>(names: [&str; N]) -> BTreeSet<String> {
+    names.map(str::to_owned).into()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+/// The numbers of a table that has these columns.
+fn table(path: &Path, columns: &[&str]) -> Vec<Vec<f64>> {
+    let text = fs::read_to_string(path).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    assert_eq!(head, columns.join(","));
+    rows.lines().map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+/// A field of cells of 1 µm, with its unit and axes as promised.
+#[track_caller]
+fn field(fields: &Fields, name: &str, unit: &str) -> StoredField {
+    let field = fields.read(name).unwrap();
+    assert_eq!((field.unit.as_str(), field.axes.as_str()), (unit, "x,y"), "{name}");
+    assert_eq!(field.pitch, [1e-6, 1e-6], "{name}");
+    field
+}
+
+/// Two runs of one case that took different ways to their passes.
+#[track_caller]
+fn assert_same_passes(found: &Path, expected: &Path) {
+    let [found, expected] = [found, expected].map(|directory| Results::open(directory).unwrap());
+    let (passes, others) = (found.passes().unwrap(), expected.passes().unwrap());
+    assert_eq!(passes.len(), others.len());
+    let numbers: [(&str, fn(&PassRecord) -> f64, f64); 6] = [
+        ("mean_load", |p| p.mean_load, 1e-5),
+        ("approach", |p| p.approach, 1e-5),
+        ("max_load", |p| p.max_load, 1e-4),
+        ("plastic_volume_lower", |p| p.plastic_volume_lower, 1e-3),
+        ("plastic_volume_upper", |p| p.plastic_volume_upper, 1e-3),
+        ("sq_lower", |p| p.sq_lower, 1e-6),
+    ];
+    for (pass, other) in passes.iter().zip(&others) {
+        assert_eq!(pass.pass, other.pass);
+        for (name, value, tolerance) in numbers {
+            // Plastic volumes fade over the passes: they count in proportion to the first.
+            let scale = if name.starts_with("plastic") { value(&others[0]) } else { value(other) };
+            let difference = (value(pass) - value(other)).abs();
+            assert!(difference <= tolerance * scale.abs(), "pass {}, {name}: {difference:e}", pass.pass);
+        }
+    }
+    let steps = |results: &Results| -> Vec<(usize, usize)> {
+        results.steps().unwrap().iter().map(|step| (step.pass, step.step)).collect()
+    };
+    assert_eq!(steps(&found), steps(&expected));
+}

@@ -1,0 +1,582 @@
+//! The physics of the motion: what must hold for any two surfaces that pass over each other.
+//!
+//! Two generated steel surfaces, 24 or 32 cells along a side, whose highest contacts yield.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use asperity::material::Material;
+use asperity::motion::{
+    Contact, Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Progress, Simulation,
+    StepRecord, Strategy, Watch,
+};
+use asperity::operator::Boundary;
+use asperity::solver::Params;
+use asperity::surface::{Amplitude, Generator, LowPass, SelfAffine, Topography};
+use asperity::{Error, Field, Grid};
+
+const STEEL: [f64; 2] = [210e9, 0.3];
+const HARDNESS: f64 = 4e9;
+const LOAD: f64 = 20e-3;
+
+// ---- running in ------------------------------------------------------------------------------------------
+
+#[test]
+fn at_a_constant_approach_the_bodies_shake_down_at_once() {
+    let motion = motion(Control::Approach(approach_of(&rough_pair(32), LOAD)), 4);
+    let volumes = plastic_volumes(&run(rough_pair(32), motion));
+    assert!(volumes[0] > 0.0);
+    for pair in volumes.windows(2) {
+        assert!(pair[1] < 0.1 * pair[0], "plastic volume per pass {volumes:?}");
+    }
+}
+
+#[test]
+fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
+    // Deformation at every position runs in faster than a pass of frozen geometry, which decays by about 0.3.
+    for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
+        let load = Motion { plastic_update: update, ..motion(Control::PassLoad(10.0 * LOAD), 5) };
+        let kept = run(rough_pair(32), load);
+        let volumes = plastic_volumes(&kept);
+        for pair in volumes.windows(2) {
+            assert!(decay.contains(&(pair[1] / pair[0])), "{update:?}: plastic volume per pass {volumes:?}");
+        }
+        let approach: Vec<f64> = kept.passes.iter().map(|p| p.approach).collect();
+        assert!(approach.is_sorted(), "{update:?}: approach {approach:?}");
+        let [first, last] = [0, 4].map(|pass| kept.passes[pass].mean_contact_area);
+        assert!(last > first, "{update:?}: the bodies conform, area {first:e} → {last:e}");
+
+        let held = Motion { control: Control::Approach(approach[0]), ..load };
+        let held = plastic_volumes(&run(rough_pair(32), held));
+        assert!((held[0] / volumes[0] - 1.0).abs() < 1e-4, "the first pass is the same");
+        assert!((1..5).all(|pass| held[pass] < volumes[pass]), "held {held:?}, sinking {volumes:?}");
+    }
+}
+
+#[test]
+fn elastic_bodies_repeat_their_pass_for_ever() {
+    let kept = run(elastic_pair(24), motion(Control::Approach(approach_of(&elastic_pair(24), LOAD)), 2));
+    assert_eq!(plastic_volumes(&kept), [0.0, 0.0]);
+    let [first, second] = [1, 2].map(|pass| kept.loads_of(pass));
+    assert_close(&first, &second, 1e-5, "loads of the two passes");
+    assert_eq!(kept.pairs[1].lower, elastic_pair(24).lower);
+    assert_eq!(kept.pairs[1].upper, elastic_pair(24).upper);
+}
+
+// ---- balances --------------------------------------------------------------------------------------------
+
+#[test]
+fn the_mean_load_of_every_pass_is_the_load_asked_for() {
+    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+        for tolerance in [1e-2, 1e-4, 1e-7] {
+            let motion = Motion {
+                plastic_update: update,
+                load_tolerance: tolerance,
+                ..motion(Control::PassLoad(LOAD), 2)
+            };
+            let kept = run(rough_pair(24), motion);
+            for pass in &kept.passes {
+                let mean = mean(&kept.loads_of(pass.pass));
+                assert!((mean / LOAD - 1.0).abs() <= tolerance, "{update:?}: {mean:e} N, {tolerance:e}");
+                assert!((pass.mean_load / mean - 1.0).abs() < 1e-14);
+                let approach: Vec<f64> = kept.steps_of(pass.pass).map(|s| s.approach).collect();
+                assert!(approach.iter().all(|a| *a == approach[0]), "one approach for the whole pass");
+                assert!((pass.approach / approach[0] - 1.0).abs() < 1e-14);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_mean_load_is_found_from_a_touch_to_nearly_the_plastic_limit() {
+    let limit = pass_limit(24, 24, 1);
+    for load in [1e-9 * limit, 1e-6 * limit, 1e-3 * limit, 0.3 * limit, 0.9 * limit, 0.99 * limit] {
+        let motion = Motion { stride: 4, ..motion(Control::PassLoad(load), 1) };
+        let kept = run(rough_pair(24), motion);
+        assert!((kept.passes[0].mean_load / load - 1.0).abs() <= 1e-4, "{:e}", load / limit);
+    }
+}
+
+#[test]
+fn a_load_held_at_every_position_is_met_to_the_last_digits() {
+    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+        let motion = Motion { plastic_update: update, ..motion(Control::StepLoad(0.5 * LOAD), 2) };
+        let kept = run(rough_pair(24), motion);
+        for step in &kept.steps {
+            assert!((step.load / (0.5 * LOAD) - 1.0).abs() < 1e-10, "{step:?}");
+        }
+    }
+}
+
+#[test]
+fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them() {
+    for control in [Control::PassLoad(LOAD), Control::StepLoad(0.5 * LOAD)] {
+        let motion = Motion { plastic_update: PlasticUpdate::Step, ..motion(control, 2) };
+        let kept = run(rough_pair(24), motion);
+        for pass in &kept.passes {
+            let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
+            let lost = pass.plastic_volume_lower + pass.plastic_volume_upper;
+            assert!(lost > 0.0);
+            assert!((lost / steps - 1.0).abs() < 1e-12, "lost {lost:e}, deformed {steps:e}");
+        }
+        assert_each_body_lost_what_it_fell(&rough_pair(24), &kept);
+    }
+}
+
+#[test]
+fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
+    let kept = run(rough_pair(24), motion(Control::PassLoad(LOAD), 3));
+    assert_each_body_lost_what_it_fell(&rough_pair(24), &kept);
+    for pass in &kept.passes {
+        // A cell keeps the deepest of its interferences, not their sum.
+        let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
+        assert!(pass.plastic_volume_lower + pass.plastic_volume_upper <= steps * (1.0 + 1e-12));
+    }
+}
+
+#[test]
+fn the_harder_body_loses_nothing() {
+    let [soft, hard] = [2e9, 7e9].map(|hardness| Material::new(STEEL[0], STEEL[1], hardness).unwrap());
+    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+        for (materials, harder) in [([&soft, &hard], 1), ([&hard, &soft], 0)] {
+            let motion = Motion { plastic_update: update, ..motion(Control::PassLoad(LOAD), 2) };
+            let initial = Pair::new(surface([24, 24], 1), surface([24, 24], 2), materials).unwrap();
+            let kept = run(initial.clone(), motion);
+            for pass in &kept.passes {
+                let lost = [pass.plastic_volume_lower, pass.plastic_volume_upper];
+                assert!(lost[harder] == 0.0 && lost[1 - harder] > 0.0, "{update:?}: {lost:?}");
+                assert!(pass.max_pressure <= 2e9);
+            }
+            let after = kept.pairs.last().unwrap();
+            let same = [after.lower == initial.lower, after.upper == initial.upper];
+            assert!(same[harder] && !same[1 - harder]);
+        }
+    }
+}
+
+#[test]
+fn the_mean_pressures_of_both_bodies_carry_the_loads() {
+    let shift = Strategy::Shift { speed_lower: 1.0, speed_upper: -0.5 };
+    for strategy in [Strategy::Overlap, shift] {
+        let motion = Motion { strategy, ..motion(Control::PassLoad(LOAD), 2) };
+        let initial = rough_pair(24);
+        let kept = run(initial.clone(), motion);
+        for (pass, means) in kept.passes.iter().zip(&kept.mean_pressure) {
+            let loads = kept.loads_of(pass.pass);
+            for mean in means {
+                let carried = initial.cell_area() * loads.len() as f64 * mean.sum();
+                assert!(
+                    (carried / loads.iter().sum::<f64>() - 1.0).abs() < 1e-12,
+                    "{strategy:?}: {carried:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn no_pressure_exceeds_the_hardness_and_every_position_is_in_equilibrium() {
+    let kept = run(rough_pair(32), motion(Control::PassLoad(LOAD), 3));
+    for step in &kept.steps {
+        assert!(step.max_pressure <= HARDNESS && step.residual < 1e-6, "{step:?}");
+        assert_eq!(step.plastic_cells > 0, step.max_pressure == HARDNESS);
+        assert!(step.load >= 0.0 && step.contact_area * HARDNESS >= step.load * (1.0 - 1e-12));
+    }
+}
+
+// ---- positions -------------------------------------------------------------------------------------------
+
+#[test]
+fn overlap_and_shift_are_one_where_all_faces_all() {
+    let approach = Control::Approach(approach_of(&rough_pair(24), LOAD));
+    let overlap = run(rough_pair(24), motion(approach, 1));
+    let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let shift = run(rough_pair(24), Motion { strategy: sliding, ..motion(approach, 1) });
+    let flush = overlap.steps.iter().find(|s| s.offset == 0.0).unwrap();
+    assert_eq!(flush.overlap_columns, 24);
+    let first = &shift.steps[0];
+    assert_eq!((flush.load, flush.contact_area), (first.load, first.contact_area));
+}
+
+#[test]
+fn rolling_at_equal_speeds_keeps_the_load_of_a_periodic_contact() {
+    let loads = periodic_loads(Strategy::Shift { speed_lower: 1.0, speed_upper: 1.0 });
+    let first = vec![loads[0]; loads.len()];
+    assert_eq!(loads.len(), 32);
+    assert_close(&loads, &first, 1e-5, "rolling");
+}
+
+#[test]
+fn only_the_offset_of_two_periodic_surfaces_counts() {
+    let upper = periodic_loads(Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 });
+    let lower = periodic_loads(Strategy::Shift { speed_lower: -3.0, speed_upper: 0.0 });
+    assert!(deviation(&upper) > 0.02, "the load changes over the pass: {upper:?}");
+    assert_close(&lower, &upper, 1e-5, "either surface may move");
+    // Both half a turn against each other: a whole period, at twice the speed.
+    let both = periodic_loads(Strategy::Shift { speed_lower: -1.0, speed_upper: 1.0 });
+    let twice: Vec<f64> = (0..32).map(|k| upper[2 * k % 32]).collect();
+    assert_close(&both, &twice, 1e-5, "a period later the load is the first again");
+}
+
+#[test]
+fn a_mirrored_pair_meets_the_same_loads_in_reverse() {
+    let mirrored = |z: &Field| z.slice(ndarray::s![..;-1, ..]).to_owned();
+    let forth = rough_pair(24);
+    let mut back = forth.clone();
+    (back.lower, back.upper) = (mirrored(&forth.lower), mirrored(&forth.upper));
+    let control = Control::PassLoad(LOAD);
+    let (forth, back) = (run(forth, motion(control, 2)), run(back, motion(control, 2)));
+    for pass in [1, 2] {
+        let reversed: Vec<f64> = back.loads_of(pass).into_iter().rev().collect();
+        assert_close(&reversed, &forth.loads_of(pass), 1e-4, "loads");
+        assert_close(&[back.passes[pass - 1].approach], &[forth.passes[pass - 1].approach], 1e-4, "approach");
+        let heights = mirrored(&back.pairs[pass - 1].lower);
+        let difference =
+            (&heights - &forth.pairs[pass - 1].lower).mapv(f64::abs).fold(0.0, |a: f64, b| a.max(*b));
+        assert!(difference < 1e-4 * 35e-9, "surfaces differ by {difference:e} m");
+    }
+}
+
+#[test]
+fn exchanging_the_bodies_exchanges_their_losses() {
+    // Upside down: z₁ ↔ −z₂, and what entered from the left now enters from the right.
+    let forth = rough_pair(24);
+    let mut over = forth.clone();
+    (over.lower, over.upper) = (-&forth.upper, -&forth.lower);
+    let control = Control::PassLoad(LOAD);
+    let (forth, over) = (run(forth, motion(control, 2)), run(over, motion(control, 2)));
+    for pass in [1, 2] {
+        let reversed: Vec<f64> = over.loads_of(pass).into_iter().rev().collect();
+        assert_close(&reversed, &forth.loads_of(pass), 1e-4, "loads");
+        let lost = |kept: &Kept| {
+            let pass = &kept.passes[pass - 1];
+            [pass.plastic_volume_lower, pass.plastic_volume_upper]
+        };
+        let [lower, upper] = lost(&forth);
+        assert_close(&lost(&over), &[upper, lower], 1e-3, "volumes lost");
+    }
+}
+
+#[test]
+fn bodies_of_different_lengths_pass_in_strides_that_do_not_divide_them() {
+    for (lower, upper, stride) in [(20, 33, 3), (33, 20, 7), (24, 5, 40), (7, 24, 1)] {
+        let pair = steel_pair(surface([lower, 16], 1), surface([upper, 16], 2));
+        let load = 5e-2 * HARDNESS * PITCH * PITCH * 16.0 * lower.min(upper) as f64;
+        for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+            let motion = Motion { stride, plastic_update: update, ..motion(Control::PassLoad(load), 2) };
+            let kept = run(pair.clone(), motion);
+            let offsets: Vec<isize> = kept.steps_of(1).map(|s| (s.offset / PITCH).round() as isize).collect();
+            let expected: Vec<isize> =
+                (1 - upper as isize..lower as isize).filter(|offset| offset % stride as isize == 0).collect();
+            assert_eq!(offsets, expected, "{lower}, {upper}, {stride}");
+            assert!(kept.passes.iter().all(|p| (p.mean_load / load - 1.0).abs() <= 1e-4));
+            assert_each_body_lost_what_it_fell(&pair, &kept);
+        }
+    }
+}
+
+// ---- the course of a computation -------------------------------------------------------------------------
+
+#[test]
+fn the_answer_does_not_depend_on_the_number_of_threads() {
+    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+        let [one, two] = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let motion = Motion { plastic_update: update, ..motion(Control::PassLoad(LOAD), 2) };
+            pool.install(|| run(rough_pair(24), motion))
+        });
+        assert_eq!(one.steps, two.steps);
+        assert_eq!(untimed(&one.passes), untimed(&two.passes));
+        let bits = |kept: &Kept| -> Vec<u64> {
+            let pair = kept.pairs.last().unwrap();
+            pair.lower.iter().chain(&pair.upper).map(|z| z.to_bits()).collect()
+        };
+        assert_eq!(bits(&one), bits(&two));
+    }
+}
+
+#[test]
+fn a_resumed_motion_goes_on_as_if_it_had_not_stopped() {
+    for (control, tolerance) in [(Control::PassLoad(LOAD), 1e-3), (Control::StepLoad(0.5 * LOAD), 1e-4)] {
+        for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+            let motion =
+                |passes| Motion { plastic_update: update, load_tolerance: 1e-7, ..motion(control, passes) };
+            let whole = run(rough_pair(24), motion(3));
+            let begun = run(rough_pair(24), motion(1));
+            let (pair, last) = (begun.pairs[0].clone(), &begun.passes[0]);
+            let simulation = Simulation::new(pair, Boundary::Free, motion(3), Params::default()).unwrap();
+            let resumed = continued(simulation.resumed(1, last.approach));
+            assert_eq!(resumed.passes.iter().map(|p| p.pass).collect::<Vec<_>>(), [2, 3]);
+            for pass in [2, 3] {
+                assert_close(&resumed.loads_of(pass), &whole.loads_of(pass), tolerance, "loads");
+            }
+            let approach = |kept: &Kept| kept.passes.iter().map(|p| p.approach).collect::<Vec<_>>();
+            assert_close(&approach(&resumed), &approach(&whole)[1..], tolerance, "approach");
+            assert_close(
+                &plastic_volumes(&resumed),
+                &plastic_volumes(&whole)[1..],
+                tolerance,
+                "plastic volume",
+            );
+        }
+    }
+}
+
+#[test]
+fn an_interrupted_motion_keeps_its_finished_passes_and_can_go_on() {
+    /// Stops after so many positions.
+    struct Impatient {
+        left: AtomicUsize,
+    }
+    impl Watch for Impatient {
+        fn at(&self, _: &Progress) {
+            let _ = self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
+        }
+        fn stop(&self) -> bool {
+            self.left.load(Ordering::Relaxed) == 0
+        }
+    }
+    for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
+        let control = Control::StepLoad(0.5 * LOAD);
+        let motion = Motion { plastic_update: update, ..motion(control, 3) };
+        let whole = run(rough_pair(24), motion);
+        let mut kept = Kept::default();
+        let mut simulation =
+            Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default()).unwrap();
+        // A pass has 47 positions: the motion ends in the second.
+        let watch = Impatient { left: AtomicUsize::new(60) };
+        let ended = simulation.run(&watch, &mut [&mut kept]);
+        assert!(matches!(ended, Err(Error::Interrupted)), "{ended:?}");
+        assert_eq!((kept.passes.len(), kept.steps.len()), (1, 47));
+        assert_eq!(simulation.pair().lower, kept.pairs[0].lower, "the unfinished pass leaves no trace");
+        simulation.run(&(), &mut [&mut kept]).unwrap();
+        assert_eq!(kept.passes.len(), 3);
+        assert_close(&plastic_volumes(&kept), &plastic_volumes(&whole), 1e-4, "plastic volume");
+    }
+}
+
+#[test]
+fn an_output_that_fails_ends_the_motion() {
+    struct Full;
+    impl Output for Full {
+        fn pass(&mut self, _: &PassReport) -> asperity::Result<()> {
+            Err(Error::Unsupported("no space left"))
+        }
+    }
+    let motion = Motion { stride: 8, ..motion(Control::StepLoad(0.2 * LOAD), 3) };
+    let mut simulation = Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default()).unwrap();
+    assert!(matches!(simulation.run(&(), &mut [&mut Full]), Err(Error::Unsupported("no space left"))));
+}
+
+// ---- what cannot be computed -----------------------------------------------------------------------------
+
+#[test]
+fn a_load_beyond_the_plastic_limit_is_refused_with_the_limit() {
+    // 24² cells over 47 positions are 12.26 columns in the mean; the shortest overlap has one.
+    let limits = [
+        (Strategy::Overlap, Control::PassLoad as fn(f64) -> Control, 576.0 / 47.0),
+        (Strategy::Overlap, Control::StepLoad, 1.0),
+        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::PassLoad, 24.0),
+        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::StepLoad, 24.0),
+    ];
+    for (strategy, control, columns) in limits {
+        let expected = HARDNESS * PITCH * PITCH * 24.0 * columns;
+        let simulation = |load: f64| {
+            let motion = Motion { strategy, ..motion(control(load), 1) };
+            Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default())
+        };
+        match simulation(1.001 * expected).map(|_| ()) {
+            Err(Error::BeyondPlasticLimit { load, limit }) => {
+                assert_close(&[load, limit], &[1.001 * expected, expected], 1e-12, "load and limit");
+            }
+            other => panic!("{other:?}"),
+        }
+        assert!(simulation(0.999 * expected).is_ok());
+    }
+}
+
+#[test]
+fn a_motion_without_meaning_is_refused() {
+    let good = motion(Control::PassLoad(LOAD), 1);
+    let refused = |motion: Motion, boundary: Boundary, pair: Pair| {
+        Simulation::new(pair, boundary, motion, Params::default()).map(|_| ()).unwrap_err().to_string()
+    };
+    let free = |motion| refused(motion, Boundary::Free, rough_pair(24));
+    assert!(free(Motion { passes: 0, ..good }).starts_with("passes is 0e0"));
+    assert!(free(Motion { stride: 0, ..good }).starts_with("stride is 0e0"));
+    assert!(free(Motion { load_tolerance: 0.0, ..good }).starts_with("load_tolerance is 0e0"));
+    for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(free(Motion { control: Control::PassLoad(load), ..good }).starts_with("load is "), "{load}");
+        assert!(free(Motion { control: Control::StepLoad(load), ..good }).starts_with("load is "), "{load}");
+    }
+    assert!(free(Motion { control: Control::Approach(f64::NAN), ..good }).starts_with("approach is NaN"));
+    let still = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.0 };
+    assert!(free(Motion { strategy: still, ..good }).starts_with("speed is 0e0"));
+    let periodic = refused(good, Boundary::Periodic, rough_pair(24));
+    assert!(periodic.contains("its boundary is free"), "{periodic}");
+    let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let unequal = steel_pair(surface([24, 24], 1), surface([20, 24], 2));
+    let unequal = refused(Motion { strategy: sliding, ..good }, Boundary::Free, unequal);
+    assert!(unequal.contains("24 cells along x and 20 cells along x differ"), "{unequal}");
+}
+
+#[test]
+fn an_approach_that_closes_a_periodic_gap_is_refused_during_the_pass() {
+    let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let motion = Motion { strategy: sliding, ..motion(Control::Approach(1e-6), 1) };
+    let mut simulation =
+        Simulation::new(periodic_pair(), Boundary::Periodic, motion, Params::default()).unwrap();
+    let ended = simulation.run(&(), &mut []);
+    assert!(matches!(ended, Err(Error::PeriodicFullContact { .. })), "{ended:?}");
+}
+
+// ---- helpers ---------------------------------------------------------------------------------------------
+
+const PITCH: f64 = 1e-6;
+
+fn surface(shape: [usize; 2], seed: u64) -> Topography {
+    let grid = Grid::new(shape, [PITCH, PITCH]).unwrap();
+    let cutoff = 8e-6_f64.min(shape[0] as f64 * PITCH);
+    Generator::LowPass(LowPass { sq: 35e-9, cutoff: [cutoff, 8e-6] }).generate(&grid, seed).unwrap()
+}
+
+fn steel_pair(lower: Topography, upper: Topography) -> Pair {
+    let steel = Material::new(STEEL[0], STEEL[1], HARDNESS).unwrap();
+    Pair::new(lower, upper, [&steel, &steel]).unwrap()
+}
+
+fn rough_pair(cells: usize) -> Pair {
+    steel_pair(surface([cells, cells], 1), surface([cells, cells], 2))
+}
+
+fn elastic_pair(cells: usize) -> Pair {
+    let steel = Material::elastic(STEEL[0], STEEL[1]).unwrap();
+    Pair::new(surface([cells, cells], 1), surface([cells, cells], 2), [&steel, &steel]).unwrap()
+}
+
+/// Two elastic surfaces that continue over their edges.
+fn periodic_pair() -> Pair {
+    let grid = Grid::new([32, 32], [PITCH, PITCH]).unwrap();
+    let method =
+        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(35e-9) };
+    let surface = |seed| Generator::SelfAffine(method).generate(&grid, seed).unwrap();
+    let steel = Material::elastic(STEEL[0], STEEL[1]).unwrap();
+    Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap()
+}
+
+/// Loads over a pass of the periodic pair at an approach that presses about a tenth of it together.
+fn periodic_loads(strategy: Strategy) -> Vec<f64> {
+    let motion = Motion { strategy, ..motion(Control::Approach(-70e-9), 1) };
+    let params = Params { tolerance: 1e-8, ..Params::default() };
+    let simulation = Simulation::new(periodic_pair(), Boundary::Periodic, motion, params).unwrap();
+    let loads = continued(simulation).loads_of(1);
+    assert!(loads[0] > 0.0);
+    loads
+}
+
+fn motion(control: Control, passes: usize) -> Motion {
+    Motion {
+        strategy: Strategy::Overlap,
+        passes,
+        stride: 1,
+        control,
+        plastic_update: PlasticUpdate::Pass,
+        load_tolerance: 1e-4,
+    }
+}
+
+/// The approach of a first pass whose mean load is `load`.
+fn approach_of(pair: &Pair, load: f64) -> f64 {
+    run(pair.clone(), motion(Control::PassLoad(load), 1)).passes[0].approach
+}
+
+/// The plastic limit of the mean load of a pass over two bodies of so many columns.
+fn pass_limit(columns: usize, width: usize, stride: usize) -> f64 {
+    let columns = columns as f64 * columns as f64 / ((2 * columns - 1) as f64 / stride as f64);
+    HARDNESS * PITCH * PITCH * width as f64 * columns
+}
+
+/// All that a motion yields.
+#[derive(Default)]
+struct Kept {
+    passes: Vec<PassRecord>,
+    steps: Vec<StepRecord>,
+    pairs: Vec<Pair>,
+    mean_pressure: Vec<[Field; 2]>,
+}
+
+impl Kept {
+    fn steps_of(&self, pass: usize) -> impl Iterator<Item = &StepRecord> {
+        self.steps.iter().filter(move |s| s.pass == pass)
+    }
+
+    fn loads_of(&self, pass: usize) -> Vec<f64> {
+        self.steps_of(pass).map(|s| s.load).collect()
+    }
+}
+
+impl Output for Kept {
+    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+        let loads: Vec<f64> = report.contacts.iter().map(|c: &Contact| c.load).collect();
+        assert_eq!(loads, report.steps.iter().map(|s| s.load).collect::<Vec<_>>());
+        self.passes.push(report.record.clone());
+        self.steps.extend_from_slice(report.steps);
+        self.pairs.push(report.pair.clone());
+        self.mean_pressure.push(report.mean_pressure());
+        Ok(())
+    }
+}
+
+fn run(pair: Pair, motion: Motion) -> Kept {
+    continued(Simulation::new(pair, Boundary::Free, motion, Params::default()).unwrap())
+}
+
+fn continued(mut simulation: Simulation) -> Kept {
+    let mut kept = Kept::default();
+    simulation.run(&(), &mut [&mut kept]).unwrap();
+    kept
+}
+
+fn plastic_volumes(kept: &Kept) -> Vec<f64> {
+    kept.passes.iter().map(|p| p.plastic_volume_lower + p.plastic_volume_upper).collect()
+}
+
+/// The records but for the time they took.
+fn untimed(passes: &[PassRecord]) -> Vec<PassRecord> {
+    passes.iter().map(|pass| PassRecord { wall_time_s: 0.0, ..pass.clone() }).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Rms deviation from the mean, relative to it.
+fn deviation(values: &[f64]) -> f64 {
+    let mean = mean(values);
+    (values.iter().map(|v| (v / mean - 1.0).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+#[track_caller]
+fn assert_each_body_lost_what_it_fell(initial: &Pair, kept: &Kept) {
+    let area = initial.cell_area();
+    // Of the sums of heights.
+    let roundoff = 1e-14 * area * initial.lower.len() as f64 * 35e-9;
+    let mut before = initial;
+    for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
+        let fell = [(&before.lower - &after.lower).sum() * area, (&after.upper - &before.upper).sum() * area];
+        let lost = [pass.plastic_volume_lower, pass.plastic_volume_upper];
+        for (fell, lost) in fell.into_iter().zip(lost) {
+            assert!((fell - lost).abs() <= 1e-9 * lost + roundoff, "fell by {fell:e} m³, lost {lost:e} m³");
+        }
+        before = after;
+    }
+    assert!(kept.passes[0].plastic_volume_lower > 0.0 && kept.passes[0].plastic_volume_upper > 0.0);
+}
+
+#[track_caller]
+fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(got.len(), expected.len(), "{what}");
+    let scale = expected.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
+    for (k, (a, b)) in got.iter().zip(expected).enumerate() {
+        assert!((a - b).abs() <= tolerance * scale, "{what} at {k}: {a:e}, expected {b:e}");
+    }
+}
