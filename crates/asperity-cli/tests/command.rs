@@ -15,7 +15,7 @@ fn every_command_has_help_with_an_exit_code() {
         assert!(help.contains(word), "{help}");
     }
     for command in
-        ["check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
+        ["run", "check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
     {
         let help = ok(&run(Path::new("."), &format!("{command} --help")));
         assert!(help.contains("Usage: asperity"), "{help}");
