@@ -19,6 +19,24 @@
 //! # Program
 //!
 //! `cargo run --release -p asperity --example area_and_load`
+//!
+//! # Result
+//!
+//! ```text
+//!   p̄ (MPa)     A/A₀      κ   convolutions
+//!         5   0.0044   2.90           14.9
+//!        10   0.0086   2.80           14.8
+//!        20   0.0158   2.57           14.8
+//!        50   0.0361   2.35           16.2
+//!       100   0.0692   2.26           18.7
+//!       200   0.1326   2.16           20.7
+//!       500   0.3054   1.99           22.6
+//!      1000   0.5324   1.74           23.5
+//!      2000   0.8305   1.35           19.1
+//! ```
+//!
+//! At small loads a spot of contact has few cells, and its rim weighs most; from some ten per cent of contact on the
+//! spots begin to merge.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use asperity::Grid;
