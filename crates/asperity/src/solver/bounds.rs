@@ -3,7 +3,18 @@
 use crate::grid::Field;
 use crate::solver::Problem;
 
+/// Relative error of the load of a feasible pressure.
+const LOAD_ACCURACY: f64 = 1e-11;
+
 impl Problem<'_> {
+    /// Whether `pressure` is inside the bounds and, under load control, bears the load.
+    pub(super) fn is_feasible(&self, pressure: &Field) -> bool {
+        pressure.iter().all(|p| (0.0..=self.hardness).contains(p))
+            && self
+                .pressure_sum()
+                .is_none_or(|wanted| (pressure.sum() - wanted).abs() <= LOAD_ACCURACY * wanted)
+    }
+
     /// Brings `pressure` into the bounds and, under load control, to the load: first by scaling the cells between
     /// the bounds, and where these cannot bear it, by a uniform shift.
     pub(super) fn make_feasible(&self, pressure: &mut Field) {
