@@ -250,6 +250,27 @@ fn a_load_just_below_the_plastic_limit() {
 }
 
 #[test]
+fn the_softer_the_bodies_the_fewer_convolutions() {
+    let grid = grid([64, 64]);
+    for seed in 0..4 {
+        let gap = rough(&grid, seed);
+        for periodic in [false, true] {
+            for (hardness, most) in [(0.02, 30.0), (0.005, 24.0), (0.001, 16.0), (0.0001, 12.0)] {
+                for share in [0.02, 0.2, 0.8] {
+                    let load =
+                        active_set(periodic, &gap, hardness, Control::Load(share * hardness * grid.area()));
+                    let approach = active_set(periodic, &gap, hardness, Control::Approach(load.approach));
+                    let most = if share < 0.1 { 1.5 * most } else { most };
+                    for stats in [load.stats, approach.stats] {
+                        assert!(stats.convolutions <= most, "{periodic}, H = {hardness}, {share}: {stats:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_flat_punch_with_sharp_edges() {
     let side = 96;
     let middle = (side as f64 - 1.0) / 2.0;

@@ -4,6 +4,7 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
+use crate::solver::bounds::shift_for_sum;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::{Control, Problem, Residual, Solution, Stats};
 
@@ -214,21 +215,27 @@ impl<'a, 'b> Iteration<'a, 'b> {
         self.become_feasible();
     }
 
-    /// Cells are predicted at a bound where one diagonal Newton step takes them there.
+    /// Cells are predicted at a bound where one diagonal Newton step takes them there. Under load control its datum is
+    /// the one at which the pressures of the step, in their bounds, bear the load.
     fn predict_sets(&mut self, approach: f64) {
         let Problem { initial_gap, hardness, self_influence: c0, .. } = *self.problem;
         let (p, u, h) = (flat(&self.pressure), flat(&self.displacement), flat(initial_gap));
+        let stiffness = 1.0 / (self.caution * c0);
+        let step = p.iter().zip(u).zip(h).map(|((p, u), h)| p + (approach - h - u) * stiffness);
+        let shift = match self.problem.pressure_sum() {
+            Some(wanted) => shift_for_sum(step.clone(), hardness, wanted),
+            None => 0.0,
+        };
         self.free.clear();
-        for cell in 0..p.len() {
-            let step = p[cell] + (approach - h[cell] - u[cell]) / (self.caution * c0);
-            self.sets[cell] = if step <= 0.0 && p[cell] < hardness {
-                Set::Zero
-            } else if step >= hardness && p[cell] > 0.0 {
-                Set::Hardness
-            } else {
-                self.free.push(cell as u32);
-                Set::Free
+        for (cell, (step, set)) in step.zip(&mut self.sets).enumerate() {
+            *set = match step + shift {
+                p if p <= 0.0 => Set::Zero,
+                p if p >= hardness => Set::Hardness,
+                _ => Set::Free,
             };
+            if *set == Set::Free {
+                self.free.push(cell as u32);
+            }
         }
     }
 

@@ -151,9 +151,8 @@ fn last_column_of_inverse(matrix: &mut [[f64; MEMBERS]; MEMBERS], n: usize) -> [
     for pivot in 0..n {
         for row in pivot + 1..n {
             let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..n {
-                matrix[row][column] -= factor * matrix[pivot][column];
-            }
+            let (above, below) = matrix.split_at_mut(row);
+            below[0][pivot..n].iter_mut().zip(&above[pivot][pivot..n]).for_each(|(b, a)| *b -= factor * a);
         }
     }
     // The right-hand side e_n is untouched by the elimination.
