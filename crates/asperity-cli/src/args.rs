@@ -24,8 +24,8 @@ pub(crate) struct Arguments {
 
 const BEGIN: &str = "\
 To begin:
-  asperity example quickstart
-  asperity check quickstart/case.toml";
+  asperity run --example quickstart
+  asperity check quickstart/case/case.toml";
 
 const EXIT_CODES: &str = "
 
@@ -56,10 +56,10 @@ pub(crate) enum Command {
 ///
 /// Progress goes to stderr, a short table to stdout, all else into the results directory: summary.json, steps.csv,
 /// passes.csv, fields (HDF5) and figures. Ctrl-C leaves the finished passes; --resume goes on from them.
-///
-///   asperity run --example quickstart
-///   asperity run surfaces/disc.toml --out disc
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  asperity run --example quickstart\n  asperity run surfaces/disc.toml --out disc"
+)]
 pub(crate) struct Run {
     /// Case file
     #[arg(value_name = "CASE.toml", required_unless_present = "example", conflicts_with = "example")]
@@ -67,7 +67,7 @@ pub(crate) struct Run {
     /// An example instead: its files are written to DIR/case
     #[arg(long, value_name = "NAME")]
     pub(crate) example: Option<String>,
-    /// Results directory; by default the case file's name with `-results`, or the example's name
+    /// Results directory, by default the case file's name with `-results`; of an example the folder of `case` and `results`, by default its name
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Go on from the last finished pass of the results that are there

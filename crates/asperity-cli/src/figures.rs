@@ -117,11 +117,14 @@ fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcom
     let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
     let hardness = hardness(&last)?;
 
+    // One scale for a body before and after, so that its change shows.
+    let ranges = [0, 1].map(|body| Some(range(&[&before[body].field, &after[body].field])));
+    let at_end = format!("after pass {}", passes.len());
     let bodies = [
-        before[0].heights("lower body, before"),
-        before[1].heights("upper body (underside), before"),
-        after[0].heights(format!("lower body, after pass {}", passes.len())),
-        after[1].heights(format!("upper body (underside), after pass {}", passes.len())),
+        MapFigure { range: ranges[0], ..before[0].heights("lower body, before") },
+        MapFigure { range: ranges[1], ..before[1].heights("upper body (underside), before") },
+        MapFigure { range: ranges[0], ..after[0].heights(format!("lower body, {at_end}")) },
+        MapFigure { range: ranges[1], ..after[1].heights(format!("upper body (underside), {at_end}")) },
     ];
     sheet.add("topographies.png", |path| draw::maps(path, &bodies, 2))?;
     let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
@@ -140,6 +143,12 @@ fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcom
     sheet.add("roughness.png", |path| draw::lines(path, &roughness))?;
     sheet.add("approach.png", |path| draw::lines(path, &approach_over_passes(passes)))?;
     Ok(())
+}
+
+/// Least and greatest value of some fields.
+fn range(fields: &[&Field]) -> [f64; 2] {
+    let values = fields.iter().flat_map(|field| field.iter());
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(*z), high.max(*z)])
 }
 
 /// How deep each body has been flattened since the beginning.

@@ -49,7 +49,7 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
 }
 
 fn steel() -> asperity::Result<Material> {
-    Material::new(210e9, 0.3, 4e9)
+    Material::new(210e9, 0.3, 3e9)
 }
 
 /// A low-pass surface of n × n cells.
@@ -148,7 +148,7 @@ fn run_in(pair: Pair) -> asperity::Result<Vec<Kept>> {
         strategy: Strategy::Overlap,
         passes: PASSES,
         stride: 1,
-        control: Control::PassLoad(0.2),
+        control: Control::PassLoad(0.6),
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
     };

@@ -15,7 +15,7 @@ fn every_command_has_help_with_an_exit_code() {
         assert!(help.contains(word), "{help}");
     }
     for command in
-        ["check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
+        ["run", "check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
     {
         let help = ok(&run(Path::new("."), &format!("{command} --help")));
         assert!(help.contains("Usage: asperity"), "{help}");
@@ -169,10 +169,10 @@ fn check_warns_of_a_coarse_mesh_of_steep_and_of_soft_surfaces() {
 fn a_mistake_is_shown_at_its_line_with_a_hint() {
     let folder = folder();
     ok(&run(folder.path(), "example quickstart --out q"));
-    change(folder.path(), "q/case.toml", "hardness = \"4 GPa\"  ", "hardness = \"4 GPb\"  ");
+    change(folder.path(), "q/case.toml", "hardness = \"2.8 GPa\"", "hardness = \"2.8 GPb\"");
     let error = refused(&run(folder.path(), "check q/case.toml"));
     assert!(error.starts_with("error: unknown unit 'GPb' in 'hardness'"), "{error}");
-    assert!(error.contains("q/case.toml:13:12") && error.contains("hint: did you mean `GPa`?"), "{error}");
+    assert!(error.contains("q/case.toml:15:12") && error.contains("hint: did you mean `GPa`?"), "{error}");
 }
 
 #[test]

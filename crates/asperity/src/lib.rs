@@ -11,6 +11,30 @@
 //!
 //! Everything is SI and `f64`. The lower body is described by the height of its surface, the upper one by the
 //! height of its underside; the undeformed gap is `h = z₂ − z₁`.
+//!
+//! # Where to begin
+//!
+//! [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`io::engine::run`] for a case file;
+//! [`solver::solve_normal`] for a contact of which only the gap is known.
+//!
+//! ```
+//! use asperity::material::Material;
+//! use asperity::motion::{Pair, press};
+//! use asperity::surface::LowPass;
+//! use asperity::{Grid, operator::Boundary, solver};
+//!
+//! let grid = Grid::new([64, 64], [1e-6; 2])?;
+//! let rough = LowPass { sq: 35e-9, cutoff: [8e-6; 2] };
+//! let steel = Material::new(210e9, 0.3, 2.8e9)?;
+//! let (lower, upper) = (rough.generate(&grid, 1)?, rough.generate(&grid, 2)?.underside());
+//! let pair = Pair::new(lower, upper, [&steel, &steel])?;
+//!
+//! let load = solver::Control::Load(0.3);
+//! let (contact, solution) = press(&pair, Boundary::Free, load, &solver::Params::default())?;
+//! assert!(contact.residual < 1e-6 && contact.max_pressure <= 2.8e9);
+//! assert_eq!(solution.contact_cells() as f64 * grid.cell_area(), contact.contact_area);
+//! # Ok::<(), asperity::Error>(())
+//! ```
 
 // A module may use those above it, never those below: `tests/module_order.rs` holds it.
 pub mod units;
@@ -29,3 +53,8 @@ pub mod io;
 
 pub use error::{Error, Result};
 pub use grid::{Field, Grid};
+
+/// The programs in the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

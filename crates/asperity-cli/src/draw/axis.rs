@@ -23,8 +23,6 @@ pub(crate) enum Unit {
     Pressure,
     /// Newtons.
     Force,
-    /// Joules.
-    Energy,
     /// Seconds.
     Time,
     /// A pure number.
@@ -60,7 +58,6 @@ impl Unit {
             Self::Volume => (&[(1e-27, "nm³"), (1e-18, "µm³"), (1e-9, "mm³"), (1.0, "m³")], 1e-4),
             Self::Pressure => (&[(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")], 1.0),
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
-            Self::Energy => (&[(1e-12, "pJ"), (1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J")], 1.0),
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
             Self::Number => (&[(1.0, "")], 1.0),
             Self::Of(_) => (&[(1.0, "")], 1.0),

@@ -53,8 +53,6 @@ pub(crate) enum Mark {
     Line,
     /// A broken line, for a limit or a slope to compare with.
     Dashed,
-    /// Markers.
-    Points,
     /// A line with markers.
     LineAndPoints,
 }
@@ -122,7 +120,7 @@ fn drawn(figure: &LineFigure) -> Canvas {
         let series = figure.series.iter().filter(move |s| side.is_none_or(|side| s.side == side));
         series.flat_map(move |s| s.points.iter().map(move |p| p[axis]))
     };
-    let marked = figure.series.iter().any(|s| matches!(s.mark, Mark::Points | Mark::LineAndPoints));
+    let marked = figure.series.iter().any(|s| s.mark == Mark::LineAndPoints);
     let x = scale(&figure.x, all(None, 0), Way::X { margin: if marked { 0.025 } else { 0.0 } });
     let y = scale(&figure.y, all(Some(Side::Left), 1), Way::Y);
     let second = figure.right.as_ref().map(|axis| scale(axis, all(Some(Side::Right), 1), Way::Y));
@@ -227,7 +225,6 @@ fn marker(area: &Area, at: (i32, i32), look: Look) {
 fn sample(area: &Area, [x, y]: [i32; 2], look: Look) {
     let length = KEY * FINE;
     let dashes = match look.mark {
-        Mark::Points => vec![],
         Mark::Dashed => vec![(x, x + length * 2 / 5), (x + length * 3 / 5, x + length)],
         _ => vec![(x, x + length)],
     };
@@ -295,6 +292,6 @@ impl Look {
     }
 
     fn has_points(&self) -> bool {
-        matches!(self.mark, Mark::Points | Mark::LineAndPoints)
+        self.mark == Mark::LineAndPoints
     }
 }

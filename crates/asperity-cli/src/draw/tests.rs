@@ -311,7 +311,7 @@ fn load_and_area_have_an_axis_each() {
 fn points_in_geometric_progression_are_evenly_spaced_on_logarithmic_axes() {
     let folder = Folder::new();
     let middle = |name: &str, axis: &dyn Fn() -> Axis| {
-        let series = |points: &[[f64; 2]]| Series::new("", points.to_vec(), Mark::Points);
+        let series = |points: &[[f64; 2]]| Series::new("", points.to_vec(), Mark::LineAndPoints);
         let figure = LineFigure {
             title: String::new(),
             x: axis(),
@@ -321,7 +321,8 @@ fn points_in_geometric_progression_are_evenly_spaced_on_logarithmic_axes() {
                 series(&[[10.0, 10.0]]),
                 series(&[]),
                 series(&[]),
-                series(&[[1.0, 1.0], [100.0, 100.0]]),
+                // A break between the two: no line.
+                series(&[[1.0, 1.0], [f64::NAN; 2], [100.0, 100.0]]),
             ],
         };
         lines(&folder.file(name), &figure).unwrap();
@@ -466,7 +467,6 @@ fn a_unit_suits_the_largest_number() {
     assert_eq!(shown(Unit::Area, 4e-8), "mm²");
     assert_eq!(shown(Unit::Force, 2.0), "N");
     assert_eq!(shown(Unit::Volume, 3e-17), "µm³");
-    assert_eq!(shown(Unit::Energy, 2e-6), "µJ");
     assert_eq!(shown(Unit::Number, 512.0), "");
     assert_eq!(shown(Unit::Number, 2.5e6), "10⁶");
     assert_eq!(shown(Unit::Of("m/Pa"), 3e-14), "10⁻¹⁴ m/Pa");

@@ -1,8 +1,10 @@
 //! Mathematics that several modules share.
 
+pub mod convolution;
 pub mod elliptic;
 pub mod fft;
 pub mod good_size;
 
+pub use convolution::{Convolution, Kernel};
 pub use fft::RealFft2;
 pub use good_size::good_size;

@@ -3,6 +3,8 @@
 use crate::error::{Error, Result};
 use crate::units::{Metre, Newton};
 
+/// Residual η of the roughest trial.
+const LOOSEST: f64 = 0.1;
 /// Trials after which the search is given up.
 const MOST_TRIALS: usize = 100;
 
@@ -50,7 +52,8 @@ impl Search {
         let Guess { mut approach, mut slope } = first;
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
-        let mut residual = self.residual_for(0.1);
+        let mut excess_before = 1.0;
+        let mut residual = LOOSEST;
         for trials in 1..=MOST_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
@@ -68,14 +71,11 @@ impl Search {
                 residual = self.residual;
                 continue;
             }
-            if excess < 0.0 {
-                low = approach;
-            } else {
-                high = approach;
-            }
-            if low >= high {
-                // A rough answer misled the bracket.
-                (low, high) = (self.touch, f64::INFINITY);
+            // A rough answer that is near the load does not tell on which side of it.
+            if excess < -0.1 * residual {
+                low = low.max(approach);
+            } else if excess > 0.1 * residual {
+                high = high.min(approach);
             }
             let logarithm = (load / self.load).ln();
             if let Some((other, value)) = before {
@@ -95,14 +95,21 @@ impl Search {
             } else {
                 approach + 1.0 / slope
             };
-            residual = self.residual_for(excess);
+            residual = self.residual_for(excess, excess_before);
+            excess_before = excess;
         }
         Err(Error::LoadNotReached { load: self.load, trials: MOST_TRIALS, approach })
     }
 
-    /// The residual that is enough for the next trial after one that missed the load by `excess`.
-    fn residual_for(&self, excess: f64) -> f64 {
-        (1e-3 * excess.abs()).clamp(self.residual, 1e-3_f64.max(self.residual))
+    /// The residual that is enough for the trial after two that missed the load by these.
+    ///
+    /// The mean load is some thousand times more accurate than the residual, and the next trial is expected to miss it
+    /// by a few times the product of the last two: where that is within the tolerance, the trial is taken to be the last.
+    fn residual_for(&self, excess: f64, before: f64) -> f64 {
+        if 4.0 * (excess * before).abs() <= self.tolerance {
+            return self.residual;
+        }
+        excess.abs().clamp(self.residual, LOOSEST.max(self.residual))
     }
 }
 

@@ -1,8 +1,10 @@
 //! The periodic boundary.
 
+use std::sync::Arc;
+
 use crate::grid::{Field, Grid};
 use crate::kernel::spectral::harmonic_displacement;
-use crate::math::{RealFft2, fft::angular_frequency};
+use crate::math::{Convolution, Kernel, fft::angular_frequency};
 use crate::operator::Operator;
 use crate::units::Pascal;
 
@@ -12,25 +14,26 @@ use crate::units::Pascal;
 pub struct PeriodicFft {
     grid: Grid,
     modulus: Pascal,
-    fft: RealFft2,
-    /// `[kx, ky]`, `ky ≤ ny/2`.
-    spectrum: Field,
-    /// Displacement per unit pressure on the cell at `[0, 0]`.
+    convolution: Convolution,
+    /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
     influence: Field,
 }
 
 impl PeriodicFft {
     /// The operator on `grid` for the composite `modulus`.
     pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        let fft = RealFft2::new(grid.shape);
         let [nx, ny] = grid.shape;
-        let spectrum = Field::from_shape_fn([nx, fft.half()], |(k, l)| {
+        let kernel = Kernel::from_transform(grid.shape, |k, l| {
             let qx = angular_frequency(k, nx, grid.pitch[0]);
             let qy = angular_frequency(l, ny, grid.pitch[1]);
             harmonic_displacement(qx, qy, modulus)
         });
-        let influence = fft.inverse(&spectrum.mapv(Into::into));
-        Self { grid, modulus, fft, spectrum, influence }
+        let mut convolution = Convolution::new(Arc::new(kernel), grid.shape);
+        let (mut unit, mut response) = (grid.zeros(), grid.zeros());
+        unit[[0, 0]] = 1.0;
+        convolution.apply(&unit, &mut response);
+        let influence = response.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
+        Self { grid, modulus, convolution, influence }
     }
 }
 
@@ -48,13 +51,12 @@ impl Operator for PeriodicFft {
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
-        self.influence[[i, j]]
+        let [nx, ny] = self.grid.shape;
+        self.influence[[i.min(nx - i), j.min(ny - j)]]
     }
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
-        let mut spectrum = self.fft.forward(pressure);
-        spectrum.zip_mut_with(&self.spectrum, |p, c| *p *= *c);
-        displacement.assign(&self.fft.inverse(&spectrum));
+        self.convolution.apply(pressure, displacement);
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

@@ -4,53 +4,57 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
+use crate::solver::bounds::shift_for_sum;
 use crate::solver::preconditioner::Preconditioner;
-use crate::solver::{Control, Params, Problem, Residual, Solution, Stats};
+use crate::solver::{Control, Problem, Residual, Solution, Stats};
 
 /// The conjugate gradients are left when the residual on the free cells is below so many times the violation of
 /// the bounds: more would be spent on a set that is about to change.
 const LEAVE: f64 = 3.0;
 /// Conjugate gradient steps on one active set, at the most.
 const MOST_INNER: usize = 60;
+/// The equations are met when they are below so much of what is asked of the answer, which is taken at its bounds.
+const NEARLY: f64 = 0.9;
 /// Radius, in cells, within which the effect of lifted cells is foreseen without a convolution.
 const FORESIGHT: usize = 4;
 
-/// Solves from `start` (uniform pressure, or the interference under approach control, where there is none).
+/// Residual η below which rounding in the displacement, kept up by recurrence, would count.
+const ROUNDING: f64 = 1e-9;
+
+/// Solves from `start` (uniform pressure, or the interference under approach control, where there is none), to the
+/// `tolerance` on η that belongs to a state.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
     start: Option<&Field>,
-    params: &Params,
+    tolerance: impl Fn(&Residual) -> f64,
+    max_convolutions: usize,
 ) -> Result<Solution> {
     let mut iteration = Iteration::new(operator, problem, start);
-    let mut target = params.tolerance;
+    let mut sharpen = 1.0;
     loop {
-        let state = problem.residual(&iteration.pressure, &iteration.displacement);
-        if state.eta < target {
+        let mut state = iteration.residual();
+        let mut wanted = tolerance(&state);
+        if state.eta < sharpen * wanted {
             // The answer is the feasible pressure nearby; its own residual decides.
-            let (pressure, displacement) = iteration.feasible_nearby();
-            let state = problem.residual(&pressure, &displacement);
-            if state.eta < params.tolerance {
-                return Ok(Solution {
-                    pressure,
-                    displacement,
-                    approach: state.approach,
-                    residual: state.eta,
-                    stats: iteration.stats,
-                });
+            if wanted < ROUNDING || !problem.is_feasible(&iteration.pressure) {
+                iteration.become_feasible();
+                state = iteration.residual();
+                wanted = tolerance(&state);
             }
-            (iteration.pressure, iteration.displacement) = (pressure, displacement);
-            target *= 0.3;
+            if state.eta < wanted {
+                return Ok(iteration.into_solution(state));
+            }
+            sharpen *= 0.3;
         }
-        if iteration.stats.convolutions as usize >= params.max_convolutions {
+        if iteration.stats.convolutions as usize >= max_convolutions {
             return Err(Error::NotConverged {
                 iterations: iteration.stats.iterations,
                 residual: state.eta,
-                tolerance: params.tolerance,
+                tolerance: wanted,
             });
         }
-        let state = problem.residual(&iteration.pressure, &iteration.displacement);
-        iteration.outer_step(state, target);
+        iteration.outer_step(state, sharpen * wanted);
     }
 }
 
@@ -76,6 +80,11 @@ struct Iteration<'a, 'b> {
     /// Scratch: a direction and its response.
     direction: Field,
     response: Field,
+    /// Scratch at the free cells: what is left of their equations, and a step to meet them.
+    equations: Vec<f64>,
+    step: Vec<f64>,
+    /// Influence coefficients up to [`FORESIGHT`] cells away.
+    near: Field,
     leave: f64,
     /// Running mean of the step length: the damping of the folded step.
     damping: f64,
@@ -100,6 +109,8 @@ impl<'a, 'b> Iteration<'a, 'b> {
         };
         problem.make_feasible(&mut pressure);
         let zeros = Field::zeros(gap.raw_dim());
+        let reach = operator.grid().shape.map(|n| FORESIGHT.min((n - 1) / 2) + 1);
+        let near = Field::from_shape_fn(reach, |(i, j)| operator.influence(i, j));
         let mut iteration = Self {
             preconditioner: Preconditioner::new(operator),
             operator,
@@ -110,6 +121,9 @@ impl<'a, 'b> Iteration<'a, 'b> {
             free: Vec::new(),
             direction: zeros.clone(),
             response: zeros,
+            equations: Vec::new(),
+            step: Vec::new(),
+            near,
             leave: LEAVE,
             damping: 0.8,
             caution: 1.0,
@@ -118,7 +132,7 @@ impl<'a, 'b> Iteration<'a, 'b> {
             stats: Stats::default(),
             pressure,
         };
-        iteration.displacement = iteration.respond(&iteration.pressure.clone());
+        iteration.respond();
         if let Control::Approach(approach) = problem.control {
             iteration.scale_to_least_energy(approach);
         }
@@ -126,11 +140,20 @@ impl<'a, 'b> Iteration<'a, 'b> {
         iteration
     }
 
-    fn respond(&mut self, pressure: &Field) -> Field {
-        let mut displacement = Field::zeros(pressure.raw_dim());
-        self.operator.apply(pressure, &mut displacement);
+    fn respond(&mut self) {
+        self.operator.apply(&self.pressure, &mut self.displacement);
         self.stats.convolutions += 1.0;
-        displacement
+    }
+
+    /// Moves by `step` times the direction, in the pressure and its displacement.
+    fn advance(&mut self, step: f64) {
+        self.pressure.scaled_add(step, &self.direction);
+        self.displacement.scaled_add(step, &self.response);
+    }
+
+    fn respond_to_direction(&mut self) {
+        self.operator.apply(&self.direction, &mut self.response);
+        self.stats.convolutions += 1.0;
     }
 
     /// Under approach control a guess is only as good as its size: the multiple of least energy, at no cost.
@@ -149,18 +172,30 @@ impl<'a, 'b> Iteration<'a, 'b> {
         }
     }
 
-    fn feasible_nearby(&mut self) -> (Field, Field) {
-        let mut pressure = self.pressure.clone();
-        self.problem.make_feasible(&mut pressure);
-        let displacement = self.respond(&pressure);
-        (pressure, displacement)
+    fn residual(&self) -> Residual {
+        self.problem.residual(&self.pressure, &self.displacement)
+    }
+
+    /// The feasible pressure nearby, at the cost of a convolution.
+    fn become_feasible(&mut self) {
+        self.problem.make_feasible(&mut self.pressure);
+        self.respond();
+    }
+
+    fn into_solution(self, state: Residual) -> Solution {
+        Solution {
+            pressure: self.pressure,
+            displacement: self.displacement,
+            approach: state.approach,
+            residual: state.eta,
+            stats: self.stats,
+        }
     }
 
     fn outer_step(&mut self, state: Residual, tolerance: f64) {
-        self.stats.iterations += 1;
         self.predict_sets(state.approach);
         if self.free.is_empty() {
-            (self.pressure, self.displacement) = self.feasible_nearby();
+            self.become_feasible();
             self.step_along_gap(state.approach);
             return;
         }
@@ -177,173 +212,187 @@ impl<'a, 'b> Iteration<'a, 'b> {
             .and(&self.displacement)
             .and(self.problem.initial_gap)
             .for_each(|p, u, h| *p += 0.5 * (approach - h - u) / c0);
-        (self.pressure, self.displacement) = self.feasible_nearby();
+        self.become_feasible();
     }
 
-    /// Cells are predicted at a bound where one diagonal Newton step takes them there.
+    /// Cells are predicted at a bound where one diagonal Newton step takes them there. Under load control its datum is
+    /// the one at which the pressures of the step, in their bounds, bear the load.
     fn predict_sets(&mut self, approach: f64) {
         let Problem { initial_gap, hardness, self_influence: c0, .. } = *self.problem;
         let (p, u, h) = (flat(&self.pressure), flat(&self.displacement), flat(initial_gap));
+        let stiffness = 1.0 / (self.caution * c0);
+        let step = p.iter().zip(u).zip(h).map(|((p, u), h)| p + (approach - h - u) * stiffness);
+        let shift = match self.problem.pressure_sum() {
+            Some(wanted) => shift_for_sum(step.clone(), hardness, wanted),
+            None => 0.0,
+        };
         self.free.clear();
-        for cell in 0..p.len() {
-            let step = p[cell] + (approach - h[cell] - u[cell]) / (self.caution * c0);
-            self.sets[cell] = if step <= 0.0 && p[cell] < hardness {
-                Set::Zero
-            } else if step >= hardness && p[cell] > 0.0 {
-                Set::Hardness
-            } else {
-                self.free.push(cell as u32);
-                Set::Free
+        for (cell, (step, set)) in step.zip(&mut self.sets).enumerate() {
+            *set = match step + shift {
+                p if p <= 0.0 => Set::Zero,
+                p if p >= hardness => Set::Hardness,
+                _ => Set::Free,
             };
+            if *set == Set::Free {
+                self.free.push(cell as u32);
+            }
         }
     }
 
     /// Takes the cells at a bound there, and the free cells one preconditioned step further, in one convolution.
     fn lift_to_bounds(&mut self, approach: f64) {
-        let hardness = self.problem.hardness;
-        let mut moved = Vec::new();
+        if !self.direct_to_bounds() {
+            return;
+        }
+        self.foresee();
+        let (u, h) = (flat(&self.displacement), flat(self.problem.initial_gap));
+        let foreseen = flat(&self.response);
+        self.equations.resize(self.free.len(), 0.0);
+        self.step.resize(self.free.len(), 0.0);
+        for (r, &cell) in self.equations.iter_mut().zip(&self.free) {
+            let cell = cell as usize;
+            *r = approach - h[cell] - u[cell] - foreseen[cell];
+        }
+        self.precondition();
         let direction = self.direction.as_slice_mut().expect("standard layout");
-        direction.fill(0.0);
-        for (cell, (&set, &p)) in self.sets.iter().zip(flat(&self.pressure)).enumerate() {
-            let lift = match set {
+        self.free.iter().zip(&self.step).for_each(|(&cell, z)| direction[cell as usize] = self.damping * z);
+        if let Control::Load(_) = self.problem.control {
+            self.keep_the_sum();
+        }
+        self.respond_to_direction();
+        self.advance(1.0);
+        self.settle_at_bounds();
+    }
+
+    /// Sets the direction to what takes the cells at a bound there; whether there is anything to move.
+    fn direct_to_bounds(&mut self) -> bool {
+        let hardness = self.problem.hardness;
+        let direction = self.direction.as_slice_mut().expect("standard layout");
+        let mut any = false;
+        for ((d, set), p) in direction.iter_mut().zip(&self.sets).zip(flat(&self.pressure)) {
+            *d = match set {
                 Set::Zero => -p,
                 Set::Hardness => hardness - p,
                 Set::Free => 0.0,
             };
-            if lift != 0.0 {
-                direction[cell] = lift;
-                moved.push((cell, lift));
-            }
+            any |= *d != 0.0;
         }
-        if moved.is_empty() {
-            return;
-        }
-        let (u, h) = (flat(&self.displacement), flat(self.problem.initial_gap));
-        let foreseen = near_response(self.operator, &moved);
-        let mut residual: Vec<f64> = self
-            .free
-            .iter()
-            .map(|&cell| approach - h[cell as usize] - u[cell as usize] - foreseen[cell as usize])
-            .collect();
-        self.project(&mut residual);
-        let mut step = vec![0.0; residual.len()];
-        self.preconditioner.apply(&residual, &mut step);
-        self.project(&mut step);
+        any
+    }
+
+    /// The direction must not change the load: the free cells take up the difference, in proportion.
+    fn keep_the_sum(&mut self) {
+        let hardness = self.problem.hardness;
+        let excess = self.direction.sum();
+        let p = flat(&self.pressure);
+        let bearing: f64 = self.free.iter().map(|&cell| p[cell as usize].clamp(0.0, hardness)).sum();
         let direction = self.direction.as_slice_mut().expect("standard layout");
-        self.free.iter().zip(&step).for_each(|(&cell, z)| direction[cell as usize] = self.damping * z);
-        if let Control::Load(_) = self.problem.control {
-            // The lift must not change the load: the free cells take up the difference, in proportion.
-            let excess: f64 = direction.iter().sum();
-            let p = flat(&self.pressure);
-            let bearing: f64 = self.free.iter().map(|&cell| p[cell as usize].clamp(0.0, hardness)).sum();
-            for &cell in &self.free {
-                let share = if bearing > 0.0 {
-                    p[cell as usize].clamp(0.0, hardness) / bearing
-                } else {
-                    1.0 / self.free.len() as f64
-                };
-                direction[cell as usize] -= excess * share;
-            }
-        }
-        self.operator.apply(&self.direction, &mut self.response);
-        self.stats.convolutions += 1.0;
-        self.pressure += &self.direction;
-        self.displacement += &self.response;
-        // Exactly at the bounds, whatever the rounding of the sum.
-        let p = self.pressure.as_slice_mut().expect("standard layout");
-        for (cell, _) in moved {
-            p[cell] = if self.sets[cell] == Set::Hardness { hardness } else { 0.0 };
+        for &cell in &self.free {
+            let share = if bearing > 0.0 {
+                p[cell as usize].clamp(0.0, hardness) / bearing
+            } else {
+                1.0 / self.free.len() as f64
+            };
+            direction[cell as usize] -= excess * share;
         }
     }
 
-    /// Under load control directions keep the sum: the mean over the free cells is taken out.
-    fn project(&self, values: &mut [f64]) {
-        if let Control::Load(_) = self.problem.control {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            values.iter_mut().for_each(|v| *v -= mean);
+    /// Exactly at the bounds, whatever the rounding of the sum.
+    fn settle_at_bounds(&mut self) {
+        let p = self.pressure.as_slice_mut().expect("standard layout");
+        for (p, set) in p.iter_mut().zip(&self.sets) {
+            match set {
+                Set::Zero => *p = 0.0,
+                Set::Hardness => *p = self.problem.hardness,
+                Set::Free => {}
+            }
         }
+    }
+
+    /// Response to the direction within [`FORESIGHT`] cells of where it is not zero, without a convolution.
+    fn foresee(&mut self) {
+        let shape = self.operator.grid().shape;
+        let reach = shape.map(|n| FORESIGHT.min((n - 1) / 2));
+        self.response.fill(0.0);
+        for ((ix, iy), &pressure) in self.direction.indexed_iter().filter(|(_, d)| **d != 0.0) {
+            for i in ix.saturating_sub(reach[0])..shape[0].min(ix + reach[0] + 1) {
+                for j in iy.saturating_sub(reach[1])..shape[1].min(iy + reach[1] + 1) {
+                    self.response[[i, j]] += self.near[[i.abs_diff(ix), j.abs_diff(iy)]] * pressure;
+                }
+            }
+        }
+    }
+
+    /// `step = M equations`, both without their mean under load control.
+    fn precondition(&mut self) {
+        project(self.problem, &mut self.equations);
+        self.preconditioner.apply(&self.equations, &mut self.step);
+        project(self.problem, &mut self.step);
     }
 
     /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the equations.
     /// Returns the size of what is left, of the equations and the bounds together.
     fn conjugate_gradients(&mut self, state: Residual, tolerance: f64) -> f64 {
-        let Problem { initial_gap, hardness, self_influence: c0, .. } = *self.problem;
-        let load_controlled = matches!(self.problem.control, Control::Load(_));
-        let n = self.free.len();
-        let mut residual = vec![0.0; n];
-        let mut z = vec![0.0; n];
-        let mut conjugate: Vec<f64> = Vec::new();
-        let mut product_before = 1.0;
-        let (h, mut inner) = (flat(initial_gap), 0);
+        self.equations.resize(self.free.len(), 0.0);
+        self.step.resize(self.free.len(), 0.0);
         self.direction.fill(0.0);
-        {
-            let u = flat(&self.displacement);
-            for (r, &cell) in residual.iter_mut().zip(&self.free) {
-                *r = state.approach - h[cell as usize] - u[cell as usize];
-            }
-        }
-        self.project(&mut residual);
-        let mut size_before = f64::INFINITY;
-        loop {
-            self.preconditioner.apply(&residual, &mut z);
-            self.project(&mut z);
-            let product: f64 = residual.iter().zip(&z).map(|(r, z)| r * z).sum();
-            if conjugate.is_empty() {
-                conjugate.clone_from(&z);
-            } else {
-                let beta = product / product_before;
-                conjugate.iter_mut().zip(&z).for_each(|(d, z)| *d = z + beta * *d);
-            }
+        let mut left = self.left_over(state.approach);
+        let mut product_before = f64::INFINITY;
+        for _ in 0..MOST_INNER {
+            self.precondition();
+            let product = dot(&self.equations, &self.step);
+            let conjugate = product / product_before;
             product_before = product;
             let direction = self.direction.as_slice_mut().expect("standard layout");
-            self.free.iter().zip(&conjugate).for_each(|(&cell, d)| direction[cell as usize] = *d);
-            self.operator.apply(&self.direction, &mut self.response);
-            self.stats.convolutions += 1.0;
-            let response = flat(&self.response);
-            let curvature: f64 =
-                self.free.iter().zip(&conjugate).map(|(&c, d)| response[c as usize] * d).sum();
+            for (&cell, z) in self.free.iter().zip(&self.step) {
+                let d = &mut direction[cell as usize];
+                *d = z + conjugate * *d;
+            }
+            self.respond_to_direction();
+            let curvature = dot(flat(&self.direction), flat(&self.response));
             if !(curvature > 0.0 && product > 0.0) {
-                return size_before;
+                break;
             }
             let step = product / curvature;
-            self.pressure.scaled_add(step, &self.direction);
-            self.displacement.scaled_add(step, &self.response);
+            self.advance(step);
+            self.stats.iterations += 1;
             self.damping = 0.7 * self.damping + 0.3 * step.min(1.2);
-            inner += 1;
-
-            let (p, u) = (flat(&self.pressure), flat(&self.displacement));
-            let mut mean = state.approach;
-            if load_controlled {
-                mean =
-                    self.free.iter().map(|&cell| h[cell as usize] + u[cell as usize]).sum::<f64>() / n as f64;
-            }
-            let (mut equations, mut bounds, mut largest) = (0.0, 0.0, 0.0f64);
-            for (r, &cell) in residual.iter_mut().zip(&self.free) {
-                let cell = cell as usize;
-                *r = mean - h[cell] - u[cell];
-                equations += *r * *r;
-                largest = largest.max(r.abs());
-                let outside = c0 * (p[cell] - p[cell].clamp(0.0, hardness));
-                bounds += outside * outside;
-            }
-            for (cell, set) in self.sets.iter().enumerate() {
-                let w = mean - h[cell] - u[cell];
-                let wrong = match set {
-                    Set::Zero => w.max(0.0),
-                    Set::Hardness => w.min(0.0),
-                    Set::Free => 0.0,
-                };
-                bounds += wrong * wrong;
-            }
-            let (equations, bounds) = (equations.sqrt(), bounds.sqrt());
-            size_before = equations.hypot(bounds);
-            if equations <= self.leave * bounds
-                || largest < 0.3 * tolerance * state.scale
-                || inner >= MOST_INNER
-            {
-                return size_before;
+            left = self.left_over(state.approach);
+            if left.equations <= self.leave * left.bounds || left.largest < NEARLY * tolerance * state.scale {
+                break;
             }
         }
+        left.equations.hypot(left.bounds)
+    }
+
+    /// Takes stock: the equations at the free cells, and how far the bounds are violated.
+    fn left_over(&mut self, approach: f64) -> LeftOver {
+        let Problem { initial_gap, hardness, self_influence: c0, .. } = *self.problem;
+        let (p, u, h) = (flat(&self.pressure), flat(&self.displacement), flat(initial_gap));
+        let datum = match self.problem.control {
+            Control::Approach(_) => approach,
+            Control::Load(_) => {
+                let sum: f64 = self.free.iter().map(|&cell| h[cell as usize] + u[cell as usize]).sum();
+                sum / self.free.len() as f64
+            }
+        };
+        let mut left = LeftOver { equations: 0.0, bounds: 0.0, largest: 0.0 };
+        let mut equations = self.equations.iter_mut();
+        for (cell, set) in self.sets.iter().enumerate() {
+            let w = datum - h[cell] - u[cell];
+            let violation = match set {
+                Set::Zero => w.max(0.0),
+                Set::Hardness => w.min(0.0),
+                Set::Free => {
+                    *equations.next().expect("one for each free cell") = w;
+                    left.equations += w * w;
+                    left.largest = left.largest.max(w.abs());
+                    c0 * (p[cell] - p[cell].clamp(0.0, hardness))
+                }
+            };
+            left.bounds += violation * violation;
+        }
+        LeftOver { equations: left.equations.sqrt(), bounds: left.bounds.sqrt(), ..left }
     }
 
     /// Two outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
@@ -362,29 +411,31 @@ impl<'a, 'b> Iteration<'a, 'b> {
         if self.strikes < 2 {
             return;
         }
-        let (mut target, mut response) = self.feasible_nearby();
-        let mut step = self.line_search(&target, &response, approach);
+        self.become_feasible();
+        let mut step = self.line_search(approach);
         if step <= 1e-3 {
             let (p, u) = &self.feasible;
             let datum = self.problem.residual(p, u).approach;
-            target.assign(p);
-            ndarray::Zip::from(&mut target).and(u).and(self.problem.initial_gap).for_each(|p, u, h| {
-                *p += 0.5 * (datum - h - u) / self.problem.self_influence;
-            });
-            self.problem.make_feasible(&mut target);
-            response = self.respond(&target);
-            step = self.line_search(&target, &response, approach);
+            self.pressure.assign(p);
+            self.displacement.assign(u);
+            self.step_along_gap(datum);
+            step = self.line_search(approach);
         }
         let (p, u) = &mut self.feasible;
-        ndarray::Zip::from(&mut *p).and(&target).for_each(|p, t| *p += step * (t - *p));
-        ndarray::Zip::from(&mut *u).and(&response).for_each(|u, t| *u += step * (t - *u));
-        self.pressure.assign(p);
-        self.displacement.assign(u);
+        ndarray::Zip::from(&mut *p).and(&mut self.pressure).for_each(|from, to| {
+            *from += step * (*to - *from);
+            *to = *from;
+        });
+        ndarray::Zip::from(&mut *u).and(&mut self.displacement).for_each(|from, to| {
+            *from += step * (*to - *from);
+            *to = *from;
+        });
         self.best *= 2.0;
+        self.stats.restarts += 1;
     }
 
-    /// The step in [0, 1] from the last feasible pressure to `target` at which the energy is least.
-    fn line_search(&self, target: &Field, response: &Field, approach: f64) -> f64 {
+    /// The step in [0, 1] from the last feasible pressure to this one at which the energy is least.
+    fn line_search(&self, approach: f64) -> f64 {
         let datum = match self.problem.control {
             Control::Load(_) => 0.0,
             Control::Approach(_) => approach,
@@ -394,8 +445,8 @@ impl<'a, 'b> Iteration<'a, 'b> {
         let cells = flat(p)
             .iter()
             .zip(flat(u))
-            .zip(flat(target))
-            .zip(flat(response))
+            .zip(flat(&self.pressure))
+            .zip(flat(&self.displacement))
             .zip(flat(self.problem.initial_gap));
         for ((((p, u), target), response), h) in cells {
             slope += (datum - h - u) * (target - p);
@@ -405,23 +456,26 @@ impl<'a, 'b> Iteration<'a, 'b> {
     }
 }
 
+/// What a set of free cells leaves undone, as displacements: root of the sum of squares of w at the free cells, of
+/// the violations of the bounds, and the largest w.
+struct LeftOver {
+    equations: f64,
+    bounds: f64,
+    largest: f64,
+}
+
+/// Under load control directions keep the sum: the mean over the free cells is taken out.
+fn project(problem: &Problem, values: &mut [f64]) {
+    if let Control::Load(_) = problem.control {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter_mut().for_each(|v| *v -= mean);
+    }
+}
+
 fn flat(field: &Field) -> &[f64] {
     field.as_slice().expect("standard layout")
 }
 
-/// Displacement, within [`FORESIGHT`] cells, of pressures at a few cells.
-fn near_response(operator: &dyn Operator, moved: &[(usize, f64)]) -> Vec<f64> {
-    let [nx, ny] = operator.grid().shape;
-    let reach = [nx, ny].map(|n| FORESIGHT.min((n - 1) / 2));
-    let table = Field::from_shape_fn([reach[0] + 1, reach[1] + 1], |(i, j)| operator.influence(i, j));
-    let mut response = vec![0.0; nx * ny];
-    for &(cell, pressure) in moved {
-        let (ix, iy) = (cell / ny, cell % ny);
-        for i in ix.saturating_sub(reach[0])..nx.min(ix + reach[0] + 1) {
-            for j in iy.saturating_sub(reach[1])..ny.min(iy + reach[1] + 1) {
-                response[i * ny + j] += table[[i.abs_diff(ix), j.abs_diff(iy)]] * pressure;
-            }
-        }
-    }
-    response
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -3,7 +3,18 @@
 use crate::grid::Field;
 use crate::solver::Problem;
 
+/// Relative error of the load of a feasible pressure.
+const LOAD_ACCURACY: f64 = 1e-11;
+
 impl Problem<'_> {
+    /// Whether `pressure` is inside the bounds and, under load control, bears the load.
+    pub(super) fn is_feasible(&self, pressure: &Field) -> bool {
+        pressure.iter().all(|p| (0.0..=self.hardness).contains(p))
+            && self
+                .pressure_sum()
+                .is_none_or(|wanted| (pressure.sum() - wanted).abs() <= LOAD_ACCURACY * wanted)
+    }
+
     /// Brings `pressure` into the bounds and, under load control, to the load: first by scaling the cells between
     /// the bounds, and where these cannot bear it, by a uniform shift.
     pub(super) fn make_feasible(&self, pressure: &mut Field) {
@@ -35,22 +46,42 @@ impl Problem<'_> {
 
 /// Euclidean projection: clip(p + c, 0, H) with the c at which the sum is `wanted`.
 fn shift_to_sum(pressure: &mut Field, hardness: f64, wanted: f64) {
-    let sum = |c: f64| pressure.iter().map(|p| (p + c).clamp(0.0, hardness)).sum::<f64>();
-    let mut low = -pressure.iter().copied().fold(0.0, f64::max);
-    let mut high = wanted / pressure.len() as f64;
-    while sum(high) < wanted {
-        high *= 2.0;
+    let shift = shift_for_sum(pressure.iter().copied(), hardness, wanted);
+    pressure.mapv_inplace(|p| (p + shift).clamp(0.0, hardness));
+}
+
+/// The c at which Σ clip(y + c, 0, H) is `wanted`, for 0 ≤ `wanted` ≤ n H.
+///
+/// The sum grows piecewise linearly with c: bracketed Newton iteration, exact to round-off in a few passes.
+pub(super) fn shift_for_sum(values: impl Iterator<Item = f64> + Clone, hardness: f64, wanted: f64) -> f64 {
+    let (mut least, mut most, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+    for y in values.clone() {
+        (least, most, count) = (least.min(y), most.max(y), count + 1);
     }
+    let (mut low, mut high) = (-most, wanted / count as f64 - least);
+    let mut shift = high.min(0.0).max(low);
     for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
+        let (mut sum, mut between) = (0.0, 0usize);
+        for y in values.clone() {
+            let p = (y + shift).clamp(0.0, hardness);
+            sum += p;
+            between += usize::from(0.0 < p && p < hardness);
+        }
+        let excess = sum - wanted;
+        if excess.abs() <= 4.0 * f64::EPSILON * wanted {
             break;
         }
-        if sum(middle) < wanted {
-            low = middle;
+        if excess < 0.0 {
+            low = shift;
         } else {
-            high = middle;
+            high = shift;
         }
+        let newton = shift - excess / between as f64;
+        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+        if next <= low || next >= high {
+            break;
+        }
+        shift = next;
     }
-    pressure.mapv_inplace(|p| (p + high).clamp(0.0, hardness));
+    shift
 }

@@ -1,12 +1,15 @@
 //! A first guess from coarser and coarser grids.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
-use crate::solver::{Params, Problem, Solution, active_set};
+use crate::solver::{Params, Problem, Residual, Solution, active_set};
 
-/// Residual to which the coarse grids are solved.
+/// Residual to which the coarse grids are solved: of std(u), or of what the hardness does to a cell where that is
+/// less, for φ never exceeds it.
 const COARSE_TOLERANCE: f64 = 3e-2;
+/// Convolutions after which a coarse grid is given up.
+const COARSE_CONVOLUTIONS: usize = 100;
 /// Coarse grids below the given one.
 const LEVELS: usize = 3;
 /// A grid with fewer cells than this along either axis is not coarsened.
@@ -16,7 +19,8 @@ const LEAST_CELLS: usize = 32;
 /// pressure of each is the first guess of the next.
 pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Params) -> Result<Solution> {
     let (start, spent) = first_guess(operator, problem, params, LEVELS)?;
-    let mut solution = active_set::solve(operator, problem, start.as_ref(), params)?;
+    let mut solution =
+        active_set::solve(operator, problem, start.as_ref(), |_| params.tolerance, params.max_convolutions)?;
     solution.stats.convolutions += spent;
     Ok(solution)
 }
@@ -47,14 +51,16 @@ fn first_guess(
         return Ok((None, 0.0));
     }
     let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params, levels - 1)?;
-    let loose = Params { tolerance: COARSE_TOLERANCE.max(params.tolerance), ..*params };
-    match active_set::solve(coarse.as_mut(), &coarse_problem, start.as_ref(), &loose) {
+    let saturation = coarse_problem.self_influence * problem.hardness;
+    let loose =
+        |state: &Residual| params.tolerance.max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
+    match active_set::solve(coarse.as_mut(), &coarse_problem, start.as_ref(), loose, COARSE_CONVOLUTIONS) {
         Ok(solution) => {
             let spent = share * (spent + solution.stats.convolutions);
             Ok((Some(prolong(&solution.pressure, shape)), spent))
         }
         // A guess that cannot be had is no guess.
-        Err(crate::Error::NotConverged { .. }) => Ok((None, share * spent)),
+        Err(Error::NotConverged { .. }) => Ok((None, share * (spent + COARSE_CONVOLUTIONS as f64))),
         Err(other) => Err(other),
     }
 }

@@ -30,7 +30,11 @@ pub(super) fn solve(
         }
         Control::Load(load) => pivoting.solve_load(load / problem.cell_area, bounds)?,
     };
-    let stats = Stats { iterations: pivoting.factorisations, convolutions: pivoting.convolutions as f64 };
+    let stats = Stats {
+        iterations: pivoting.factorisations,
+        convolutions: pivoting.convolutions as f64,
+        restarts: 0,
+    };
     let mean = pivoting.stiffening * answer.pressure.sum();
     let displacement = answer.displacement.mapv(|u| u - mean);
     let approach = approach - mean;

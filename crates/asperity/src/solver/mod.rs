@@ -12,6 +12,7 @@ pub use residual::{Residual, residual};
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::kernel::normal_displacement;
 use crate::operator::Operator;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
 
@@ -64,6 +65,8 @@ pub struct Stats {
     pub iterations: usize,
     /// Operator calls, those on coarser grids counted by their share of cells.
     pub convolutions: f64,
+    /// Returns to the last feasible pressure, for lack of progress.
+    pub restarts: usize,
 }
 
 /// A contact in equilibrium.
@@ -194,7 +197,7 @@ pub fn solve_normal(
         initial_gap,
         hardness,
         control,
-        self_influence: operator.influence(0, 0),
+        self_influence: self_influence(operator),
         cell_area: grid.cell_area(),
     };
     if let Some(solution) = no_contact(&problem) {
@@ -205,12 +208,23 @@ pub fn solve_normal(
         Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
         Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
         Method::Auto | Method::ActiveSet => match start {
-            Some(_) => active_set::solve(operator, &problem, start, params),
+            Some(_) => {
+                active_set::solve(operator, &problem, start, |_| params.tolerance, params.max_convolutions)
+            }
             None => cascade::solve(operator, &problem, params),
         },
     }?;
     problem.check_load(&solution)?;
     Ok(solution)
+}
+
+/// Displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
+/// the free one serves, as a measure.
+fn self_influence(operator: &dyn Operator) -> f64 {
+    match operator.influence(0, 0) {
+        c0 if c0 > 0.0 => c0,
+        _ => normal_displacement(0.0, 0.0, operator.grid().pitch, operator.modulus()),
+    }
 }
 
 /// Relative error of the load at which an answer is accepted.

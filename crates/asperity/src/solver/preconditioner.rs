@@ -1,20 +1,22 @@
 //! An approximate inverse of the influence matrix restricted to the free cells; it costs no fine convolution.
 
-use ndarray::Array2;
-use realfft::num_complex::Complex64;
+use std::sync::Arc;
 
 use crate::grid::Field;
-use crate::math::{RealFft2, fft::angular_frequency};
+use crate::math::{Convolution, Kernel, fft::angular_frequency};
 use crate::operator::Operator;
 
 /// Fine cells per coarse cell of the correction, along each axis.
-const COARSENING: usize = 8;
+const COARSENING: usize = 16;
+/// Keeps the weight of sparsely covered coarse cells finite; see [`CoarseCorrection`].
+const SPARSE: f64 = 0.2;
 
-/// `z = A (I − T) S (I − T)ᵀ A r + A P B Pᵀ A r`, symmetric and positive definite on the free cells A.
+/// `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free cells A.
 ///
 /// S is a factorised sparse approximate inverse adapted to the free set, which deals with what is local; P
-/// interpolates bilinearly from a grid of about an eighth of the cells, T = P Pᵀ smooths, and B is the stiffness
-/// E*|q|/2 of the coarse harmonics, which deals with what is wide.
+/// interpolates bilinearly from a grid with a sixteenth of the cells along each axis, T = P D Pᵀ smooths, and B is
+/// the stiffness E*|q|/2 of the coarse harmonics, which deals with what is wide. D makes up for the cells of a
+/// coarse one that are not free: a mean over the free ones.
 pub(super) struct Preconditioner {
     sparse: SparseInverse,
     coarse: CoarseCorrection,
@@ -49,7 +51,7 @@ impl Preconditioner {
         coarse.solve();
         coarse.interpolate_solved(z);
         sparse.apply(smooth, inverse);
-        coarse.restrict(inverse);
+        coarse.restrict(&*inverse);
         coarse.interpolate_restricted(smooth);
         for ((z, i), s) in z.iter_mut().zip(inverse).zip(smooth) {
             *z += *i - *s;
@@ -57,21 +59,24 @@ impl Preconditioner {
     }
 }
 
-/// GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its four
+/// GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its
 /// causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
 ///
-/// A row depends on nothing but which of the four neighbours are free: there are sixteen.
+/// A row depends on nothing but which of the neighbours are free: there are 64.
 struct SparseInverse {
     shape: [usize; 2],
-    rows: [[f64; 5]; 16],
+    rows: [[f64; MEMBERS]; 1 << NEIGHBOURS],
     /// For each free cell: its row of the table, and where its neighbours stand among the free cells.
-    cells: Vec<(u8, [u32; 4])>,
+    cells: Vec<(u8, [u32; NEIGHBOURS])>,
     /// Where each cell of the grid stands among the free ones.
     place: Vec<u32>,
 }
 
-/// The neighbours that come before a cell in memory.
-const CAUSAL: [(isize, isize); 4] = [(-1, -1), (-1, 0), (-1, 1), (0, -1)];
+const NEIGHBOURS: usize = 6;
+/// The neighbours and the cell itself, which is the last.
+const MEMBERS: usize = NEIGHBOURS + 1;
+/// The nearest neighbours that come before a cell in memory.
+const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
 
 impl SparseInverse {
     fn new(operator: &dyn Operator) -> Self {
@@ -82,9 +87,10 @@ impl SparseInverse {
             if i < shape[0] && j < shape[1] { operator.influence(i, j) - far } else { 0.0 }
         };
         let rows = std::array::from_fn(|pattern| {
-            let members: Vec<usize> = (0..4).filter(|k| pattern >> k & 1 == 1).chain([4]).collect();
-            let offset = |k: usize| if k == 4 { (0, 0) } else { CAUSAL[k] };
-            let mut matrix = [[0.0; 5]; 5];
+            let members: Vec<usize> =
+                (0..NEIGHBOURS).filter(|k| pattern >> k & 1 == 1).chain([NEIGHBOURS]).collect();
+            let offset = |k: usize| if k == NEIGHBOURS { (0, 0) } else { CAUSAL[k] };
+            let mut matrix = [[0.0; MEMBERS]; MEMBERS];
             for (a, &k) in members.iter().enumerate() {
                 for (b, &l) in members.iter().enumerate() {
                     let (p, q) = (offset(k), offset(l));
@@ -93,7 +99,7 @@ impl SparseInverse {
             }
             let solved = last_column_of_inverse(&mut matrix, members.len());
             let scale = 1.0 / solved[members.len() - 1].sqrt();
-            let mut row = [0.0; 5];
+            let mut row = [0.0; MEMBERS];
             members.iter().zip(solved).for_each(|(&k, y)| row[k] = y * scale);
             row
         });
@@ -106,7 +112,7 @@ impl SparseInverse {
         self.cells.clear();
         self.cells.extend(free.iter().map(|&cell| {
             let (ix, iy) = ((cell as usize / ny) as isize, (cell as usize % ny) as isize);
-            let (mut pattern, mut neighbours) = (0u8, [0u32; 4]);
+            let (mut pattern, mut neighbours) = (0u8, [0u32; NEIGHBOURS]);
             for (k, (di, dj)) in CAUSAL.into_iter().enumerate() {
                 let (i, j) = (ix + di, iy + dj);
                 if i < 0 || j < 0 || i >= nx as isize || j >= ny as isize {
@@ -126,13 +132,13 @@ impl SparseInverse {
         z.fill(0.0);
         for (index, (pattern, neighbours)) in self.cells.iter().enumerate() {
             let row = &self.rows[*pattern as usize];
-            let mut product = row[4] * r[index];
-            for k in 0..4 {
+            let mut product = row[NEIGHBOURS] * r[index];
+            for k in 0..NEIGHBOURS {
                 // Absent neighbours have the coefficient 0 and point at the first cell.
                 product += row[k] * r[neighbours[k] as usize];
             }
-            z[index] += row[4] * product;
-            for k in 0..4 {
+            z[index] += row[NEIGHBOURS] * product;
+            for k in 0..NEIGHBOURS {
                 z[neighbours[k] as usize] += row[k] * product;
             }
         }
@@ -141,17 +147,16 @@ impl SparseInverse {
 
 /// The last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a positive definite
 /// matrix.
-fn last_column_of_inverse(matrix: &mut [[f64; 5]; 5], n: usize) -> [f64; 5] {
+fn last_column_of_inverse(matrix: &mut [[f64; MEMBERS]; MEMBERS], n: usize) -> [f64; MEMBERS] {
     for pivot in 0..n {
         for row in pivot + 1..n {
             let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..n {
-                matrix[row][column] -= factor * matrix[pivot][column];
-            }
+            let (above, below) = matrix.split_at_mut(row);
+            below[0][pivot..n].iter_mut().zip(&above[pivot][pivot..n]).for_each(|(b, a)| *b -= factor * a);
         }
     }
     // The right-hand side e_n is untouched by the elimination.
-    let mut solution = [0.0; 5];
+    let mut solution = [0.0; MEMBERS];
     for row in (0..n).rev() {
         let right = if row == n - 1 { 1.0 } else { 0.0 };
         let known: f64 = (row + 1..n).map(|k| matrix[row][k] * solution[k]).sum();
@@ -160,19 +165,25 @@ fn last_column_of_inverse(matrix: &mut [[f64; 5]; 5], n: usize) -> [f64; 5] {
     solution
 }
 
-/// The stiffness of the wide harmonics on a grid of an eighth of the cells.
+/// The stiffness of the wide harmonics on a grid with a sixteenth of the cells along each axis.
+///
+/// A pressure that is uniform over the free cells of a coarse cell, a share θ of it, has θ of the mean pressure; a
+/// displacement that is uniform there has θ of the sum. Dividing by θ on the way there and back makes both right:
+/// D = 1/(θ + 0.2), finite where a few cells are free, for which the uniform pressure is a bad guess anyway.
 struct CoarseCorrection {
     shape: [usize; 2],
     fine: [usize; 2],
-    fft: RealFft2,
     /// E*|q|/2 of the coarse harmonics, divided by the fine cells in a coarse one.
-    stiffness: Field,
-    /// The weights that restriction divides by: fine cells in a coarse one.
+    stiffness: Convolution,
+    /// Fine cells in a coarse one.
     cells: f64,
     /// For each row (column) of cells: the two nodes between which it lies, and the weight of the second.
     along: [Vec<(u32, u32, f64)>; 2],
-    /// The same for each free cell: its row and column.
+    /// Row and column of each free cell.
     free: Vec<(u32, u32)>,
+    /// D at each node.
+    weight: Field,
+    /// D Pᵀ A r, and B of it.
     restricted: Field,
     solved: Field,
 }
@@ -181,29 +192,31 @@ impl CoarseCorrection {
     fn new(operator: &dyn Operator) -> Self {
         let grid = *operator.grid();
         let shape = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
-        let fft = RealFft2::new(shape);
         let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
         let cells = factor[0] * factor[1];
-        let mut stiffness = Field::from_shape_fn([shape[0], fft.half()], |(k, l)| {
+        let longest = grid.extent()[0].max(grid.extent()[1]);
+        let stiffness = Kernel::from_transform(shape, |k, l| {
             let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
             let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
-            0.5 * operator.modulus() * qx.hypot(qy) / cells
+            let wide = match (k, l) {
+                // The mean of a periodic surface is softer than any wave; it counts under approach control alone.
+                (0, 0) if operator.periodic() => std::f64::consts::PI / longest,
+                // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean.
+                (0, 0) => 1.0 / (0.95 * grid.area().sqrt()),
+                _ => 0.5 * qx.hypot(qy),
+            };
+            operator.modulus() * wide / cells
         });
-        if !operator.periodic() {
-            // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean.
-            stiffness[[0, 0]] = operator.modulus() / (0.95 * grid.area().sqrt()) / cells;
-        }
-        let along = [0, 1].map(|axis| nodes(grid.shape[axis], shape[axis]));
         Self {
             shape,
             fine: grid.shape,
+            stiffness: Convolution::new(Arc::new(stiffness), shape),
+            cells,
+            along: [0, 1].map(|axis| nodes(grid.shape[axis], shape[axis])),
+            free: Vec::new(),
+            weight: Field::zeros(shape),
             restricted: Field::zeros(shape),
             solved: Field::zeros(shape),
-            fft,
-            stiffness,
-            cells,
-            along,
-            free: Vec::new(),
         }
     }
 
@@ -211,9 +224,13 @@ impl CoarseCorrection {
         let ny = self.fine[1] as u32;
         self.free.clear();
         self.free.extend(free.iter().map(|cell| (cell / ny, cell % ny)));
+        self.weight.fill(1.0);
+        self.restrict(std::iter::repeat_n(&1.0, free.len()));
+        self.weight.zip_mut_with(&self.restricted, |d, count| *d = 1.0 / (count / self.cells + SPARSE));
     }
 
     /// The bilinear weights of a cell on the four nodes around it.
+    #[inline]
     fn weights(&self, (ix, iy): (u32, u32)) -> [(usize, f64); 4] {
         let (i0, i1, s) = self.along[0][ix as usize];
         let (j0, j1, t) = self.along[1][iy as usize];
@@ -226,8 +243,8 @@ impl CoarseCorrection {
         ]
     }
 
-    /// Pᵀ A r.
-    fn restrict(&mut self, r: &[f64]) {
+    /// D Pᵀ A r.
+    fn restrict<'r>(&mut self, r: impl IntoIterator<Item = &'r f64>) {
         let mut restricted = std::mem::take(&mut self.restricted);
         restricted.fill(0.0);
         let nodes = restricted.as_slice_mut().expect("standard layout");
@@ -236,14 +253,14 @@ impl CoarseCorrection {
                 nodes[node] += weight * r;
             }
         }
+        restricted *= &self.weight;
         self.restricted = restricted;
     }
 
-    /// B applied to what was restricted.
+    /// D B of what was restricted.
     fn solve(&mut self) {
-        let mut spectrum: Array2<Complex64> = self.fft.forward(&self.restricted);
-        spectrum.zip_mut_with(&self.stiffness, |s, k| *s *= *k);
-        self.solved = self.fft.inverse(&spectrum);
+        self.stiffness.apply(&self.restricted, &mut self.solved);
+        self.solved *= &self.weight;
     }
 
     /// A P of what was restricted, divided by the fine cells in a coarse one: a smoothing.
@@ -259,8 +276,8 @@ impl CoarseCorrection {
     fn interpolate(&self, nodes: &Field, scale: f64, out: &mut [f64]) {
         let nodes = nodes.as_slice().expect("standard layout");
         for (cell, out) in self.free.iter().zip(out) {
-            *out =
-                scale * self.weights(*cell).iter().map(|(node, weight)| weight * nodes[*node]).sum::<f64>();
+            let sum: f64 = self.weights(*cell).iter().map(|(node, weight)| weight * nodes[*node]).sum();
+            *out = scale * sum;
         }
     }
 }

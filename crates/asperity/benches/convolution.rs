@@ -1,0 +1,37 @@
+//! One displacement from one pressure, dense as in full contact and sparse as at a per cent of it.
+
+use asperity::operator::{FreeFft, Operator, PeriodicFft};
+use asperity::{Field, Grid};
+
+const SIDES: [usize; 4] = [128, 256, 512, 1024];
+
+fn main() {
+    divan::main();
+}
+
+#[divan::bench(args = SIDES)]
+fn free(bencher: divan::Bencher, side: usize) {
+    measure(bencher, &mut FreeFft::new(square(side), 1.0), 1);
+}
+
+#[divan::bench(args = SIDES)]
+fn periodic(bencher: divan::Bencher, side: usize) {
+    measure(bencher, &mut PeriodicFft::new(square(side), 1.0), 1);
+}
+
+#[divan::bench(args = SIDES)]
+fn free_tenth_of_the_rows(bencher: divan::Bencher, side: usize) {
+    measure(bencher, &mut FreeFft::new(square(side), 1.0), 10);
+}
+
+fn square(side: usize) -> Grid {
+    Grid::new([side, side], [1.0, 1.0]).expect("a grid")
+}
+
+fn measure(bencher: divan::Bencher, operator: &mut dyn Operator, every: usize) {
+    let shape = operator.grid().shape;
+    let pressure =
+        Field::from_shape_fn(shape, |(i, j)| if i % every == 0 { (i * j % 7) as f64 } else { 0.0 });
+    let mut displacement = operator.grid().zeros();
+    bencher.bench_local(|| operator.apply(&pressure, &mut displacement));
+}

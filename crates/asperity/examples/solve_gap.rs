@@ -1,0 +1,92 @@
+//! Presses two bodies with a given gap together and prints the answer and its cost as one line of JSON.
+//!
+//! ```text
+//! solve_gap gap.npy mean=0.01 [pitch=1] [modulus=1] [hardness=inf] [boundary=free] [method=active-set]
+//!           [tolerance=1e-6] [repeat=1] [pressure=out.npy]
+//! ```
+//!
+//! `gap.npy` holds the undeformed gap; instead of the mean pressure `mean`, `load` may be given. With `repeat` every
+//! solve starts afresh and the median time is told. `benches/peers/` runs it beside other programs.
+#![expect(clippy::print_stdout, reason = "the line of JSON is what it is for")]
+
+use std::collections::HashMap;
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+
+use asperity::Grid;
+use asperity::io::topography;
+use asperity::operator::{Boundary, Operators};
+use asperity::solver::{Control, Method, Params, solve_normal};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments.next().ok_or("solve_gap gap.npy mean=… : see the head of solve_gap.rs")?;
+    let options = options(arguments)?;
+    let number = |key: &str, default: f64| options.get(key).map_or(Ok(default), |text| text.parse());
+    let word =
+        |key: &str, default: &str| serde_json::Value::from(options.get(key).map_or(default, String::as_str));
+
+    let gap = topography::read(Path::new(&path), None)?.heights;
+    let pitch = number("pitch", 1.0)?;
+    let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
+    let hardness = number("hardness", f64::INFINITY)?;
+    let load = number("load", number("mean", f64::NAN)? * grid.area())?;
+    let boundary: Boundary = serde_json::from_value(word("boundary", "free"))?;
+    let method: Method = serde_json::from_value(word("method", "active-set"))?;
+    let params = Params { method, tolerance: number("tolerance", 1e-6)?, ..Params::default() };
+
+    let start = Instant::now();
+    let mut operator = Operators::new(grid.pitch, number("modulus", 1.0)?, boundary).on(grid.shape);
+    let setup = start.elapsed().as_secs_f64();
+    let solve = |operator: &mut dyn asperity::operator::Operator| {
+        let start = Instant::now();
+        let solution = solve_normal(operator, &gap, hardness, Control::Load(load), None, &params);
+        solution.map(|solution| (solution, start.elapsed().as_secs_f64()))
+    };
+    let (solution, first) = solve(operator.as_mut())?;
+    let mut seconds = vec![first];
+    for _ in 1..number("repeat", 1.0)? as usize {
+        seconds.push(solve(operator.as_mut())?.1);
+    }
+    seconds.sort_by(f64::total_cmp);
+
+    if let Some(out) = options.get("pressure") {
+        topography::npy::write(Path::new(out), &solution.pressure)?;
+    }
+    let report = serde_json::json!({
+        "load": solution.load(grid.cell_area()),
+        "approach": solution.approach,
+        "area": solution.contact_cells() as f64 / grid.cells() as f64,
+        "plastic": solution.plastic_cells(hardness) as f64 / grid.cells() as f64,
+        "eta": solution.residual,
+        "convolutions": solution.stats.convolutions,
+        "iterations": solution.stats.iterations,
+        "solve_seconds": seconds[seconds.len() / 2],
+        "setup_seconds": setup,
+    });
+    println!("{report}");
+    Ok(())
+}
+
+/// The arguments `key=value`.
+fn options(arguments: impl Iterator<Item = String>) -> Result<HashMap<String, String>, Box<dyn Error>> {
+    const KEYS: [&str; 10] = [
+        "mean",
+        "load",
+        "pitch",
+        "modulus",
+        "hardness",
+        "boundary",
+        "method",
+        "tolerance",
+        "repeat",
+        "pressure",
+    ];
+    arguments
+        .map(|argument| match argument.split_once('=') {
+            Some((key, value)) if KEYS.contains(&key) => Ok((key.to_owned(), value.to_owned())),
+            _ => Err(format!("`{argument}` is not key=value with a key of {KEYS:?}").into()),
+        })
+        .collect()
+}

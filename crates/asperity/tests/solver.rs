@@ -1,0 +1,358 @@
+//! Every method solves the same problem, and the answer obeys the conditions of contact.
+
+use asperity::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
+use asperity::solver::{Control, Method, Params, Solution, residual, solve_normal};
+use asperity::surface::{Amplitude, SelfAffine};
+use asperity::{Error, Field, Grid};
+
+const INF: f64 = f64::INFINITY;
+const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
+
+fn grid(shape: [usize; 2]) -> Grid {
+    Grid::new(shape, [1.0, 1.0]).unwrap()
+}
+
+fn operator(grid: Grid, periodic: bool) -> Box<dyn Operator> {
+    if periodic { Box::new(PeriodicFft::new(grid, 1.0)) } else { Box::new(FreeFft::new(grid, 1.0)) }
+}
+
+/// A self-affine gap of rms slope 0.1.
+fn rough(grid: &Grid, seed: u64) -> Field {
+    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
+    let heights = -form.generate(grid, seed).unwrap().into_heights();
+    &heights - heights.iter().copied().fold(INF, f64::min)
+}
+
+/// Solves and holds the answer to the conditions of contact.
+fn solve(
+    method: Method,
+    operator: &mut dyn Operator,
+    gap: &Field,
+    hardness: f64,
+    control: Control,
+    tolerance: f64,
+) -> Solution {
+    let params = Params { method, tolerance, max_convolutions: 20_000 };
+    let solution = solve_normal(operator, gap, hardness, control, None, &params)
+        .unwrap_or_else(|e| panic!("{method:?} on {:?}, {control:?}, H = {hardness}: {e}", gap.dim()));
+    assert!(solution.residual < tolerance, "{method:?}: residual {:e}", solution.residual);
+    assert!(
+        solution.pressure.iter().all(|p| (0.0..=hardness).contains(p)),
+        "{method:?}: pressure out of bounds"
+    );
+    if let Control::Load(load) = control {
+        let error = solution.load(operator.grid().cell_area()) / load - 1.0;
+        assert!(error.abs() <= 1e-10, "{method:?}: relative error of the load {error:e}");
+    }
+    if operator.influence(0, 0) == 0.0 {
+        return solution; // A single periodic cell does not deform: there is nothing to measure a residual by.
+    }
+    let mut displacement = operator.grid().zeros();
+    operator.apply(&solution.pressure, &mut displacement);
+    let again = residual(
+        &solution.pressure,
+        &displacement,
+        gap,
+        hardness,
+        operator.influence(0, 0),
+        Some(solution.approach),
+    );
+    assert!(
+        again.eta < 1.5 * tolerance + 1e-11,
+        "{method:?}: residual of the recomputed displacement {again:?}"
+    );
+    solution
+}
+
+fn active_set(periodic: bool, gap: &Field, hardness: f64, control: Control) -> Solution {
+    let mut operator = operator(grid([gap.nrows(), gap.ncols()]), periodic);
+    solve(Method::ActiveSet, operator.as_mut(), gap, hardness, control, 1e-8)
+}
+
+/// Largest difference over largest value.
+fn difference(a: &Field, b: &Field) -> f64 {
+    let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
+}
+
+#[test]
+fn all_methods_find_the_same_pressure() {
+    let grid = grid([24, 20]);
+    for seed in 0..3 {
+        let gap = rough(&grid, seed);
+        for periodic in [false, true] {
+            let mut operator = operator(grid, periodic);
+            for hardness in [INF, 0.15, 0.06] {
+                let loads = [0.002, 0.01, 0.04].map(|mean| Control::Load(mean * grid.area()));
+                let mean_gap = gap.mean().unwrap();
+                let approaches = [0.1, 0.4, 0.9].map(|share| Control::Approach(share * mean_gap));
+                for control in loads.into_iter().chain(approaches) {
+                    let [exact, others @ ..] =
+                        METHODS.map(|m| solve(m, operator.as_mut(), &gap, hardness, control, 1e-9));
+                    for (other, method) in others.iter().zip(&METHODS[1..]) {
+                        let error = difference(&other.pressure, &exact.pressure);
+                        assert!(error < 1e-6, "{method:?}, {periodic}, {hardness}, {control:?}: {error:e}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_residual_is_that_of_the_direct_sum() {
+    let grid = Grid::new([32, 24], [1.0, 0.7]).unwrap();
+    let gap = rough(&grid, 5);
+    for hardness in [INF, 0.1] {
+        let control = Control::Load(0.02 * grid.area());
+        let mut fast = FreeFft::new(grid, 1.0);
+        let solution = solve(Method::ActiveSet, &mut fast, &gap, hardness, control, 1e-6);
+        let mut sum = DirectSum::new(grid, 1.0);
+        let mut displacement = grid.zeros();
+        sum.apply(&solution.pressure, &mut displacement);
+        let independent =
+            residual(&solution.pressure, &displacement, &gap, hardness, sum.influence(0, 0), None);
+        assert!(
+            (independent.eta - solution.residual).abs() < 1e-11,
+            "{independent:?}, {}",
+            solution.residual
+        );
+        assert!((independent.approach / solution.approach - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn it_never_needs_more_convolutions_than_polonsky_and_keer() {
+    let grid = grid([96, 96]);
+    let gap = rough(&grid, 1);
+    for periodic in [false, true] {
+        let mut operator = operator(grid, periodic);
+        for (hardness, mean) in
+            [INF, 0.15].into_iter().flat_map(|h| [0.0002, 0.002, 0.02, 0.1].map(|m| (h, m)))
+        {
+            let control = Control::Load(mean * grid.area());
+            let [fast, slow] = [Method::ActiveSet, Method::PolonskyKeer].map(|method| {
+                solve(method, operator.as_mut(), &gap, hardness, control, 1e-6).stats.convolutions
+            });
+            assert!(fast <= slow, "{periodic}, H = {hardness}, p = {mean}: {fast} against {slow}");
+        }
+    }
+}
+
+#[test]
+fn a_cold_start_costs_few_convolutions() {
+    let grid = grid([256, 256]);
+    let gap = rough(&grid, 1);
+    for periodic in [false, true] {
+        let mut operator = operator(grid, periodic);
+        for (mean, most) in [(0.0005, 24.0), (0.0025, 26.0), (0.01, 28.0), (0.04, 36.0)] {
+            let control = Control::Load(mean * grid.area());
+            let stats = solve(Method::ActiveSet, operator.as_mut(), &gap, INF, control, 1e-6).stats;
+            assert!(stats.convolutions <= most, "{periodic}, {mean}: {stats:?}");
+            let stats = solve(Method::ActiveSet, operator.as_mut(), &gap, 0.2, control, 1e-6).stats;
+            assert!(stats.convolutions <= 1.5 * most, "capped, {periodic}, {mean}: {stats:?}");
+        }
+    }
+}
+
+#[test]
+fn nearly_full_contact() {
+    let grid = grid([64, 64]);
+    let gap = rough(&grid, 2);
+    for periodic in [false, true] {
+        let solution = active_set(periodic, &gap, INF, Control::Load(0.2 * grid.area()));
+        let share = solution.contact_cells() as f64 / grid.cells() as f64;
+        assert!(share > 0.95, "{share}");
+    }
+}
+
+#[test]
+fn one_per_cent_in_contact() {
+    let grid = grid([128, 128]);
+    let gap = rough(&grid, 3);
+    for periodic in [false, true] {
+        let solution = active_set(periodic, &gap, INF, Control::Load(3e-4 * grid.area()));
+        let share = solution.contact_cells() as f64 / grid.cells() as f64;
+        assert!(0.001 < share && share < 0.02, "{share}");
+    }
+}
+
+#[test]
+fn cells_ten_times_as_long_as_wide() {
+    let grid = Grid::new([64, 64], [1.0, 10.0]).unwrap();
+    let gap = rough(&grid, 4);
+    for periodic in [false, true] {
+        for mean in [0.001, 0.02] {
+            let mut operator = operator(grid, periodic);
+            let control = Control::Load(mean * grid.area());
+            let stats = solve(Method::ActiveSet, operator.as_mut(), &gap, INF, control, 1e-8).stats;
+            assert!(stats.convolutions < 80.0, "{periodic} {mean} {stats:?}");
+        }
+    }
+}
+
+#[test]
+fn a_strip_of_sixteen_by_512_cells() {
+    let grid = grid([16, 512]);
+    let gap = rough(&grid, 5);
+    for periodic in [false, true] {
+        for mean in [0.001, 0.02] {
+            let stats = active_set(periodic, &gap, INF, Control::Load(mean * grid.area())).stats;
+            assert!(stats.convolutions < 80.0, "{periodic} {mean} {stats:?}");
+        }
+    }
+}
+
+#[test]
+fn a_single_cell_in_contact() {
+    for periodic in [false, true] {
+        let mut gap = Field::from_elem([40, 40], 1.0);
+        gap[[17, 5]] = 0.0;
+        let solution = active_set(periodic, &gap, INF, Control::Load(0.01));
+        assert_eq!(solution.contact_cells(), 1);
+        assert!((solution.pressure[[17, 5]] - 0.01).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn flat_on_flat_presses_uniformly_only_where_it_repeats_itself() {
+    let gap = Field::zeros([64, 64]);
+    let periodic = active_set(true, &gap, INF, Control::Load(409.6));
+    assert!(periodic.pressure.iter().all(|p| (p - 0.1).abs() < 1e-9));
+    let free = active_set(false, &gap, INF, Control::Load(409.6));
+    assert_eq!(free.contact_cells(), 64 * 64);
+    assert!(
+        free.pressure[[0, 0]] > free.pressure[[0, 32]] && free.pressure[[0, 32]] > free.pressure[[32, 32]]
+    );
+}
+
+#[test]
+fn a_load_just_below_the_plastic_limit() {
+    let grid = grid([64, 64]);
+    let gap = rough(&grid, 6);
+    for periodic in [false, true] {
+        for short in [1e-2, 1e-4, 1e-6] {
+            let solution =
+                active_set(periodic, &gap, 0.05, Control::Load(0.05 * grid.area() * (1.0 - short)));
+            let capped = solution.plastic_cells(0.05) as f64 / grid.cells() as f64;
+            assert!(capped > 1.0 - 10.0 * short.max(1e-3), "{periodic} {short}: {capped}");
+        }
+        let beyond = solve_normal(
+            operator(grid, periodic).as_mut(),
+            &gap,
+            0.05,
+            Control::Load(0.05 * grid.area()),
+            None,
+            &Params::default(),
+        );
+        assert!(matches!(beyond, Err(Error::BeyondPlasticLimit { .. })));
+    }
+}
+
+#[test]
+fn the_softer_the_bodies_the_fewer_convolutions() {
+    let grid = grid([64, 64]);
+    for seed in 0..4 {
+        let gap = rough(&grid, seed);
+        for periodic in [false, true] {
+            for (hardness, most) in [(0.02, 30.0), (0.005, 24.0), (0.001, 16.0), (0.0001, 12.0)] {
+                for share in [0.02, 0.2, 0.8] {
+                    let load =
+                        active_set(periodic, &gap, hardness, Control::Load(share * hardness * grid.area()));
+                    let approach = active_set(periodic, &gap, hardness, Control::Approach(load.approach));
+                    let most = if share < 0.1 { 1.5 * most } else { most };
+                    for stats in [load.stats, approach.stats] {
+                        assert!(stats.convolutions <= most, "{periodic}, H = {hardness}, {share}: {stats:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flat_punch_with_sharp_edges() {
+    let side = 96;
+    let middle = (side as f64 - 1.0) / 2.0;
+    let gap = Field::from_shape_fn([side, side], |(i, j)| {
+        if (i as f64 - middle).hypot(j as f64 - middle) <= 24.0 { 0.0 } else { 50.0 }
+    });
+    for (hardness, most) in [(INF, 60.0), (0.05, 60.0)] {
+        let stats = active_set(false, &gap, hardness, Control::Load(40.0)).stats;
+        assert!(stats.convolutions <= most, "{stats:?}");
+    }
+    let elastic = active_set(false, &gap, INF, Control::Load(40.0));
+    // A punch of radius a carries 2 a E* δ.
+    let load = 2.0 * 24.0 * elastic.approach;
+    assert!((load / 40.0 - 1.0).abs() < 0.03, "{load}");
+}
+
+#[test]
+fn a_rough_sphere() {
+    let grid = grid([128, 128]);
+    let roughness = rough(&grid, 7);
+    let gap = Field::from_shape_fn([128, 128], |(i, j)| {
+        let (x, y) = (i as f64 - 63.5, j as f64 - 63.5);
+        (x * x + y * y) / 800.0 + roughness[[i, j]]
+    });
+    for hardness in [INF, 0.1] {
+        for load in [0.5, 20.0, 300.0] {
+            let stats = active_set(false, &gap, hardness, Control::Load(load)).stats;
+            assert!(stats.convolutions <= 60.0, "H = {hardness}, W = {load}: {stats:?}");
+        }
+    }
+}
+
+#[test]
+fn an_approach_that_nearly_closes_a_periodic_gap() {
+    let grid = grid([64, 64]);
+    let gap = rough(&grid, 8);
+    let mean_gap = gap.mean().unwrap();
+    for share in [0.9, 0.99, 0.999, 0.9999] {
+        let solution = active_set(true, &gap, INF, Control::Approach(share * mean_gap));
+        assert!(solution.stats.convolutions < 80.0, "{share}: {:?}", solution.stats);
+    }
+    let closed = solve_normal(
+        operator(grid, true).as_mut(),
+        &gap,
+        INF,
+        Control::Approach(mean_gap),
+        None,
+        &Params::default(),
+    );
+    assert!(matches!(closed, Err(Error::PeriodicFullContact { .. })));
+}
+
+#[test]
+fn grids_of_a_few_cells() {
+    for shape in [[1, 1], [1, 7], [2, 2], [5, 3]] {
+        let grid = grid(shape);
+        let gap = Field::from_shape_fn(shape, |(i, j)| 0.01 * ((3 * i + 5 * j) % 7) as f64);
+        for periodic in [false, true] {
+            let mut operator = operator(grid, periodic);
+            for hardness in [INF, 0.1] {
+                for method in METHODS {
+                    for mean in [1e-4, 0.01, 0.09] {
+                        let control = Control::Load(mean * grid.area());
+                        solve(method, operator.as_mut(), &gap, hardness, control, 1e-8);
+                    }
+                    if !periodic {
+                        solve(method, operator.as_mut(), &gap, hardness, Control::Approach(0.05), 1e-8);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn bodies_that_do_not_reach_each_other_do_not_press() {
+    let gap = Field::from_elem([9, 9], 1.0);
+    for method in METHODS {
+        for approach in [-2.0, 1.0] {
+            let mut operator = operator(grid([9, 9]), false);
+            let solution = solve(method, operator.as_mut(), &gap, INF, Control::Approach(approach), 1e-6);
+            assert_eq!((solution.contact_cells(), solution.stats.convolutions), (0, 0.0));
+        }
+    }
+}
