@@ -651,13 +651,16 @@ fn field(fields: &Fields, name: &str, unit: &str) -> StoredField {
     field
 }
 
+/// A column of `passes.csv`, and how closely two runs must agree in it.
+type Column = (&'static str, fn(&PassRecord) -> f64, f64);
+
 /// Two runs of one case that took different ways to their passes.
 #[track_caller]
 fn assert_same_passes(found: &Path, expected: &Path) {
     let [found, expected] = [found, expected].map(|directory| Results::open(directory).unwrap());
     let (passes, others) = (found.passes().unwrap(), expected.passes().unwrap());
     assert_eq!(passes.len(), others.len());
-    let numbers: [(&str, fn(&PassRecord) -> f64, f64); 6] = [
+    let numbers: [Column; 6] = [
         ("mean_load", |p| p.mean_load, 1e-5),
         ("approach", |p| p.approach, 1e-5),
         ("max_load", |p| p.max_load, 1e-4),
