@@ -652,9 +652,6 @@ fn field(fields: &Fields, name: &str, unit: &str) -> StoredField {
     field
 }
 
-/// A column of `passes.csv`, and how closely two runs must agree in it.
-type Column = (&'static str, fn(&PassRecord) -> f64, f64);
-
 /// Two runs of one case that took different ways to their passes.
 #[track_caller]
 fn assert_same_passes(found: &Path, expected: &Path) {
