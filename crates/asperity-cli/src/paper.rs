@@ -6,6 +6,7 @@
 use std::path::Path;
 use std::time::Instant;
 
+use asperity::kernel::influence_matrix;
 use asperity::material::Material;
 use asperity::motion::{
     Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
@@ -14,8 +15,7 @@ use asperity::operator::{Boundary, Operators};
 use asperity::solver::{Method, Params, solve_normal};
 use asperity::surface::{LowPass, Topography};
 use asperity::units::{Dimension, Metre, format};
-use asperity::{Field, Grid, kernel, solver};
-use ndarray::Array2;
+use asperity::{Field, Grid, solver};
 
 use crate::args::Paper;
 use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, MatrixFigure, Quantity, Series, Unit};
@@ -113,10 +113,7 @@ fn two_surfaces(pair: &Pair, path: &Path) -> Outcome {
 /// Figure 8: the influence matrix of an overlap is the leading block of the full one.
 fn influence_matrices(pair: &Pair, path: &Path) -> Outcome {
     let side = 12;
-    let table = kernel::influence_table([side; 2], pair.pitch(), pair.modulus());
-    let matrix = Array2::from_shape_fn([side * side; 2], |(m, n)| {
-        table[[(m / side).abs_diff(n / side), (m % side).abs_diff(n % side)]]
-    });
+    let matrix = influence_matrix([side; 2], pair.pitch(), pair.modulus());
     let figure = MatrixFigure {
         title: format!(
             "influence matrix of {side} × {side} cells; an overlap of n columns is its first {side}·n rows"

@@ -3,4 +3,4 @@
 pub mod normal;
 pub mod spectral;
 
-pub use normal::{influence_table, normal_displacement};
+pub use normal::{influence_matrix, influence_table, normal_displacement};
