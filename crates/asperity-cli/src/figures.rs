@@ -156,10 +156,12 @@ fn plastic_depth(before: &[Stored; 2], after: &[Stored; 2], sheet: &mut Sheet) -
     let depth = |field, body: usize| Stored { field, grid: before[body].grid, column: 0 };
     let lower = depth(&before[0].field - &after[0].field, 0);
     let upper = depth(&after[1].field - &before[1].field, 1);
-    let maps = [
-        lower.map("plastic deformation, lower body", "depth", Unit::Length, Colours::Pressure),
-        upper.map("plastic deformation, upper body", "depth", Unit::Length, Colours::Pressure),
-    ];
+    // One scale for both: a body that does not yield is then seen not to.
+    let deepest = lower.field.iter().chain(&upper.field).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let maps = [(&lower, "lower body"), (&upper, "upper body")].map(|(depth, body)| MapFigure {
+        range: Some([0.0, deepest]),
+        ..depth.map(format!("plastic deformation, {body}"), "depth", Unit::Length, Colours::Pressure)
+    });
     sheet.add("plastic.png", |path| draw::maps(path, &maps, 2))
 }
 
