@@ -1,6 +1,6 @@
 //! The motion against an independent dense implementation (numpy and scipy): two surfaces of 12 × 12 cells.
 //!
-//! `data/moving_surfaces_12.json` holds its every number, computed with exact active sets and pass-mean loads to
+//! `data/moving_surfaces_12.json` holds its numbers, computed with exact active sets and pass-mean loads to
 //! 1e-12.
 
 use asperity::material::Material;
