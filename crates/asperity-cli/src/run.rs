@@ -1,8 +1,8 @@
 //! `asperity run`: a case from its surfaces to its figures.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use asperity::io::case::Case;
@@ -62,8 +62,6 @@ fn beside(file: &Path) -> PathBuf {
 struct Display {
     bar: ProgressBar,
     began: Instant,
-    /// When the present pass began.
-    pass: Mutex<(usize, Instant)>,
     stop: Arc<AtomicBool>,
 }
 
@@ -87,7 +85,7 @@ impl Display {
         );
         let style = ProgressStyle::with_template("{bar:32.cyan/dim} {msg}").expect("a valid template");
         bar.set_style(style);
-        Self { bar, began: Instant::now(), pass: Mutex::new((1, Instant::now())), stop }
+        Self { bar, began: Instant::now(), stop }
     }
 
     fn clear(&self) {
@@ -96,10 +94,6 @@ impl Display {
 
     /// Time left, by the passes done so far; a first pass is taken to need four approaches.
     fn time_left(&self, progress: &Progress) -> Duration {
-        let mut pass = self.pass.lock().expect("no holder panics");
-        if pass.0 != progress.pass {
-            *pass = (progress.pass, Instant::now());
-        }
         let done = (progress.pass - 1) as f64;
         let in_pass = progress.solved as f64 / progress.positions as f64;
         let trials = 4.0f64.max(progress.trial as f64);

@@ -11,6 +11,11 @@ use crate::units::{Metre, Newton};
 /// `Result` with this library's [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// [`Error::OutOfRange`] unless `good`.
+pub(crate) fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
+    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+}
+
 /// Everything that can go wrong, by cause.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

@@ -1,6 +1,6 @@
 //! Elastic constants of the bodies and of the pair.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::units::Pascal;
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
@@ -28,9 +28,6 @@ impl Material {
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
     pub fn new(young: Pascal, poisson: f64, hardness: Pascal) -> Result<Self> {
-        let check = |quantity, value: f64, good: bool, expected| {
-            if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
-        };
         check("young", young, young > 0.0, "a modulus above 0, or inf for a rigid body")?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
         check("hardness", hardness, hardness > 0.0, "a hardness above 0")?;

@@ -2,6 +2,8 @@
 //!
 //! Two generated steel surfaces, 24 or 32 cells along a side, whose highest contacts yield.
 
+mod support;
+
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::material::Material;
@@ -13,6 +15,7 @@ use asperity::operator::Boundary;
 use asperity::solver::Params;
 use asperity::surface::{Amplitude, Generator, LowPass, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
+use support::assert_close;
 
 const STEEL: [f64; 2] = [210e9, 0.3];
 const HARDNESS: f64 = 4e9;
@@ -570,13 +573,4 @@ fn assert_each_body_lost_what_it_fell(initial: &Pair, kept: &Kept) {
         before = after;
     }
     assert!(kept.passes[0].plastic_volume_lower > 0.0 && kept.passes[0].plastic_volume_upper > 0.0);
-}
-
-#[track_caller]
-fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(got.len(), expected.len(), "{what}");
-    let scale = expected.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
-    for (k, (a, b)) in got.iter().zip(expected).enumerate() {
-        assert!((a - b).abs() <= tolerance * scale, "{what} at {k}: {a:e}, expected {b:e}");
-    }
 }

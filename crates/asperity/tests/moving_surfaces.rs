@@ -3,6 +3,8 @@
 //! `data/moving_surfaces_12.json` holds its numbers, computed with exact active sets and pass-mean loads to
 //! 1e-12.
 
+mod support;
+
 use asperity::material::Material;
 use asperity::motion::{
     Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
@@ -12,6 +14,7 @@ use asperity::solver::{Method, Params};
 use asperity::surface::Topography;
 use asperity::{Field, Grid};
 use serde_json::Value;
+use support::assert_close;
 
 /// How close each method must come, relative to the largest value of its kind.
 const METHODS: [(Method, f64); 2] = [(Method::Direct, 1e-8), (Method::ActiveSet, 1e-5)];
@@ -79,15 +82,6 @@ fn run(pair: Pair, motion: Motion, method: Method) -> (Keep, Pair) {
     simulation.run(&(), &mut [&mut kept]).unwrap();
     let pair = simulation.pair().clone();
     (kept, pair)
-}
-
-#[track_caller]
-fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(got.len(), expected.len(), "{what}");
-    let scale = expected.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
-    for (k, (a, b)) in got.iter().zip(expected).enumerate() {
-        assert!((a - b).abs() <= tolerance * scale, "{what} at {k}: {a:e}, expected {b:e}");
-    }
 }
 
 fn loads(contacts: &[Contact]) -> Vec<f64> {

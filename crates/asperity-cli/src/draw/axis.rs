@@ -252,6 +252,18 @@ pub(super) fn extremes(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
 pub(super) type Area<'a> = DrawingArea<Pen<'a>, Shift>;
 pub(super) type Chart<'a> = ChartContext<'a, Pen<'a>, Cartesian2d<Coordinate, Coordinate>>;
 
+/// Draws the axes with ticks and labels, and no mesh.
+pub(super) fn bare_axes(chart: &mut Chart<'_>) {
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .axis_style(axis_style())
+        .label_style(tick_style())
+        .set_all_tick_mark_size(TICK)
+        .draw()
+        .expect(SOUND);
+}
+
 /// A chart whose plotting rectangle is `at`; the label areas reach to the edges of the sheet where there are labels.
 pub(super) fn chart<'a>(area: &Area<'a>, at: Rect, [x, y]: [Coordinate; 2], labels: Labels) -> Chart<'a> {
     let (width, height) = area.dim_in_pixel();

@@ -9,7 +9,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, RGBColor, ShapeStyle};
 
 use super::axis::{
-    Area, Chart, Labels, SOUND, Scale, TICK, Unit, axis_style, chart, colour, extremes, tick_style, widened,
+    Area, Chart, Labels, SOUND, Scale, TICK, Unit, axis_style, bare_axes, chart, colour, extremes,
+    tick_style, widened,
 };
 use super::canvas::{Canvas, FINE, MEDIUM, Pen, Rect, Rgb};
 use super::map::{CENTRE_BOTTOM, CENTRE_TOP, Key, Legend, heading};
@@ -167,14 +168,7 @@ fn drawn(figure: &LineFigure) -> Canvas {
         .expect(SOUND);
     let mut on_right = second.as_ref().map(|second| {
         let mut chart = chart(&area, at, [x.bare().coordinate(), second.coordinate()], Labels::Right);
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .axis_style(axis_style())
-            .label_style(tick_style())
-            .set_all_tick_mark_size(TICK)
-            .draw()
-            .expect(SOUND);
+        bare_axes(&mut chart);
         (chart, second)
     });
     for (i, series) in figure.series.iter().enumerate() {

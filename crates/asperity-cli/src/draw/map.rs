@@ -9,9 +9,7 @@ use plotters::prelude::IntoDrawingArea;
 use plotters::style::FontTransform;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axis::{
-    Coordinate, Labels, Quantity, SOUND, Scale, TICK, Unit, axis_style, chart, extremes, tick_style, widened,
-};
+use super::axis::{Coordinate, Labels, Quantity, Scale, Unit, bare_axes, chart, extremes, widened};
 use super::canvas::{
     CAPITAL, Canvas, INK, Image, LARGE, MEDIUM, PAPER, Pen, Rect, Rgb, SMALL, mix, width_of,
 };
@@ -455,15 +453,7 @@ pub(super) fn heading(canvas: &mut Canvas, title: &str, at: [f64; 2], room: f64)
 
 fn axes(canvas: &mut Canvas, at: Rect, coordinates: [Coordinate; 2], side: Labels) {
     let area = Pen(canvas).into_drawing_area();
-    let mut chart = chart(&area, at, coordinates, side);
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .axis_style(axis_style())
-        .label_style(tick_style())
-        .set_all_tick_mark_size(TICK)
-        .draw()
-        .expect(SOUND);
+    bare_axes(&mut chart(&area, at, coordinates, side));
 }
 
 fn bar_scale(picture: &Picture, height: i32) -> Scale {

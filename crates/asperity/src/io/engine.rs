@@ -4,13 +4,13 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::error::Result;
-use crate::io::case::{Case, Prescribed};
+use crate::io::case::Case;
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
 use crate::io::results::{Existing, Results};
 use crate::io::summary::{Outcome, Summary};
 use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, press};
-use crate::solver::{Control, Params};
+use crate::solver::Params;
 use crate::surface::Topography;
 
 /// Computes `case` and writes its results to `directory`.
@@ -30,11 +30,7 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
     let area = outlook.apparent_area;
     let outcome = match case.motion(area) {
         None => {
-            let control = match case.contact.prescribed {
-                Prescribed::Load(load) => Control::Load(load),
-                Prescribed::MeanPressure(pressure) => Control::Load(pressure * area),
-                Prescribed::Approach(approach) => Control::Approach(approach),
-            };
+            let control = case.contact.prescribed.control(area);
             let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
             results.write_static(&pair, &solution)?;
             Outcome::Static(record)

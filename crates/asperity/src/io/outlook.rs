@@ -1,11 +1,12 @@
 //! What a case will take, and what to be wary of, told before anything is solved.
 
-use super::case::{Body, Boundary, Case, Prescribed, Source};
+use super::case::{Body, Boundary, Case, Source};
 use super::prepare::{Bodies, Prepared};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Field;
 use crate::material::{composite_hardness, composite_modulus, plastic_share};
-use crate::motion::{Control, Strategy, overlap_positions};
+use crate::motion::{Control, Strategy};
+use crate::solver;
 use crate::surface::{Level, Topography};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
@@ -39,7 +40,7 @@ pub struct Outlook {
 /// What `case` will take on its `bodies`.
 ///
 /// # Errors
-/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
+/// [`crate::Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
 pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
@@ -47,25 +48,14 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
     let apparent_area = facing as f64 * column;
-    let control = match (case.motion(apparent_area), case.contact.prescribed) {
+    let control = match (case.motion(apparent_area), case.contact.prescribed.control(apparent_area)) {
         (Some(motion), _) => motion.control,
-        (None, Prescribed::Load(load)) => Control::StepLoad(load),
-        (None, Prescribed::MeanPressure(pressure)) => Control::StepLoad(pressure * apparent_area),
-        (None, Prescribed::Approach(approach)) => Control::Approach(approach),
+        (None, solver::Control::Load(load)) => Control::StepLoad(load),
+        (None, solver::Control::Approach(approach)) => Control::Approach(approach),
     };
     let hardness = composite_hardness(lower, upper);
-    let mean_columns = overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64;
-    let columns = match control {
-        Control::PassLoad(_) => mean_columns,
-        Control::StepLoad(_) => overlaps.iter().copied().min().unwrap_or(facing) as f64,
-        Control::Approach(_) => facing as f64,
-    };
-    let plastic_limit = hardness * column * columns;
-    if let Control::PassLoad(load) | Control::StepLoad(load) = control
-        && load >= plastic_limit
-    {
-        return Err(Error::BeyondPlasticLimit { load, limit: plastic_limit });
-    }
+    let plastic_limit = control.plastic_limit(&overlaps, column, hardness);
+    control.check_limit(plastic_limit)?;
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.parameters().sdq);
     let mut outlook = Outlook {
         modulus: composite_modulus(lower, upper)?,
@@ -88,10 +78,10 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
 fn overlaps(case: &Case, lower: usize, upper: usize) -> Vec<usize> {
     match case.motion {
         None => vec![lower.min(upper)],
-        Some(motion) if motion.strategy == Strategy::Overlap => {
-            overlap_positions(lower, upper, motion.stride).iter().map(|position| position.columns).collect()
+        Some(motion) => {
+            let positions = motion.strategy.positions(lower, upper, motion.stride);
+            positions.iter().map(|position| position.columns).collect()
         }
-        Some(motion) => vec![lower; lower.div_ceil(motion.stride)],
     }
 }
 
@@ -229,6 +219,7 @@ fn torn(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
     use crate::io::prepare::bodies;
 
     fn case(motion: &str, load: &str) -> Case {

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::case::{Body, Case, Mount, Source, TopographySpec};
 use super::topography::{self, Scan};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
+use crate::grid::Grid;
 use crate::motion::Strategy;
 use crate::surface::Topography;
 use crate::units::{self, Dimension, Metre};
@@ -61,16 +61,6 @@ pub fn bodies(case: &Case) -> Result<Bodies> {
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     Ok(Bodies { lower, upper })
-}
-
-impl Bodies {
-    /// The undeformed gap h = z₂ − z₁ where all faces all.
-    ///
-    /// # Panics
-    /// If the surfaces differ in shape, as those of a motion by overlap may.
-    pub fn initial_gap(&self) -> Field {
-        self.upper.topography.heights() - self.lower.topography.heights()
-    }
 }
 
 fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {

@@ -58,18 +58,15 @@ impl Search {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
-            if exhausted
-                && excess.abs() > self.tolerance.max(ROUNDOFF * self.residual)
-                && residual <= self.residual
-            {
-                return Err(Error::LoadNotReached { load: self.load, trials, approach });
-            }
             if excess.abs() <= self.tolerance || exhausted {
-                if residual <= self.residual {
-                    return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
+                if residual > self.residual {
+                    residual = self.residual;
+                    continue;
                 }
-                residual = self.residual;
-                continue;
+                if excess.abs() > self.tolerance.max(ROUNDOFF * self.residual) {
+                    return Err(Error::LoadNotReached { load: self.load, trials, approach });
+                }
+                return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
             }
             // A rough answer that is near the load does not tell on which side of it.
             if excess < -0.1 * residual {

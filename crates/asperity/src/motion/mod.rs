@@ -17,7 +17,8 @@ pub use record::{PassRecord, StaticRecord, StepRecord};
 pub use simulation::Simulation;
 pub use watch::{Output, PassReport, Progress, Watch};
 
-use crate::units::{Metre, MetrePerSecond, Newton};
+use crate::error::{Error, Result};
+use crate::units::{Metre, MetrePerSecond, Newton, Pascal, SquareMetre};
 
 /// What is prescribed in the normal direction during the motion.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -44,6 +45,44 @@ pub enum Strategy {
         /// Speed of the upper surface along x.
         speed_upper: MetrePerSecond,
     },
+}
+
+impl Control {
+    /// The largest load that this control can ask for where columns of the area `column` face each other, so many at
+    /// each position: the hardness on all of them, in the mean over a pass, or at the position with the fewest.
+    pub fn plastic_limit(&self, columns: &[usize], column: SquareMetre, hardness: Pascal) -> Newton {
+        let bearing = match self {
+            Self::PassLoad(_) => columns.iter().sum::<usize>() as f64 / columns.len() as f64,
+            Self::StepLoad(_) => columns.iter().copied().min().unwrap_or(0) as f64,
+            Self::Approach(_) => columns.iter().copied().max().unwrap_or(0) as f64,
+        };
+        hardness * column * bearing
+    }
+
+    /// Holds a load against the [`Control::plastic_limit`].
+    ///
+    /// # Errors
+    /// [`Error::BeyondPlasticLimit`].
+    pub fn check_limit(&self, limit: Newton) -> Result<()> {
+        match *self {
+            Self::PassLoad(load) | Self::StepLoad(load) if load >= limit => {
+                Err(Error::BeyondPlasticLimit { load, limit })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Strategy {
+    /// The positions of a pass of two bodies of so many columns, every `stride`-th.
+    pub fn positions(&self, lower: usize, upper: usize, stride: usize) -> Vec<Position> {
+        match *self {
+            Self::Overlap => overlap_positions(lower, upper, stride),
+            Self::Shift { speed_lower, speed_upper } => {
+                shift_positions(lower, stride, speed_lower, speed_upper)
+            }
+        }
+    }
 }
 
 /// When plastic deformation changes the geometry.

@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::motion::approach::{Guess, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::path::{Position, overlap_positions, shift_positions};
+use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
@@ -36,7 +36,9 @@ impl Simulation {
     /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
-        check_limit(&pair, &motion, &positions)?;
+        let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
+        let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
+        motion.control.check_limit(limit)?;
         let operators = Operators::new(pair.pitch(), pair.modulus(), boundary);
         Ok(Self { pair, motion, params, positions, operators, passes_done: 0, guess: None, latest: None })
     }
@@ -176,47 +178,35 @@ impl Simulation {
 }
 
 fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {
-    let range = |quantity, value: f64, good: bool, expected| {
-        if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
-    };
-    range("passes", motion.passes as f64, motion.passes > 0, "at least one pass")?;
-    range("stride", motion.stride as f64, motion.stride > 0, "at least one cell")?;
+    check("passes", motion.passes as f64, motion.passes > 0, "at least one pass")?;
+    check("stride", motion.stride as f64, motion.stride > 0, "at least one cell")?;
     let tolerance = motion.load_tolerance;
-    range("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
+    check("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
     if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
-        range("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+        check("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
     }
     if let Control::Approach(approach) = motion.control {
-        range("approach", approach, approach.is_finite(), "a finite length")?;
+        check("approach", approach, approach.is_finite(), "a finite length")?;
     }
     let (lower, upper) = (pair.lower.nrows(), pair.upper.nrows());
     match motion.strategy {
         Strategy::Overlap if boundary == Boundary::Periodic => {
-            Err(Error::Unsupported("an overlap is a finite contact: its boundary is free"))
+            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free"));
         }
-        Strategy::Overlap => Ok(overlap_positions(lower, upper, motion.stride)),
-        Strategy::Shift { .. } if lower != upper => Err(Error::GridMismatch {
-            what: "length of the two bodies, which a circular shift needs equal",
-            left: format!("{lower} cells along x"),
-            right: format!("{upper} cells along x"),
-        }),
+        Strategy::Overlap => {}
+        Strategy::Shift { .. } if lower != upper => {
+            return Err(Error::GridMismatch {
+                what: "length of the two bodies, which a circular shift needs equal",
+                left: format!("{lower} cells along x"),
+                right: format!("{upper} cells along x"),
+            });
+        }
         Strategy::Shift { speed_lower, speed_upper } => {
             let fastest = speed_lower.abs().max(speed_upper.abs());
-            range("speed", fastest, fastest > 0.0 && fastest.is_finite(), "a surface that moves")?;
-            Ok(shift_positions(lower, motion.stride, speed_lower, speed_upper))
+            check("speed", fastest, fastest > 0.0 && fastest.is_finite(), "a surface that moves")?;
         }
     }
-}
-
-/// The bodies bear at most H ΔA for each cell that faces another: in the mean over a pass, or at each position.
-fn check_limit(pair: &Pair, motion: &Motion, positions: &[Position]) -> Result<()> {
-    let (load, columns) = match motion.control {
-        Control::PassLoad(load) => (load, mean_columns(positions)),
-        Control::StepLoad(load) => (load, positions.iter().map(|p| p.columns).min().unwrap_or(0) as f64),
-        Control::Approach(_) => return Ok(()),
-    };
-    let limit = pair.hardness() * pair.cell_area() * columns * pair.lower.ncols() as f64;
-    if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
+    Ok(motion.strategy.positions(lower, upper, motion.stride))
 }
 
 fn mean_columns(positions: &[Position]) -> f64 {

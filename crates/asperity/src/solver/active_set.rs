@@ -312,7 +312,7 @@ impl<'a, 'b> Iteration<'a, 'b> {
     /// Response to the direction within [`FORESIGHT`] cells of where it is not zero, without a convolution.
     fn foresee(&mut self) {
         let shape = self.operator.grid().shape;
-        let reach = shape.map(|n| FORESIGHT.min((n - 1) / 2));
+        let reach = [self.near.nrows() - 1, self.near.ncols() - 1];
         self.response.fill(0.0);
         for ((ix, iy), &pressure) in self.direction.indexed_iter().filter(|(_, d)| **d != 0.0) {
             for i in ix.saturating_sub(reach[0])..shape[0].min(ix + reach[0] + 1) {

@@ -45,9 +45,7 @@ fn first_guess(
         cell_area: coarse.grid().cell_area(),
         ..*problem
     };
-    if coarse_problem.hardness * coarse_problem.cell_area * (gap.len() as f64)
-        <= coarse_problem.pressure_sum().unwrap_or(0.0) * coarse_problem.cell_area
-    {
+    if problem.hardness * gap.len() as f64 <= coarse_problem.pressure_sum().unwrap_or(0.0) {
         return Ok((None, 0.0));
     }
     let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params, levels - 1)?;

@@ -10,7 +10,7 @@ mod residual;
 
 pub use residual::{Residual, residual};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::grid::Field;
 use crate::kernel::normal_displacement;
 use crate::operator::Operator;
@@ -240,22 +240,19 @@ fn validate(
     control: Control,
     params: &Params,
 ) -> Result<()> {
-    let range = |quantity, value: f64, good: bool, expected| {
-        if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
-    };
-    range("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
-    range("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
+    check("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
+    check("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
     if let Some(&value) = initial_gap.iter().find(|h| !h.is_finite()) {
-        range("initial gap", value, false, "finite heights at every cell: fill missing data first")?;
+        check("initial gap", value, false, "finite heights at every cell: fill missing data first")?;
     }
     match control {
         Control::Load(load) => {
-            range("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+            check("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
             let limit = hardness * operator.grid().area();
             if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
         }
         Control::Approach(approach) => {
-            range("approach", approach, approach.is_finite(), "a finite approach")?;
+            check("approach", approach, approach.is_finite(), "a finite approach")?;
             let mean_gap = initial_gap.mean().unwrap_or(0.0);
             if operator.periodic() && hardness.is_infinite() && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::grid::Grid;
 use crate::surface::Topography;
 use crate::units::Metre;
@@ -62,7 +62,7 @@ impl Form {
     /// This form on `grid`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.
+    /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.
     pub fn on(&self, grid: &Grid) -> Result<Topography> {
         self.check(grid)?;
         let extent = grid.extent();
@@ -89,9 +89,6 @@ impl Form {
     }
 
     fn check(&self, grid: &Grid) -> Result<()> {
-        let check = |quantity, value: f64, good: bool, expected| {
-            if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
-        };
         let positive = |value: f64| value > 0.0 && value.is_finite();
         match *self {
             Self::Flat => Ok(()),

@@ -18,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
 pub use crate::operator::Boundary;
+use crate::solver;
 pub use crate::solver::Method;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
@@ -91,6 +92,17 @@ pub enum Prescribed {
     Approach(Metre),
 }
 
+impl Prescribed {
+    /// What the solver is told, on so large an apparent area.
+    pub fn control(&self, apparent_area: SquareMetre) -> solver::Control {
+        match *self {
+            Self::Load(load) => solver::Control::Load(load),
+            Self::MeanPressure(pressure) => solver::Control::Load(pressure * apparent_area),
+            Self::Approach(approach) => solver::Control::Approach(approach),
+        }
+    }
+}
+
 /// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotionSpec {
@@ -156,15 +168,10 @@ impl Case {
     /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         let spec = self.motion?;
-        let load = match self.contact.prescribed {
-            Prescribed::Load(load) => Ok(load),
-            Prescribed::MeanPressure(pressure) => Ok(pressure * apparent_area),
-            Prescribed::Approach(approach) => Err(approach),
-        };
-        let control = match (load, spec.control) {
-            (Ok(load), ControlKind::StepLoad) => Control::StepLoad(load),
-            (Ok(load), _) => Control::PassLoad(load),
-            (Err(approach), _) => Control::Approach(approach),
+        let control = match (self.contact.prescribed.control(apparent_area), spec.control) {
+            (solver::Control::Load(load), ControlKind::StepLoad) => Control::StepLoad(load),
+            (solver::Control::Load(load), _) => Control::PassLoad(load),
+            (solver::Control::Approach(approach), _) => Control::Approach(approach),
         };
         Some(Motion {
             strategy: spec.strategy,

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::noise::{filtered_noise, shape_with_margin};
-use super::{check, check_sq, one_or_two};
-use crate::error::Result;
+use super::{check_sq, one_or_two};
+use crate::error::{Result, check};
 use crate::grid::Grid;
 use crate::math::fft::angular_frequency;
 use crate::surface::Topography;

@@ -11,7 +11,7 @@ pub use self_affine::{Amplitude, SelfAffine};
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::grid::Grid;
 use crate::surface::Topography;
 use crate::units::Metre;
@@ -33,7 +33,7 @@ impl Generator {
     /// round-off of the Fourier transform).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if a parameter has no meaning, or none on this grid.
+    /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or none on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         match self {
             Self::LowPass(method) => method.generate(grid, seed),
@@ -41,10 +41,6 @@ impl Generator {
             Self::SelfAffine(method) => method.generate(grid, seed),
         }
     }
-}
-
-fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
-    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
 }
 
 fn check_sq(sq: Metre) -> Result<()> {

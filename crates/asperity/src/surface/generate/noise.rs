@@ -4,8 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::check;
-use crate::error::Result;
+use crate::error::{Result, check};
 use crate::grid::{Field, Grid};
 use crate::math::{RealFft2, good_size};
 use crate::surface::Topography;

@@ -8,8 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use rustfft::num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{check, check_sq};
-use crate::error::{Error, Result};
+use super::check_sq;
+use crate::error::{Error, Result, check};
 use crate::grid::Grid;
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;

@@ -1,0 +1,11 @@
+//! What several tests share.
+
+/// Numbers that agree to `tolerance` of the largest expected.
+#[track_caller]
+pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(got.len(), expected.len(), "{what}");
+    let scale = expected.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
+    for (k, (a, b)) in got.iter().zip(expected).enumerate() {
+        assert!((a - b).abs() <= tolerance * scale, "{what} at {k}: {a:e}, expected {b:e}");
+    }
+}
