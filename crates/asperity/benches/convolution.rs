@@ -1,7 +1,7 @@
 //! One displacement from one pressure, dense as in full contact and sparse as at a per cent of it.
 
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
-use asperity::{Field, Grid};
+use asperity::{Field, Grid, SingleField};
 
 const SIDES: [usize; 4] = [128, 256, 512, 1024];
 
@@ -24,6 +24,16 @@ fn free_tenth_of_the_rows(bencher: divan::Bencher, side: usize) {
     measure(bencher, &mut FreeFft::new(square(side), 1.0), 10);
 }
 
+#[divan::bench(args = SIDES)]
+fn free_single(bencher: divan::Bencher, side: usize) {
+    measure_single(bencher, &mut FreeFft::new(square(side), 1.0));
+}
+
+#[divan::bench(args = SIDES)]
+fn periodic_single(bencher: divan::Bencher, side: usize) {
+    measure_single(bencher, &mut PeriodicFft::new(square(side), 1.0));
+}
+
 fn square(side: usize) -> Grid {
     Grid::new([side, side], [1.0, 1.0]).expect("a grid")
 }
@@ -34,4 +44,10 @@ fn measure(bencher: divan::Bencher, operator: &mut dyn Operator, every: usize) {
         Field::from_shape_fn(shape, |(i, j)| if i % every == 0 { (i * j % 7) as f64 } else { 0.0 });
     let mut displacement = operator.grid().zeros();
     bencher.bench_local(|| operator.apply(&pressure, &mut displacement));
+}
+
+fn measure_single(bencher: divan::Bencher, operator: &mut dyn Operator) {
+    let pressure = SingleField::from_shape_fn(operator.grid().shape, |(i, j)| (i * j % 7) as f32);
+    let mut displacement = SingleField::zeros(operator.grid().shape);
+    bencher.bench_local(|| operator.apply_single(&pressure, &mut displacement));
 }

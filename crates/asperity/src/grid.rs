@@ -6,6 +6,9 @@ use crate::units::{Metre, SquareMetre};
 /// Values on the cells of a [`Grid`], indexed `[ix, iy]`, `iy` fastest in memory.
 pub type Field = ndarray::Array2<f64>;
 
+/// A [`Field`] in single precision: for what only has to be nearly right, as the directions of an iteration.
+pub type SingleField = ndarray::Array2<f32>;
+
 /// A regular grid of rectangular cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {

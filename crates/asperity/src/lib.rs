@@ -9,7 +9,7 @@
 //! x              the direction of motion           load      W = ΔA Σ p, ΔA the area of a cell
 //! ```
 //!
-//! Everything is SI and `f64`. The lower body is described by the height of its surface, the upper one by the
+//! Everything is SI and `f64`; single precision serves the steps of an iteration only. The lower body is described by the height of its surface, the upper one by the
 //! height of its underside; the undeformed gap is `h = z₂ − z₁`.
 //!
 //! # Where to begin
@@ -52,7 +52,7 @@ pub mod verification;
 pub mod io;
 
 pub use error::{Error, Result};
-pub use grid::{Field, Grid};
+pub use grid::{Field, Grid, SingleField};
 
 /// The programs in the README are tests.
 #[cfg(doctest)]

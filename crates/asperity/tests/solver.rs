@@ -112,12 +112,10 @@ fn the_residual_is_that_of_the_direct_sum() {
         sum.apply(&solution.pressure, &mut displacement);
         let independent =
             residual(&solution.pressure, &displacement, &gap, hardness, sum.influence(0, 0), None);
-        assert!(
-            (independent.eta - solution.residual).abs() < 1e-11,
-            "{independent:?}, {}",
-            solution.residual
-        );
-        assert!((independent.approach / solution.approach - 1.0).abs() < 1e-12);
+        // Single precision may leave a tenth of the tolerance in the displacement, and it counts in the residual.
+        let below = solution.residual - independent.eta;
+        assert!((0.0..0.2e-6).contains(&below), "{independent:?}, {}", solution.residual);
+        assert!((independent.approach / solution.approach - 1.0).abs() < 1e-8);
     }
 }
 
@@ -310,7 +308,7 @@ fn an_approach_that_nearly_closes_a_periodic_gap() {
     let mean_gap = gap.mean().unwrap();
     for share in [0.9, 0.99, 0.999, 0.9999] {
         let solution = active_set(true, &gap, INF, Control::Approach(share * mean_gap));
-        assert!(solution.stats.convolutions < 80.0, "{share}: {:?}", solution.stats);
+        assert!(solution.stats.convolutions < 40.0, "{share}: {:?}", solution.stats);
     }
     let closed = solve_normal(
         operator(grid, true).as_mut(),

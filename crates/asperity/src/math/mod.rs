@@ -4,7 +4,10 @@ pub mod convolution;
 pub mod elliptic;
 pub mod fft;
 pub mod good_size;
+pub mod mixed;
+pub mod sum;
 
 pub use convolution::{Convolution, Kernel};
 pub use fft::RealFft2;
 pub use good_size::good_size;
+pub use mixed::{MixedConvolution, MixedKernel};

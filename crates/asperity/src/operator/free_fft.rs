@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{influence_table, normal_displacement};
-use crate::math::{Convolution, Kernel, good_size};
+use crate::math::{Kernel, MixedConvolution, MixedKernel, good_size};
 use crate::operator::{Operator, coarse_free_grid};
 use crate::units::{Metre, Pascal};
 
@@ -16,7 +16,7 @@ use crate::units::{Metre, Pascal};
 pub struct FreeFamily {
     pitch: [Metre; 2],
     modulus: Pascal,
-    kernels: Mutex<HashMap<[usize; 2], Arc<Kernel>>>,
+    kernels: Mutex<HashMap<[usize; 2], Arc<MixedKernel>>>,
     coarse: OnceLock<Arc<FreeFamily>>,
 }
 
@@ -31,16 +31,16 @@ impl FreeFamily {
         let kernel = self.kernel(shape.map(|n| good_size(2 * n - 1)));
         FreeFft {
             grid: Grid { shape, pitch: self.pitch },
-            convolution: Convolution::new(kernel, shape),
+            convolution: MixedConvolution::new(kernel, shape),
             family: Arc::clone(self),
         }
     }
 
-    fn kernel(&self, padded: [usize; 2]) -> Arc<Kernel> {
+    fn kernel(&self, padded: [usize; 2]) -> Arc<MixedKernel> {
         let mut kernels = self.kernels.lock().expect("no holder panics");
         let kernel = kernels.entry(padded).or_insert_with(|| {
             let table = influence_table(padded.map(|n| n / 2 + 1), self.pitch, self.modulus);
-            Arc::new(Kernel::from_values(padded, &table))
+            MixedKernel::new(Kernel::from_values(padded, &table))
         });
         Arc::clone(kernel)
     }
@@ -49,7 +49,7 @@ impl FreeFamily {
 /// A half-space pair loaded on a finite grid: the discrete convolution with Love's coefficients, exact to round-off.
 pub struct FreeFft {
     grid: Grid,
-    convolution: Convolution,
+    convolution: MixedConvolution,
     family: Arc<FreeFamily>,
 }
 
@@ -80,6 +80,10 @@ impl Operator for FreeFft {
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
         self.convolution.apply(pressure, displacement);
+    }
+
+    fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
+        self.convolution.apply_single(pressure, displacement);
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

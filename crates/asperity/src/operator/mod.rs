@@ -10,7 +10,7 @@ pub use family::{Boundary, Operators};
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::PeriodicFft;
 
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, SingleField};
 use crate::units::Pascal;
 
 /// The composite normal displacement of a half-space pair under pressure: `u = C p`.
@@ -31,6 +31,14 @@ pub trait Operator: Send {
 
     /// Writes the displacement under `pressure` into `displacement`. Both have the grid's shape.
     fn apply(&mut self, pressure: &Field, displacement: &mut Field);
+
+    /// As [`Operator::apply`] in single precision: to about 3e-7 of the largest displacement, in half the time where
+    /// the operator has its own.
+    fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
+        let mut double = Field::zeros(pressure.raw_dim());
+        self.apply(&pressure.mapv(f64::from), &mut double);
+        displacement.zip_mut_with(&double, |single, double| *single = *double as f32);
+    }
 
     /// The same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;

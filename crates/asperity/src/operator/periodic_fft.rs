@@ -1,10 +1,8 @@
 //! The periodic boundary.
 
-use std::sync::Arc;
-
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::spectral::harmonic_displacement;
-use crate::math::{Convolution, Kernel, fft::angular_frequency};
+use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency};
 use crate::operator::Operator;
 use crate::units::Pascal;
 
@@ -14,7 +12,7 @@ use crate::units::Pascal;
 pub struct PeriodicFft {
     grid: Grid,
     modulus: Pascal,
-    convolution: Convolution,
+    convolution: MixedConvolution,
     /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
     influence: Field,
 }
@@ -28,7 +26,7 @@ impl PeriodicFft {
             let qy = angular_frequency(l, ny, grid.pitch[1]);
             harmonic_displacement(qx, qy, modulus)
         });
-        let mut convolution = Convolution::new(Arc::new(kernel), grid.shape);
+        let mut convolution = MixedConvolution::new(MixedKernel::new(kernel), grid.shape);
         let (mut unit, mut response) = (grid.zeros(), grid.zeros());
         unit[[0, 0]] = 1.0;
         convolution.apply(&unit, &mut response);
@@ -57,6 +55,10 @@ impl Operator for PeriodicFft {
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
         self.convolution.apply(pressure, displacement);
+    }
+
+    fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
+        self.convolution.apply_single(pressure, displacement);
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

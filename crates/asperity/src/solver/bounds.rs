@@ -1,10 +1,13 @@
 //! The feasible pressures: 0 ≤ p ≤ H, and under load Σ p given.
 
 use crate::grid::Field;
+use crate::math::sum::sums;
 use crate::solver::Problem;
 
 /// Relative error of the load of a feasible pressure.
 const LOAD_ACCURACY: f64 = 1e-11;
+/// Relative error of a sum of pressures that is as good as none: above the rounding of millions of terms.
+const SUM_ACCURACY: f64 = 1e-13;
 
 impl Problem<'_> {
     /// Whether `pressure` is inside the bounds and, under load control, bears the load.
@@ -22,14 +25,9 @@ impl Problem<'_> {
         pressure.mapv_inplace(|p| p.clamp(0.0, hardness));
         let Some(wanted) = self.pressure_sum() else { return };
         for _ in 0..60 {
-            let (mut sum, mut between) = (0.0, 0.0);
-            for &p in pressure.iter() {
-                sum += p;
-                if 0.0 < p && p < hardness {
-                    between += p;
-                }
-            }
-            if (sum - wanted).abs() <= 4.0 * f64::EPSILON * wanted {
+            let cells = pressure.as_slice().expect("standard layout");
+            let [sum, between] = sums(cells, |p| [p, if p < hardness { p } else { 0.0 }]);
+            if (sum - wanted).abs() <= SUM_ACCURACY * wanted {
                 return;
             }
             if between <= 0.0 || between <= 0.5 * (sum - wanted) {
@@ -38,37 +36,29 @@ impl Problem<'_> {
             let factor = 1.0 + (wanted - sum) / between;
             pressure.mapv_inplace(|p| if p < hardness { (p * factor).clamp(0.0, hardness) } else { p });
         }
-        if (pressure.sum() - wanted).abs() > 1e-13 * wanted {
-            shift_to_sum(pressure, hardness, wanted);
-        }
+        let shift = shift_for_sum(pressure.as_slice().expect("standard layout"), hardness, wanted);
+        pressure.mapv_inplace(|p| (p + shift).clamp(0.0, hardness));
     }
 }
 
-/// Euclidean projection: clip(p + c, 0, H) with the c at which the sum is `wanted`.
-fn shift_to_sum(pressure: &mut Field, hardness: f64, wanted: f64) {
-    let shift = shift_for_sum(pressure.iter().copied(), hardness, wanted);
-    pressure.mapv_inplace(|p| (p + shift).clamp(0.0, hardness));
-}
-
-/// The c at which Σ clip(y + c, 0, H) is `wanted`, for 0 ≤ `wanted` ≤ n H.
+/// The c at which Σ clip(y + c, 0, H) is `wanted`, for 0 ≤ `wanted` ≤ n H: the Euclidean projection onto the bounds and
+/// the sum.
 ///
 /// The sum grows piecewise linearly with c: bracketed Newton iteration, exact to round-off in a few passes.
-pub(super) fn shift_for_sum(values: impl Iterator<Item = f64> + Clone, hardness: f64, wanted: f64) -> f64 {
-    let (mut least, mut most, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0);
-    for y in values.clone() {
-        (least, most, count) = (least.min(y), most.max(y), count + 1);
+pub(super) fn shift_for_sum<T: Copy + Into<f64>>(values: &[T], hardness: f64, wanted: f64) -> f64 {
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for y in values {
+        (least, most) = (least.min((*y).into()), most.max((*y).into()));
     }
-    let (mut low, mut high) = (-most, wanted / count as f64 - least);
+    let (mut low, mut high) = (-most, wanted / values.len() as f64 - least);
     let mut shift = high.min(0.0).max(low);
     for _ in 0..200 {
-        let (mut sum, mut between) = (0.0, 0usize);
-        for y in values.clone() {
-            let p = (y + shift).clamp(0.0, hardness);
-            sum += p;
-            between += usize::from(0.0 < p && p < hardness);
-        }
+        let [sum, between] = sums(values, |y| {
+            let p = (y.into() + shift).clamp(0.0, hardness);
+            [p, if 0.0 < p && p < hardness { 1.0 } else { 0.0 }]
+        });
         let excess = sum - wanted;
-        if excess.abs() <= 4.0 * f64::EPSILON * wanted {
+        if excess.abs() <= SUM_ACCURACY * wanted {
             break;
         }
         if excess < 0.0 {
@@ -76,7 +66,7 @@ pub(super) fn shift_for_sum(values: impl Iterator<Item = f64> + Clone, hardness:
         } else {
             high = shift;
         }
-        let newton = shift - excess / between as f64;
+        let newton = shift - excess / between;
         let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
         if next <= low || next >= high {
             break;

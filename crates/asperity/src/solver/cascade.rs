@@ -20,7 +20,7 @@ const LEAST_CELLS: usize = 32;
 pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Params) -> Result<Solution> {
     let (start, spent) = first_guess(operator, problem, params, LEVELS)?;
     let mut solution =
-        active_set::solve(operator, problem, start.as_ref(), |_| params.tolerance, params.max_convolutions)?;
+        active_set::solve(operator, problem, start, |_| params.tolerance, params.max_convolutions)?;
     solution.stats.convolutions += spent;
     Ok(solution)
 }
@@ -52,7 +52,7 @@ fn first_guess(
     let saturation = coarse_problem.self_influence * problem.hardness;
     let loose =
         |state: &Residual| params.tolerance.max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
-    match active_set::solve(coarse.as_mut(), &coarse_problem, start.as_ref(), loose, COARSE_CONVOLUTIONS) {
+    match active_set::solve(coarse.as_mut(), &coarse_problem, start, loose, COARSE_CONVOLUTIONS) {
         Ok(solution) => {
             let spent = share * (spent + solution.stats.convolutions);
             Ok((Some(prolong(&solution.pressure, shape)), spent))

@@ -3,10 +3,13 @@
 mod active_set;
 mod bounds;
 mod cascade;
+mod coarse_correction;
 mod direct;
 mod polonsky_keer;
 mod preconditioner;
 mod residual;
+mod sets;
+mod sparse_inverse;
 
 pub use residual::{Residual, residual};
 
@@ -74,11 +77,11 @@ pub struct Stats {
 pub struct Solution {
     /// Pressure p, Pa; exactly 0 outside the contact, exactly the hardness at capped cells.
     pub pressure: Field,
-    /// Composite displacement u = C p, m.
+    /// Composite displacement u = C p, m; to a tenth of the tolerance, as a share of std(u).
     pub displacement: Field,
     /// Rigid-body approach δ.
     pub approach: Metre,
-    /// Scale-free complementarity residual η of this very pressure.
+    /// Scale-free complementarity residual η of this very pressure, with what rounding may have left in the displacement.
     pub residual: f64,
     /// What it cost.
     pub stats: Stats,
@@ -208,9 +211,13 @@ pub fn solve_normal(
         Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
         Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
         Method::Auto | Method::ActiveSet => match start {
-            Some(_) => {
-                active_set::solve(operator, &problem, start, |_| params.tolerance, params.max_convolutions)
-            }
+            Some(_) => active_set::solve(
+                operator,
+                &problem,
+                start.cloned(),
+                |_| params.tolerance,
+                params.max_convolutions,
+            ),
             None => cascade::solve(operator, &problem, params),
         },
     }?;

@@ -34,18 +34,17 @@ pub fn residual(
 ) -> Residual {
     let approach = approach.unwrap_or_else(|| multiplier(pressure, displacement, initial_gap, hardness));
     let mut largest = 0.0f64;
-    let mut sum = 0.0;
     let mut max_pressure = 0.0f64;
+    let mean = displacement.sum() / displacement.len() as f64;
+    let mut squares = 0.0;
     ndarray::Zip::from(pressure).and(displacement).and(initial_gap).for_each(|p, u, h| {
         let w = approach - h - u;
         let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, hardness));
         largest = largest.max(phi.abs());
         max_pressure = max_pressure.max(p.abs());
-        sum += u;
+        squares += (u - mean) * (u - mean);
     });
-    let cells = displacement.len() as f64;
-    let mean = sum / cells;
-    let deviation = (displacement.iter().map(|u| (u - mean) * (u - mean)).sum::<f64>() / cells).sqrt();
+    let deviation = (squares / displacement.len() as f64).sqrt();
     let local = self_influence * max_pressure;
     let scale = if deviation <= 1e-12 * local { local } else { deviation };
     // What is not a number is no answer, though a maximum would pass over it.

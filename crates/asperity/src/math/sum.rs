@@ -1,0 +1,36 @@
+//! Sums of a fixed order.
+
+const LANES: usize = 8;
+
+/// The sums of what `terms` makes of each value, taken in eight lanes: faster than one after another, and rounded
+/// less.
+pub fn sums<T: Copy, const N: usize>(values: &[T], terms: impl Fn(T) -> [f64; N]) -> [f64; N] {
+    let mut lanes = [[0.0; LANES]; N];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for lane in 0..LANES {
+            let term = terms(chunk[lane]);
+            (0..N).for_each(|n| lanes[n][lane] += term[n]);
+        }
+    }
+    for (lane, value) in rest.iter().enumerate() {
+        let term = terms(*value);
+        (0..N).for_each(|n| lanes[n][lane] += term[n]);
+    }
+    lanes.map(|lanes| lanes.iter().sum())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_counts_once() {
+        for n in [0, 1, 7, 8, 9, 100] {
+            let values: Vec<u32> = (1..=n).collect();
+            let [sum, count] = sums(&values, |v| [f64::from(v), 1.0]);
+            assert_eq!((sum, count), (f64::from(n * (n + 1) / 2), f64::from(n)));
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What is wide: the stiffness of long waves, on a grid with a sixteenth of the cells along each axis.
+
+use std::sync::Arc;
+
+use crate::grid::SingleField;
+use crate::math::{Convolution, Kernel, fft::angular_frequency};
+use crate::operator::Operator;
+use crate::solver::sets::Sets;
+
+/// Fine cells per coarse cell, along each axis.
+const COARSENING: usize = 16;
+/// Keeps the weight of sparsely covered coarse cells finite; see [`CoarseCorrection`].
+const SPARSE: f32 = 0.2;
+
+/// P interpolates bilinearly from the coarse nodes, B is the stiffness E*|q|/2 of the coarse harmonics, D a weight.
+///
+/// A pressure that is uniform over the free cells of a coarse cell, a share θ of it, has θ of the mean pressure; a
+/// displacement that is uniform there has θ of the sum. Dividing by θ on the way there and back makes both right:
+/// D = 1/(θ + 0.2), finite where a few cells are free, for which the uniform pressure is a bad guess anyway.
+///
+/// The mean of a periodic surface is softer than any wave, and counts under approach control alone: a uniform pressure
+/// around valleys of width a, a share φ of the surface, displaces them by about −a p/E*, and the rest by φ of that. With
+/// a in proportion to φ, as for valleys at given distances, the stiffness of the mean goes as 1/φ².
+pub(super) struct CoarseCorrection {
+    /// E*|q|/2 of the coarse harmonics, divided by the fine cells in a coarse one.
+    stiffness: Convolution<f32>,
+    /// That of the mean, where valleys are as wide as the grid, and the share of cells that are not free.
+    mean_stiffness: f32,
+    open: f32,
+    /// Fine cells in a coarse one.
+    cells: f32,
+    bilinear: Bilinear,
+    /// D at each node.
+    weight: SingleField,
+    /// D Pᵀ A r, and D B of it.
+    restricted: SingleField,
+    solved: SingleField,
+}
+
+impl CoarseCorrection {
+    pub(super) fn new(operator: &dyn Operator) -> Self {
+        let grid = *operator.grid();
+        let shape = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
+        let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
+        let cells = factor[0] * factor[1];
+        let longest = grid.extent()[0].max(grid.extent()[1]);
+        let mean =
+            if operator.periodic() { operator.modulus() * std::f64::consts::PI / longest } else { 0.0 };
+        let stiffness = Kernel::from_transform(shape, |k, l| {
+            let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
+            let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
+            let wide = match (k, l) {
+                (0, 0) if operator.periodic() => 0.0,
+                // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean.
+                (0, 0) => 1.0 / (0.95 * grid.area().sqrt()),
+                _ => 0.5 * qx.hypot(qy),
+            };
+            operator.modulus() * wide / cells
+        });
+        Self {
+            stiffness: Convolution::new(Arc::new(stiffness.to_single()), shape),
+            mean_stiffness: (mean / cells) as f32,
+            open: 1.0,
+            cells: cells as f32,
+            bilinear: Bilinear::new(grid.shape, shape),
+            weight: SingleField::zeros(shape),
+            restricted: SingleField::zeros(shape),
+            solved: SingleField::zeros(shape),
+        }
+    }
+
+    pub(super) fn adapt(&mut self, sets: &Sets) {
+        let (free, all) = (sets.free().len() as f32, sets.of().len() as f32);
+        self.open = 1.0 - (free - 1.0) / all;
+        self.bilinear.restrict(sets, |_| 1.0, &mut self.weight);
+        self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + SPARSE));
+    }
+
+    /// Restricts `r` to the nodes, and writes what is left of it without the wide part into `rest`:
+    /// `(I − T) A r` with T = P D Pᵀ, a smoothing.
+    pub(super) fn split(&mut self, sets: &Sets, r: &[f32], rest: &mut [f32]) {
+        self.restrict(sets, r);
+        let scale = 1.0 / self.cells;
+        self.bilinear.interpolate(sets, &self.restricted, |cell, wide| rest[cell] = r[cell] - scale * wide);
+        self.stiffness.apply(&self.restricted, &mut self.solved);
+        self.solved +=
+            self.mean_stiffness * self.restricted.sum() / (self.restricted.len() as f32 * self.open.powi(2));
+        self.solved *= &self.weight;
+    }
+
+    /// Takes the wide part out of `z`, and adds the response to the wide part of the `r` split before:
+    /// `(I − T)ᵀ z + P D B D Pᵀ A r`.
+    pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) {
+        self.restrict(sets, z);
+        self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
+        self.bilinear.interpolate(sets, &self.solved, |cell, wide| z[cell] += wide);
+    }
+
+    /// D Pᵀ A r.
+    fn restrict(&mut self, sets: &Sets, r: &[f32]) {
+        self.bilinear.restrict(sets, |cell| r[cell], &mut self.restricted);
+        self.restricted *= &self.weight;
+    }
+}
+
+/// Bilinear interpolation from coarse nodes, cyclic, to the free cells of a grid.
+struct Bilinear {
+    /// For each row (column) of cells: the node before it, and how far it is from there to the next, 0 … 1.
+    along: [Vec<(usize, f32)>; 2],
+    /// Scratch: values at the nodes along a row of cells, the first once more at the end.
+    line: Vec<f32>,
+}
+
+impl Bilinear {
+    fn new(fine: [usize; 2], coarse: [usize; 2]) -> Self {
+        Self { along: [0, 1].map(|axis| nodes(fine[axis], coarse[axis])), line: vec![0.0; coarse[1] + 1] }
+    }
+
+    /// `f` of each free cell and its value between `nodes`.
+    fn interpolate(&mut self, sets: &Sets, nodes: &SingleField, mut f: impl FnMut(usize, f32)) {
+        let Self { along, line } = self;
+        for (row, first, free) in sets.rows() {
+            let (node, share) = along[0][row];
+            let ends = [nodes.row(node), nodes.row((node + 1) % nodes.nrows())];
+            for ((value, a), b) in line.iter_mut().zip(ends[0]).zip(ends[1]) {
+                *value = a + share * (b - a);
+            }
+            line[nodes.ncols()] = line[0];
+            for &cell in free {
+                let cell = cell as usize;
+                let (node, share) = along[1][cell - first];
+                f(cell, line[node] + share * (line[node + 1] - line[node]));
+            }
+        }
+    }
+
+    /// The transpose: shares `value` of each free cell out to the nodes around it.
+    fn restrict(&mut self, sets: &Sets, value: impl Fn(usize) -> f32, nodes: &mut SingleField) {
+        let Self { along, line } = self;
+        nodes.fill(0.0);
+        let (rows, columns) = nodes.dim();
+        for (row, first, free) in sets.rows() {
+            line.fill(0.0);
+            for &cell in free {
+                let cell = cell as usize;
+                let (node, share) = along[1][cell - first];
+                let second = share * value(cell);
+                line[node] += value(cell) - second;
+                line[node + 1] += second;
+            }
+            line[0] += line[columns];
+            let (node, share) = along[0][row];
+            nodes.row_mut(node).iter_mut().zip(&*line).for_each(|(n, v)| *n += (1.0 - share) * v);
+            nodes.row_mut((node + 1) % rows).iter_mut().zip(&*line).for_each(|(n, v)| *n += share * v);
+        }
+    }
+}
+
+/// For each of `fine` cells the one of `coarse` nodes (cyclic) before it, and the weight of the next.
+fn nodes(fine: usize, coarse: usize) -> Vec<(usize, f32)> {
+    let factor = fine as f64 / coarse as f64;
+    (0..fine)
+        .map(|i| {
+            let position = (i as f64 + 0.5) / factor - 0.5;
+            let node = position.floor();
+            ((node as isize).rem_euclid(coarse as isize) as usize, (position - node) as f32)
+        })
+        .collect()
+}

@@ -1,0 +1,102 @@
+//! A factorised sparse approximate inverse of the influence matrix on the free cells.
+
+use crate::operator::Operator;
+use crate::solver::sets::Sets;
+
+/// GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its
+/// causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
+///
+/// A row depends on nothing but which of the neighbours are free: there are 64.
+pub(super) struct SparseInverse {
+    shape: [usize; 2],
+    rows: [[f32; MEMBERS]; 1 << NEIGHBOURS],
+    /// For each free cell its row of the table: bit k is set where neighbour k is free.
+    patterns: Vec<u8>,
+}
+
+const NEIGHBOURS: usize = 6;
+/// The neighbours and the cell itself, which is the last.
+const MEMBERS: usize = NEIGHBOURS + 1;
+/// The nearest neighbours that come before a cell in memory.
+const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
+/// One more than the largest distance of two members along each axis.
+const REACH: [usize; 2] = [3, 4];
+
+impl SparseInverse {
+    pub(super) fn new(operator: &dyn Operator) -> Self {
+        let shape = operator.grid().shape;
+        // Neighbours that the grid is too small for never occur; periodic coefficients count from the far field.
+        let far = if operator.periodic() { operator.influence(shape[0] / 2, shape[1] / 2) } else { 0.0 };
+        let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                if i < shape[0] && j < shape[1] { operator.influence(i, j) - far } else { 0.0 }
+            })
+        });
+        let rows = std::array::from_fn(|pattern| {
+            let members: Vec<usize> =
+                (0..NEIGHBOURS).filter(|k| pattern >> k & 1 == 1).chain([NEIGHBOURS]).collect();
+            let offset = |k: usize| if k == NEIGHBOURS { (0, 0) } else { CAUSAL[k] };
+            let mut matrix = [[0.0; MEMBERS]; MEMBERS];
+            for (a, &k) in members.iter().enumerate() {
+                for (b, &l) in members.iter().enumerate() {
+                    let (p, q) = (offset(k), offset(l));
+                    matrix[a][b] = coefficients[p.0.abs_diff(q.0)][p.1.abs_diff(q.1)];
+                }
+            }
+            let solved = last_column_of_inverse(&mut matrix, members.len());
+            let scale = 1.0 / solved[members.len() - 1].sqrt();
+            let mut row = [0.0; MEMBERS];
+            members.iter().zip(solved).for_each(|(&k, y)| row[k] = (y * scale) as f32);
+            row
+        });
+        Self { shape, rows, patterns: Vec::new() }
+    }
+
+    pub(super) fn adapt(&mut self, sets: &Sets) {
+        let [nx, ny] = self.shape.map(|n| n as isize);
+        self.patterns.clear();
+        self.patterns.reserve_exact(sets.free().len());
+        self.patterns.extend(sets.free().map(|cell| {
+            let (ix, iy) = (cell as isize / ny, cell as isize % ny);
+            let free = |(di, dj): (isize, isize)| {
+                let (i, j) = (ix + di, iy + dj);
+                (0..nx).contains(&i) && (0..ny).contains(&j) && sets.is_free((i * ny + j) as usize)
+            };
+            (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
+        }));
+    }
+
+    /// Adds GᵀG r to `z`: fields on the grid, zero where it is not free.
+    pub(super) fn add(&self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+        let back = CAUSAL.map(|(di, dj)| (-di * self.shape[1] as isize - dj) as usize);
+        for (cell, pattern) in sets.free().zip(&self.patterns) {
+            let row = &self.rows[*pattern as usize];
+            // Absent neighbours have the coefficient 0, whatever cell they are taken for.
+            let neighbours = back.map(|distance| cell.saturating_sub(distance));
+            let mut product = row[NEIGHBOURS] * r[cell];
+            neighbours.iter().zip(row).for_each(|(&neighbour, g)| product += g * r[neighbour]);
+            z[cell] += row[NEIGHBOURS] * product;
+            neighbours.iter().zip(row).for_each(|(&neighbour, g)| z[neighbour] += g * product);
+        }
+    }
+}
+
+/// The last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a positive definite
+/// matrix.
+fn last_column_of_inverse(matrix: &mut [[f64; MEMBERS]; MEMBERS], n: usize) -> [f64; MEMBERS] {
+    for pivot in 0..n {
+        for row in pivot + 1..n {
+            let factor = matrix[row][pivot] / matrix[pivot][pivot];
+            let (above, below) = matrix.split_at_mut(row);
+            below[0][pivot..n].iter_mut().zip(&above[pivot][pivot..n]).for_each(|(b, a)| *b -= factor * a);
+        }
+    }
+    // The right-hand side e_n is untouched by the elimination.
+    let mut solution = [0.0; MEMBERS];
+    for row in (0..n).rev() {
+        let right = if row == n - 1 { 1.0 } else { 0.0 };
+        let known: f64 = (row + 1..n).map(|k| matrix[row][k] * solution[k]).sum();
+        solution[row] = (right - known) / matrix[row][row];
+    }
+    solution
+}
