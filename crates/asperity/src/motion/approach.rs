@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::units::{Metre, Newton};
 
 /// Residual η of the roughest trial.
-const LOOSEST: f64 = 0.1;
+pub(super) const LOOSEST: f64 = 0.1;
 /// Trials after which the search is given up.
 const MOST_TRIALS: usize = 100;
 
@@ -42,18 +42,19 @@ pub(super) struct Found<T> {
 impl Search {
     /// Tries approaches by a bracketed secant iteration on ln W(δ).
     ///
-    /// `trial(δ, η)` gives the mean load at an approach, from positions solved to the residual η. Far from the load
-    /// a rough answer is enough to find the next approach; only the last trial is solved to the wanted residual.
+    /// `trial(δ, η)` gives the mean load at an approach, from positions solved to the residual η; the first of them to
+    /// `residual`. Far from the load a rough answer is enough to find the next approach; only the last trial is solved to
+    /// the wanted residual.
     pub(super) fn run<T>(
         &self,
         first: Guess,
+        mut residual: f64,
         mut trial: impl FnMut(Metre, f64) -> Result<(Newton, T)>,
     ) -> Result<Found<T>> {
         let Guess { mut approach, mut slope } = first;
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
         let mut excess_before = 1.0;
-        let mut residual = LOOSEST;
         for trials in 1..=MOST_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn it_finds_the_load_of_a_hertzian_curve_in_a_few_trials() {
         let found = search(1e-12)
-            .run(Guess { approach: 0.3, slope: 2.0 }, |delta, eta| Ok((delta.powf(1.5), eta)))
+            .run(Guess { approach: 0.3, slope: 2.0 }, LOOSEST, |delta, eta| Ok((delta.powf(1.5), eta)))
             .unwrap();
         assert!((found.guess.approach - 2f64.powf(2.0 / 3.0)).abs() < 1e-11);
         assert_eq!(found.outcome, 1e-6, "the last trial is solved to the wanted residual");
@@ -131,15 +132,17 @@ mod tests {
     #[test]
     fn it_finds_its_way_from_no_contact_and_over_a_kink() {
         let curve = |delta: f64| (delta - 1.0).max(0.0) + 20.0 * (delta - 2.5).max(0.0);
-        let found =
-            search(1e-9).run(Guess { approach: 0.1, slope: 3.0 }, |delta, _| Ok((curve(delta), ()))).unwrap();
+        let found = search(1e-9)
+            .run(Guess { approach: 0.1, slope: 3.0 }, LOOSEST, |delta, _| Ok((curve(delta), ())))
+            .unwrap();
         assert!((curve(found.guess.approach) - 2.0).abs() < 1e-8);
     }
 
     #[test]
     fn a_load_that_the_curve_jumps_over_is_not_reached() {
         let curve = |delta: f64| if delta < 1.0 { 1.0 + 0.1 * delta } else { 3.0 + delta };
-        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, |delta, _| Ok((curve(delta), ())));
+        let found =
+            search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, LOOSEST, |delta, _| Ok((curve(delta), ())));
         match found.map(|found| found.guess) {
             Err(Error::LoadNotReached { load, approach, .. }) => {
                 assert_eq!(load, 2.0);
@@ -151,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_load_that_is_never_there_is_given_up() {
-        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, |_, _| Ok((1.0, ())));
+        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, LOOSEST, |_, _| Ok((1.0, ())));
         let error = found.map(|found| found.guess).unwrap_err();
         assert!(matches!(error, Error::LoadNotReached { trials: MOST_TRIALS, .. }), "{error:?}");
     }

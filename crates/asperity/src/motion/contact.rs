@@ -44,6 +44,18 @@ impl Contact {
         Ok(Self::new(pair, position, &gap, &solution))
     }
 
+    /// A contact of which no more is known than the pressure at an approach, and what it cost.
+    pub(super) fn from_pressure(
+        pair: &Pair,
+        position: Position,
+        approach: Metre,
+        pressure: Vec<(u32, Pascal)>,
+        stats: Stats,
+    ) -> Self {
+        let load = pair.cell_area() * pressure.iter().map(|(_, p)| p).sum::<f64>();
+        Self { position, pressure, plastic: Vec::new(), load, approach, residual: f64::NAN, stats }
+    }
+
     fn new(pair: &Pair, position: Position, gap: &Field, solution: &Solution) -> Self {
         let mut pressure = Vec::new();
         let mut plastic = Vec::new();

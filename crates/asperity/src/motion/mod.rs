@@ -4,6 +4,7 @@ mod approach;
 mod contact;
 mod pair;
 mod pass;
+mod together;
 mod path;
 mod plastic;
 mod record;

@@ -3,16 +3,17 @@
 use std::time::Instant;
 
 use crate::error::{Error, Result, check};
-use crate::motion::approach::{Guess, Search};
+use crate::motion::approach::{Guess, LOOSEST, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::together::MOST_CELLS;
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
-use crate::motion::{Control, Motion, Strategy};
+use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{self, Params};
+use crate::solver::{self, Method, Params};
 use crate::units::{Metre, Newton};
 
 /// Two bodies that pass over each other.
@@ -22,6 +23,8 @@ pub struct Simulation {
     params: Params,
     positions: Vec<Position>,
     operators: Operators,
+    /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
+    together: bool,
     passes_done: usize,
     guess: Option<Guess>,
     /// Contacts of the last pass.
@@ -40,7 +43,21 @@ impl Simulation {
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
         motion.control.check_limit(limit)?;
         let operators = Operators::new(pair.pitch(), pair.modulus(), boundary);
-        Ok(Self { pair, motion, params, positions, operators, passes_done: 0, guess: None, latest: None })
+        let cells = columns.iter().sum::<usize>() * pair.lower.ncols();
+        let frozen = motion.plastic_update == PlasticUpdate::Pass || !pair.yields();
+        Ok(Self {
+            together: frozen
+                && cells <= MOST_CELLS
+                && matches!(params.method, Method::Auto | Method::ActiveSet),
+            pair,
+            motion,
+            params,
+            positions,
+            operators,
+            passes_done: 0,
+            guess: None,
+            latest: None,
+        })
     }
 
     /// The same motion with `passes` already done, the last one at `approach`; the pair is that after them.
@@ -122,6 +139,22 @@ impl Simulation {
                 return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
             }
         };
+        let mut residual = LOOSEST;
+        if self.together {
+            let accuracy = self.motion.load_tolerance;
+            let start = earlier.first();
+            match solver.solve_together(&self.pair, load, accuracy, &self.params, start) {
+                Ok(contacts) => {
+                    let slope = self.guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
+                    self.guess = Some(Guess { approach: contacts[0].approach, slope });
+                    earlier = vec![contacts];
+                    residual = self.params.tolerance;
+                }
+                // The search that follows does without.
+                Err(Error::NotConverged { .. }) => {}
+                Err(other) => return Err(other),
+            }
+        }
         let guess = match self.guess {
             Some(guess) => guess,
             None => self.first_guess(load)?,
@@ -132,7 +165,7 @@ impl Simulation {
             residual: self.params.tolerance,
             touch: self.touch(),
         };
-        let found = search.run(guess, |approach, residual| {
+        let found = search.run(guess, residual, |approach, residual| {
             let params = Params { tolerance: residual, ..self.params };
             let control = solver::Control::Approach(approach);
             let outcome = solver.solve(&self.pair, control, &params, &earlier)?;

@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::operator::Operator;
-use crate::solver::{Params, Problem, Residual, Solution, active_set};
+use crate::solver::active_set::{self, Equilibrium};
+use crate::solver::site::Site;
+use crate::solver::{Residual, Terms};
 
 /// Residual to which the coarse grids are solved: of std(u), or of what the hardness does to a cell where that is
 /// less, for φ never exceeds it.
@@ -12,64 +13,67 @@ const COARSE_TOLERANCE: f64 = 3e-2;
 const COARSE_CONVOLUTIONS: usize = 100;
 /// Coarse grids below the given one.
 const LEVELS: usize = 3;
-/// A grid with fewer cells than this along either axis is not coarsened.
-const LEAST_CELLS: usize = 32;
+/// Grids are not coarsened where none has as many cells as this along both axes.
+const LEAST_CELLS: usize = 64;
 
-/// Solves on a cascade of grids, each with twice the pitch of the one above it, from the coarsest upwards; the
-/// pressure of each is the first guess of the next.
-pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Params) -> Result<Solution> {
-    let (start, spent) = first_guess(operator, problem, params, LEVELS)?;
-    let mut solution =
-        active_set::solve(operator, problem, start, |_| params.tolerance, params.max_convolutions)?;
-    solution.stats.convolutions += spent;
-    Ok(solution)
+/// The caution from a start that is given: unlike a guess from coarse grids, which is wrong smoothly, the answer at another
+/// approach or of another geometry is wrong at single cells, and so are the sets that these predict.
+const CAUTION: f64 = 2.0;
+
+/// Solves from the `start` of each contact; where there is none, on a cascade of grids, each with twice the pitch of the
+/// one above it, from the coarsest upwards, the pressure of each the first guess of the next. `tolerance` gives the η at
+/// which a state is accepted.
+pub(super) fn solve(
+    sites: &[&dyn Site],
+    terms: &Terms,
+    start: Option<Vec<Field>>,
+    tolerance: &dyn Fn(&Residual) -> f64,
+    max_convolutions: usize,
+) -> Result<Equilibrium> {
+    if start.is_some() {
+        return active_set::solve(sites, terms, start, CAUTION, tolerance, max_convolutions);
+    }
+    let (guess, spent) = first_guess(sites, terms, tolerance, LEVELS)?;
+    let mut found = active_set::solve(sites, terms, guess, 1.0, tolerance, max_convolutions)?;
+    found.stats.convolutions += spent;
+    Ok(found)
 }
 
-/// The prolonged pressure of the next coarser grid and its cost in convolutions of this one.
+/// The prolonged pressures of the next coarser grids and their cost in convolutions of these.
 fn first_guess(
-    operator: &dyn Operator,
-    problem: &Problem,
-    params: &Params,
+    sites: &[&dyn Site],
+    terms: &Terms,
+    tolerance: &dyn Fn(&Residual) -> f64,
     levels: usize,
-) -> Result<(Option<Field>, f64)> {
-    let shape = operator.grid().shape;
-    if levels == 0 || shape.iter().any(|n| *n < 2 * LEAST_CELLS) {
+) -> Result<(Option<Vec<Field>>, f64)> {
+    let large = |site: &&dyn Site| site.grid().shape.iter().all(|n| *n >= LEAST_CELLS);
+    if levels == 0 || !sites.iter().any(large) {
         return Ok((None, 0.0));
     }
-    let mut coarse = operator.coarse();
-    let gap = restrict(problem.initial_gap);
-    let share = coarse.grid().cells() as f64 / operator.grid().cells() as f64;
-    let coarse_problem = Problem {
-        initial_gap: &gap,
-        self_influence: coarse.influence(0, 0),
-        cell_area: coarse.grid().cell_area(),
-        ..*problem
-    };
-    if problem.hardness * gap.len() as f64 <= coarse_problem.pressure_sum().unwrap_or(0.0) {
+    let kept: Vec<Box<dyn Site>> = sites.iter().map(|site| site.coarse()).collect();
+    let coarse: Vec<&dyn Site> = kept.iter().map(Box::as_ref).collect();
+    let cells = |sites: &[&dyn Site]| sites.iter().map(|site| site.grid().cells()).sum::<usize>() as f64;
+    let share = cells(&coarse) / cells(sites);
+    let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), ..*terms };
+    coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
+    if terms.hardness * cells(&coarse) <= coarse_terms.pressure_sum().unwrap_or(0.0) {
         return Ok((None, 0.0));
     }
-    let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params, levels - 1)?;
-    let saturation = coarse_problem.self_influence * problem.hardness;
+    let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance, levels - 1)?;
+    let saturation = coarse_terms.self_influence * terms.hardness;
     let loose =
-        |state: &Residual| params.tolerance.max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
-    match active_set::solve(coarse.as_mut(), &coarse_problem, start, loose, COARSE_CONVOLUTIONS) {
-        Ok(solution) => {
-            let spent = share * (spent + solution.stats.convolutions);
-            Ok((Some(prolong(&solution.pressure, shape)), spent))
+        |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
+    match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, COARSE_CONVOLUTIONS) {
+        Ok(found) => {
+            let coarse = found.fields.iter().zip(sites);
+            let prolonged = coarse.map(|((pressure, _), site)| prolong(pressure, site.grid().shape));
+            let spent = share * (spent + found.stats.convolutions);
+            Ok((Some(prolonged.collect()), spent))
         }
         // A guess that cannot be had is no guess.
         Err(Error::NotConverged { .. }) => Ok((None, share * (spent + COARSE_CONVOLUTIONS as f64))),
         Err(other) => Err(other),
     }
-}
-
-/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
-fn restrict(fine: &Field) -> Field {
-    let (nx, ny) = fine.dim();
-    Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
-        let block = fine.slice(ndarray::s![2 * i..nx.min(2 * i + 2), 2 * j..ny.min(2 * j + 2)]);
-        block.sum() / block.len() as f64
-    })
 }
 
 /// Each coarse value on the cells that it covers.

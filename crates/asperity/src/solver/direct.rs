@@ -6,7 +6,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
-use crate::solver::{Control, Params, Problem, Solution, Stats};
+use crate::solver::{Control, Params, Problem, Solution, Stats, Terms};
 use crate::units::Metre;
 
 /// Cells between the bounds above which the dense matrix would be out of proportion (3 GB).
@@ -22,13 +22,13 @@ pub(super) fn solve(
     params: &Params,
 ) -> Result<Solution> {
     let mut pivoting = Pivoting::new(operator, problem);
-    let mut bounds = start.map(|p| p.mapv(|p| Bound::of(p, problem.hardness)));
-    let (answer, approach) = match problem.control {
+    let mut bounds = start.map(|p| p.mapv(|p| Bound::of(p, problem.terms.hardness)));
+    let (answer, approach) = match problem.terms.control {
         Control::Approach(approach) => {
             let first = bounds.take().unwrap_or_else(|| pivoting.first_guess(approach));
             (pivoting.solve(approach, first)?, approach)
         }
-        Control::Load(load) => pivoting.solve_load(load / problem.cell_area, bounds)?,
+        Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, bounds)?,
     };
     let stats = Stats {
         iterations: pivoting.factorisations,
@@ -52,7 +52,8 @@ pub(super) fn solve(
 impl Problem<'_> {
     /// η at a known approach, also under load control.
     fn residual_at(&self, pressure: &Field, displacement: &Field, approach: Metre) -> f64 {
-        let problem = Problem { control: Control::Approach(approach), ..*self };
+        let terms = Terms { control: Control::Approach(approach), ..self.terms };
+        let problem = Problem { terms, ..*self };
         problem.residual(pressure, displacement).eta
     }
 }
@@ -98,9 +99,9 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     fn new(operator: &'a mut dyn Operator, problem: &'a Problem<'b>) -> Self {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
-        let load_controlled = matches!(problem.control, Control::Load(_));
+        let load_controlled = matches!(problem.terms.control, Control::Load(_));
         let stiffening = if operator.periodic() && load_controlled {
-            problem.self_influence / (operator.grid().cells() as f64).sqrt()
+            problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
         } else {
             0.0
         };
@@ -113,7 +114,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
 
     fn solve(&mut self, approach: Metre, mut bounds: ndarray::Array2<Bound>) -> Result<Answer> {
         const MOST_BLOCK_STEPS_WITHOUT_PROGRESS: usize = 10;
-        let hardness = self.problem.hardness;
+        let hardness = self.problem.terms.hardness;
         let scale = self.problem.initial_gap.iter().fold(0.0f64, |m, h| m.max((approach - h).abs()));
         let (mut best, mut stalled) = (usize::MAX, 0);
         let mut displacement = Field::zeros(bounds.raw_dim());
@@ -163,7 +164,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
 
     /// The pressure that closes the gap at the free cells while the others stay at their bounds.
     fn between_bounds(&mut self, approach: Metre, bounds: &ndarray::Array2<Bound>) -> Result<(Field, f64)> {
-        let hardness = self.problem.hardness;
+        let hardness = self.problem.terms.hardness;
         let mut pressure = bounds.mapv(|b| if b == Bound::Hardness { hardness } else { 0.0 });
         let cells_at = |wanted| -> Vec<(usize, usize)> {
             bounds.indexed_iter().filter(|(_, b)| **b == wanted).map(|(index, _)| index).collect()
@@ -208,7 +209,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         // A cell that bears the whole load alone is an upper start; the slope then leads back.
         let mut approach = lowest
-            + self.problem.self_influence * (wanted / 4.0).min(self.problem.hardness)
+            + self.problem.terms.self_influence * (wanted / 4.0).min(self.problem.terms.hardness)
             + self.stiffening * wanted;
         let (mut low, mut high) = (lowest, f64::INFINITY);
         for _ in 0..MAX_TRIALS {
@@ -230,7 +231,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             } else if high.is_finite() {
                 0.5 * (low + high)
             } else {
-                approach + (approach - lowest).max(self.problem.self_influence * wanted)
+                approach + (approach - lowest).max(self.problem.terms.self_influence * wanted)
             };
             bounds = Some(answer.bounds);
         }

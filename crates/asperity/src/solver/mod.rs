@@ -9,9 +9,15 @@ mod polonsky_keer;
 mod preconditioner;
 mod residual;
 mod sets;
+mod site;
 mod sparse_inverse;
+mod together;
 
 pub use residual::{Residual, residual};
+pub(crate) use site::{Kept, Site, coarse_gap};
+pub(crate) use together::solve_together;
+
+use std::borrow::Cow;
 
 use crate::error::{Error, Result, check};
 use crate::grid::Field;
@@ -140,6 +146,12 @@ impl Solution {
 #[derive(Clone, Copy)]
 struct Problem<'a> {
     initial_gap: &'a Field,
+    terms: Terms,
+}
+
+/// What is asked of a contact, or of several together.
+#[derive(Clone, Copy)]
+struct Terms {
     hardness: Pascal,
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
@@ -147,7 +159,7 @@ struct Problem<'a> {
     cell_area: SquareMetre,
 }
 
-impl Problem<'_> {
+impl Terms {
     /// Σ p under load control.
     fn pressure_sum(&self) -> Option<f64> {
         match self.control {
@@ -196,13 +208,9 @@ pub fn solve_normal(
     assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
     assert!(start.is_none_or(|p| p.dim() == shape), "shape of the start");
     validate(operator, initial_gap, hardness, control, params)?;
-    let problem = Problem {
-        initial_gap,
-        hardness,
-        control,
-        self_influence: self_influence(operator),
-        cell_area: grid.cell_area(),
-    };
+    let self_influence = self_influence(operator);
+    let terms = Terms { hardness, control, self_influence, cell_area: grid.cell_area() };
+    let problem = Problem { initial_gap, terms };
     if let Some(solution) = no_contact(&problem) {
         return Ok(solution);
     }
@@ -210,18 +218,17 @@ pub fn solve_normal(
         Method::Direct => direct::solve(operator, &problem, start, params),
         Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
         Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
-        Method::Auto | Method::ActiveSet => match start {
-            Some(_) => active_set::solve(
-                operator,
-                &problem,
-                start.cloned(),
-                |_| params.tolerance,
-                params.max_convolutions,
-            ),
-            None => cascade::solve(operator, &problem, params),
-        },
+        Method::Auto | Method::ActiveSet => {
+            let site = Kept::new(operator, Cow::Borrowed(initial_gap));
+            let start = start.map(|pressure| vec![pressure.clone()]);
+            let found =
+                cascade::solve(&[&site], &terms, start, &|_| params.tolerance, params.max_convolutions)?;
+            let (pressure, displacement) = found.fields.into_iter().next().expect("one contact");
+            let Residual { eta, approach, .. } = found.residual;
+            Ok(Solution { pressure, displacement, approach, residual: eta, stats: found.stats })
+        }
     }?;
-    problem.check_load(&solution)?;
+    terms.check_load(&solution)?;
     Ok(solution)
 }
 
@@ -271,7 +278,7 @@ fn validate(
 
 /// The answer where the bodies do not reach each other.
 fn no_contact(problem: &Problem) -> Option<Solution> {
-    let Control::Approach(approach) = problem.control else { return None };
+    let Control::Approach(approach) = problem.terms.control else { return None };
     problem.initial_gap.iter().all(|h| *h >= approach).then(|| Solution {
         pressure: Field::zeros(problem.initial_gap.raw_dim()),
         displacement: Field::zeros(problem.initial_gap.raw_dim()),

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
+use crate::solver::bounds::make_feasible;
 use crate::solver::{Control, Params, Problem, Solution, Stats};
 
 /// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at the hardness
@@ -13,16 +14,17 @@ pub(super) fn solve(
     start: Option<&Field>,
     params: &Params,
 ) -> Result<Solution> {
-    let Problem { initial_gap, hardness, .. } = *problem;
-    let mut pressure = match (start, problem.pressure_sum(), problem.control) {
+    let Problem { initial_gap, terms } = *problem;
+    let hardness = terms.hardness;
+    let mut pressure = match (start, terms.pressure_sum(), terms.control) {
         (Some(start), ..) => start.clone(),
         (None, Some(sum), _) => Field::from_elem(initial_gap.raw_dim(), sum / initial_gap.len() as f64),
         (None, None, Control::Approach(delta)) => {
-            initial_gap.mapv(|h| (delta - h) / problem.self_influence * 0.3)
+            initial_gap.mapv(|h| (delta - h) / terms.self_influence * 0.3)
         }
         (None, None, Control::Load(_)) => unreachable!("a load has a pressure sum"),
     };
-    problem.make_feasible(&mut pressure);
+    make_feasible(&mut pressure, &terms);
     let mut displacement = Field::zeros(pressure.raw_dim());
     let mut direction = Field::zeros(pressure.raw_dim());
     let mut response = Field::zeros(pressure.raw_dim());
@@ -53,13 +55,13 @@ pub(super) fn solve(
         if free == 0 {
             // Every cell at a bound and not in equilibrium: one step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
-                *p += 0.5 * (state.approach - h - u) / problem.self_influence;
+                *p += 0.5 * (state.approach - h - u) / terms.self_influence;
             });
-            problem.make_feasible(&mut pressure);
+            make_feasible(&mut pressure, &terms);
             continue;
         }
         let mut gap = initial_gap + &displacement;
-        let datum = match problem.control {
+        let datum = match terms.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => mean_where(&gap, &pressure, between),
         };
@@ -72,13 +74,13 @@ pub(super) fn solve(
         });
         operator.apply(&direction, &mut response);
         stats.convolutions += 1.0;
-        if let Control::Load(_) = problem.control {
+        if let Control::Load(_) = terms.control {
             response -= mean_where(&response, &pressure, between);
         }
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
         // A single free cell under load cannot move, but the cells at the bounds can.
-        let step = if curvature > 0.0 { slope / curvature } else { 1.0 / problem.self_influence };
+        let step = if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
         let mut reentered = false;
         ndarray::Zip::from(&mut pressure).and(&direction).and(&gap).for_each(|p, t, g| {
             *p = (*p - step * t).clamp(0.0, hardness);
@@ -87,7 +89,7 @@ pub(super) fn solve(
                 reentered = true;
             }
         });
-        problem.make_feasible(&mut pressure);
+        make_feasible(&mut pressure, &terms);
         if reentered {
             squared_before = f64::INFINITY;
         }

@@ -1,7 +1,7 @@
 //! The measure by which every answer is judged.
 
 use crate::grid::Field;
-use crate::solver::Problem;
+use crate::solver::{Control, Problem, Terms};
 use crate::units::{Metre, Pascal};
 
 /// How far a pressure is from equilibrium.
@@ -32,48 +32,119 @@ pub fn residual(
     self_influence: f64,
     approach: Option<Metre>,
 ) -> Residual {
-    let approach = approach.unwrap_or_else(|| multiplier(pressure, displacement, initial_gap, hardness));
-    let mut largest = 0.0f64;
-    let mut max_pressure = 0.0f64;
-    let mean = displacement.sum() / displacement.len() as f64;
-    let mut squares = 0.0;
-    ndarray::Zip::from(pressure).and(displacement).and(initial_gap).for_each(|p, u, h| {
-        let w = approach - h - u;
-        let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, hardness));
-        largest = largest.max(phi.abs());
-        max_pressure = max_pressure.max(p.abs());
-        squares += (u - mean) * (u - mean);
-    });
-    let deviation = (squares / displacement.len() as f64).sqrt();
-    let local = self_influence * max_pressure;
-    let scale = if deviation <= 1e-12 * local { local } else { deviation };
-    // What is not a number is no answer, though a maximum would pass over it.
-    let eta = if largest == 0.0 && !deviation.is_nan() { 0.0 } else { largest / scale };
-    Residual { eta, approach, scale }
+    let cells = || pressure.iter().zip(displacement).zip(initial_gap).map(|((p, u), h)| (*p, *u, h + u));
+    let approach = approach
+        .unwrap_or_else(|| Multiplier::of(cells().map(|(p, _, touch)| (p, touch)), hardness).approach());
+    Tally::of(cells(), approach, hardness, self_influence).residual(approach, self_influence)
 }
 
 impl Problem<'_> {
-    /// The [`residual`] of this problem.
+    /// The [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
-        let approach = match self.control {
-            super::Control::Approach(approach) => Some(approach),
-            super::Control::Load(_) => None,
+        let Terms { hardness, self_influence, control, .. } = self.terms;
+        let approach = match control {
+            Control::Approach(approach) => Some(approach),
+            Control::Load(_) => None,
         };
-        residual(pressure, displacement, self.initial_gap, self.hardness, self.self_influence, approach)
+        residual(pressure, displacement, self.initial_gap, hardness, self_influence, approach)
     }
 }
 
-/// The approach that belongs to a pressure under load control.
-fn multiplier(pressure: &Field, displacement: &Field, initial_gap: &Field, hardness: Pascal) -> Metre {
-    let (mut weight, mut moment, mut deepest) = (0.0, 0.0, f64::NEG_INFINITY);
-    ndarray::Zip::from(pressure).and(displacement).and(initial_gap).for_each(|&p, u, h| {
-        if 0.0 < p && p < hardness {
-            weight += p;
-            moment += p * (h + u);
-        } else if p >= hardness {
-            deepest = deepest.max(h + u);
+/// The approach that belongs to a pressure under load control, from the approaches h + u at which the cells touch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Multiplier {
+    weight: f64,
+    moment: f64,
+    deepest: Metre,
+}
+
+impl Multiplier {
+    /// Of the cells' pressures and h + u.
+    pub(super) fn of(cells: impl Iterator<Item = (Pascal, Metre)>, hardness: Pascal) -> Self {
+        let mut this = Self { weight: 0.0, moment: 0.0, deepest: f64::NEG_INFINITY };
+        for (p, touch) in cells {
+            if 0.0 < p && p < hardness {
+                this.weight += p;
+                this.moment += p * touch;
+            } else if p >= hardness {
+                this.deepest = this.deepest.max(touch);
+            }
         }
-    });
-    // All cells at a bound: any approach between the capped and the open cells is in equilibrium; the least.
-    if weight > 0.0 { moment / weight } else { deepest }
+        this
+    }
+
+    /// Of the cells of both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            weight: self.weight + other.weight,
+            moment: self.moment + other.moment,
+            deepest: self.deepest.max(other.deepest),
+        }
+    }
+
+    /// All cells at a bound: any approach between the capped and the open cells is in equilibrium; the least.
+    pub(super) fn approach(&self) -> Metre {
+        if self.weight > 0.0 { self.moment / self.weight } else { self.deepest }
+    }
+}
+
+/// What φ and the displacement of some cells come to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tally {
+    /// Largest |φ|.
+    largest: Metre,
+    max_pressure: Pascal,
+    cells: f64,
+    /// Mean displacement, and the sum of the squares of its deviations.
+    mean: Metre,
+    squares: f64,
+}
+
+impl Tally {
+    /// Of the cells' p, u and h + u at an approach.
+    pub(super) fn of(
+        cells: impl Iterator<Item = (Pascal, Metre, Metre)>,
+        approach: Metre,
+        hardness: Pascal,
+        self_influence: f64,
+    ) -> Self {
+        let mut this = Self { largest: 0.0, max_pressure: 0.0, cells: 0.0, mean: 0.0, squares: 0.0 };
+        // Deviations from some displacement rather than from zero: nothing cancels.
+        let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
+        for (p, u, touch) in cells {
+            let w = approach - touch;
+            let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, hardness));
+            this.largest = this.largest.max(phi.abs());
+            this.max_pressure = this.max_pressure.max(p.abs());
+            this.cells += 1.0;
+            let deviation = u - *datum.get_or_insert(u);
+            sum += deviation;
+            squares += deviation * deviation;
+        }
+        let mean = sum / this.cells;
+        Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
+    }
+
+    /// Of the cells of both.
+    pub(super) fn and(self, other: Self) -> Self {
+        let cells = self.cells + other.cells;
+        let apart = other.mean - self.mean;
+        Self {
+            largest: self.largest.max(other.largest),
+            max_pressure: self.max_pressure.max(other.max_pressure),
+            cells,
+            mean: self.mean + apart * other.cells / cells,
+            squares: self.squares + other.squares + apart * apart * self.cells * other.cells / cells,
+        }
+    }
+
+    /// Their residual at that approach.
+    pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
+        let deviation = (self.squares.max(0.0) / self.cells).sqrt();
+        let local = self_influence * self.max_pressure;
+        let scale = if deviation <= 1e-12 * local { local } else { deviation };
+        // What is not a number is no answer, though a maximum would pass over it.
+        let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
+        Residual { eta, approach, scale }
+    }
 }

@@ -1,0 +1,84 @@
+//! All positions of a pass together, as one problem: the approach is the multiplier of their mean load.
+
+use std::borrow::Cow;
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::Solver;
+use crate::motion::path::Position;
+use crate::operator::{Operator, Operators};
+use crate::solver::{Kept, Params, Residual, Site, coarse_gap, solve_together};
+use crate::units::Newton;
+
+/// Cells of all positions, above which they would take too much room together: 2 GB.
+pub(super) const MOST_CELLS: usize = 100_000_000;
+
+/// Residual η at which the approach is known well enough, at the most: the positions are solved on one by one, where each
+/// needs but the iterations of its own.
+const LOOSEST: f64 = 3e-2;
+/// The load at the approach that is found with a residual is off by less than the residual over this (measured: a tenth
+/// of it).
+const LOAD_PER_RESIDUAL: f64 = 300.0;
+
+impl Solver<'_> {
+    /// Solves all positions under the one approach at which their mean load is `load`, so well that it is met to the
+    /// relative `accuracy`, from the pressures of `earlier` contacts at the same positions, if there are any.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    pub(super) fn solve_together(
+        &self,
+        pair: &Pair,
+        load: Newton,
+        accuracy: f64,
+        params: &Params,
+        earlier: Option<&Vec<Contact>>,
+    ) -> Result<Vec<Contact>> {
+        let facing = |position: &Position| Facing { pair, operators: self.operators, position: *position };
+        let facing: Vec<Facing> = self.positions.iter().map(facing).collect();
+        let sites: Vec<&dyn Site> = facing.iter().map(|site| site as &dyn Site).collect();
+        let width = pair.lower.ncols();
+        let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
+        let total = load * self.positions.len() as f64;
+        let residual = (LOAD_PER_RESIDUAL * accuracy).min(LOOSEST).max(params.tolerance);
+        // Whoever wants to stop takes anything.
+        let tolerance = |_: &Residual| if self.watch.stop() { f64::INFINITY } else { residual };
+        let found =
+            solve_together(&sites, pair.hardness(), total, start, &tolerance, params.max_convolutions)?;
+        if self.watch.stop() {
+            return Err(Error::Interrupted);
+        }
+        let contact = |(position, pressure): (&Position, _)| {
+            Contact::from_pressure(pair, *position, found.approach, pressure, found.stats)
+        };
+        Ok(self.positions.iter().zip(found.pressures).map(contact).collect())
+    }
+}
+
+/// The contact at one position.
+struct Facing<'a> {
+    pair: &'a Pair,
+    operators: &'a Operators,
+    position: Position,
+}
+
+impl Site for Facing<'_> {
+    fn grid(&self) -> Grid {
+        self.pair.grid(self.position.columns)
+    }
+
+    fn initial_gap(&self) -> Cow<'_, Field> {
+        Cow::Owned(self.pair.initial_gap(&self.position))
+    }
+
+    fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {
+        task(self.operators.on(self.grid().shape).as_mut());
+    }
+
+    fn coarse(&self) -> Box<dyn Site> {
+        let operator = self.operators.on(self.grid().shape).coarse();
+        Box::new(Kept::new(operator, Cow::Owned(coarse_gap(&self.initial_gap()))))
+    }
+}

@@ -1,0 +1,67 @@
+//! Where contacts take place.
+
+use std::borrow::Cow;
+use std::ops::DerefMut;
+use std::sync::Mutex;
+
+use crate::grid::{Field, Grid};
+use crate::operator::Operator;
+
+/// Where one of the contacts that share an approach takes place.
+///
+/// Its operator and its initial gap are asked for when they are needed and need not be kept between, so that many
+/// contacts at once take little room.
+pub(crate) trait Site: Sync {
+    /// The grid of the contact.
+    fn grid(&self) -> Grid;
+
+    /// Undeformed gap h.
+    fn initial_gap(&self) -> Cow<'_, Field>;
+
+    /// Lends the operator of the grid to a task.
+    fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator));
+
+    /// The same contact on a grid of about half as many cells along each axis.
+    fn coarse(&self) -> Box<dyn Site>;
+}
+
+/// A site that keeps its operator.
+pub(crate) struct Kept<'a, P> {
+    grid: Grid,
+    gap: Cow<'a, Field>,
+    operator: Mutex<P>,
+}
+
+impl<'a, 'o, P: DerefMut<Target = dyn Operator + 'o>> Kept<'a, P> {
+    pub(crate) fn new(operator: P, gap: Cow<'a, Field>) -> Self {
+        Self { grid: *operator.grid(), gap, operator: Mutex::new(operator) }
+    }
+}
+
+impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for Kept<'_, P> {
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    fn initial_gap(&self) -> Cow<'_, Field> {
+        Cow::Borrowed(&self.gap)
+    }
+
+    fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {
+        task(&mut **self.operator.lock().expect("no holder panics"));
+    }
+
+    fn coarse(&self) -> Box<dyn Site> {
+        let operator = self.operator.lock().expect("no holder panics").coarse();
+        Box::new(Kept::new(operator, Cow::Owned(coarse_gap(&self.gap))))
+    }
+}
+
+/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
+pub(crate) fn coarse_gap(fine: &Field) -> Field {
+    let (nx, ny) = fine.dim();
+    Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
+        let block = fine.slice(ndarray::s![2 * i..nx.min(2 * i + 2), 2 * j..ny.min(2 * j + 2)]);
+        block.sum() / block.len() as f64
+    })
+}

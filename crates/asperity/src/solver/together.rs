@@ -1,0 +1,52 @@
+//! Several contacts under one approach, which bear a load together.
+
+use crate::error::Result;
+use crate::grid::Field;
+use crate::solver::site::Site;
+use crate::solver::{Control, Residual, Stats, Terms, cascade};
+use crate::units::{Metre, Newton, Pascal};
+
+/// Contacts in equilibrium under one approach.
+pub(crate) struct Together {
+    /// The approach δ.
+    pub(crate) approach: Metre,
+    /// Of each contact the flat cells with p > 0, and their pressure.
+    pub(crate) pressures: Vec<Vec<(u32, Pascal)>>,
+    /// What each contact cost, in the mean.
+    pub(crate) stats: Stats,
+}
+
+/// Solves contacts of one pitch and modulus whose loads add up to `load`, δ being the multiplier of that sum: one
+/// box-constrained problem, of a block-diagonal influence matrix. `start` gives a pressure near the answer for each, if
+/// one is known; `tolerance` the η at which a state is accepted.
+///
+/// Kept of each contact are its pressure, h + u and a response, about 20 bytes for each of its cells. The residual is that
+/// of all cells together; a contact of its own scale may ask for more.
+///
+/// # Errors
+/// [`crate::Error::NotConverged`].
+pub(crate) fn solve_together(
+    sites: &[&dyn Site],
+    hardness: Pascal,
+    load: Newton,
+    start: Option<Vec<Field>>,
+    tolerance: &dyn Fn(&Residual) -> f64,
+    max_convolutions: usize,
+) -> Result<Together> {
+    let mut terms = Terms {
+        hardness,
+        control: Control::Load(load),
+        self_influence: 0.0,
+        cell_area: sites[0].grid().cell_area(),
+    };
+    sites[0].with_operator(&mut |operator| terms.self_influence = super::self_influence(operator));
+    let found = cascade::solve(sites, &terms, start, tolerance, max_convolutions)?;
+    let pressures = found.fields.into_iter().map(|(pressure, _)| bearing(&pressure)).collect();
+    Ok(Together { approach: found.residual.approach, pressures, stats: found.stats })
+}
+
+/// The flat cells that bear, and their pressure.
+fn bearing(pressure: &Field) -> Vec<(u32, Pascal)> {
+    let cells = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0);
+    cells.map(|(cell, p)| (cell as u32, *p)).collect()
+}
