@@ -84,7 +84,7 @@ struct Iteration<'a, 'b> {
     /// What is left of the equations of the free cells, and a step to meet them; zero elsewhere.
     equations: SingleField,
     step: SingleField,
-    /// Influence coefficients up to [`FORESIGHT`] cells away.
+    /// Influence coefficients up to [`FORESIGHT`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
     leave: f64,
     /// Running mean of the step length: the damping of the folded step.
@@ -110,7 +110,7 @@ impl<'a, 'b> Iteration<'a, 'b> {
         };
         problem.make_feasible(&mut pressure);
         let shape = operator.grid().shape;
-        let reach = shape.map(|n| FORESIGHT.min((n - 1) / 2) + 1);
+        let reach = shape.map(|n| FORESIGHT.min((n - 1) / 2));
         let mut iteration = Self {
             preconditioner: Preconditioner::new(operator),
             problem,
@@ -122,7 +122,9 @@ impl<'a, 'b> Iteration<'a, 'b> {
             response: SingleField::zeros(shape),
             equations: SingleField::zeros(shape),
             step: SingleField::zeros(shape),
-            near: SingleField::from_shape_fn(reach, |(i, j)| operator.influence(i, j) as f32),
+            near: SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
+                operator.influence(i, j.abs_diff(reach[1])) as f32
+            }),
             operator,
             leave: LEAVE,
             damping: 0.8,
@@ -334,14 +336,18 @@ impl<'a, 'b> Iteration<'a, 'b> {
 
     /// Response to the direction within [`FORESIGHT`] cells of where it is not zero, without a convolution.
     fn foresee(&mut self) {
-        let shape = self.operator.grid().shape;
-        let reach = [self.near.nrows() - 1, self.near.ncols() - 1];
+        let [nx, ny] = self.operator.grid().shape;
+        let reach = [self.near.nrows() - 1, self.near.ncols() / 2];
         self.response.fill(0.0);
-        for ((ix, iy), &pressure) in self.direction.indexed_iter().filter(|(_, d)| **d != 0.0) {
-            for i in ix.saturating_sub(reach[0])..shape[0].min(ix + reach[0] + 1) {
-                for j in iy.saturating_sub(reach[1])..shape[1].min(iy + reach[1] + 1) {
-                    self.response[[i, j]] += self.near[[i.abs_diff(ix), j.abs_diff(iy)]] * pressure;
-                }
+        let response = flat_mut(&mut self.response);
+        for (cell, &pressure) in flat(&self.direction).iter().enumerate().filter(|(_, d)| **d != 0.0) {
+            let (ix, iy) = (cell / ny, cell % ny);
+            let (first, last) = (iy.saturating_sub(reach[1]), ny.min(iy + reach[1] + 1));
+            for i in ix.saturating_sub(reach[0])..nx.min(ix + reach[0] + 1) {
+                let near = self.near.row(i.abs_diff(ix)).to_slice().expect("rows are contiguous");
+                let near = &near[first + reach[1] - iy..];
+                let row = &mut response[i * ny..][first..last];
+                row.iter_mut().zip(near).for_each(|(u, influence)| *u += influence * pressure);
             }
         }
     }

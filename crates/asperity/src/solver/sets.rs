@@ -26,27 +26,26 @@ impl Sets {
         Self {
             of: vec![Set::Zero; shape[0] * shape[1]],
             columns: shape[1],
-            free: Vec::new(),
+            free: Vec::with_capacity(shape[0] * shape[1]),
             before: vec![0; shape[0] + 1],
         }
     }
 
     /// A cell is at the bound that its pressure in `pressures` is at or beyond.
     pub(super) fn assign(&mut self, pressures: impl Iterator<Item = f64>, hardness: f64) {
-        for (set, p) in self.of.iter_mut().zip(pressures) {
+        self.free.clear();
+        for (cell, (set, p)) in self.of.iter_mut().zip(pressures).enumerate() {
+            if cell.is_multiple_of(self.columns) {
+                self.before[cell / self.columns] = self.free.len() as u32;
+            }
             *set = match p {
                 p if p <= 0.0 => Set::Zero,
                 p if p >= hardness => Set::Hardness,
                 _ => Set::Free,
             };
-        }
-        self.free.clear();
-        self.free.reserve_exact(self.of.iter().filter(|set| **set == Set::Free).count());
-        for (row, (sets, before)) in self.of.chunks_exact(self.columns).zip(&mut self.before).enumerate() {
-            *before = self.free.len() as u32;
-            let first = row * self.columns;
-            let free = sets.iter().enumerate().filter(|(_, set)| **set == Set::Free);
-            self.free.extend(free.map(|(column, _)| (first + column) as u32));
+            if *set == Set::Free {
+                self.free.push(cell as u32);
+            }
         }
         *self.before.last_mut().expect("one more than rows") = self.free.len() as u32;
     }

@@ -49,13 +49,12 @@ impl SparseInverse {
             members.iter().zip(solved).for_each(|(&k, y)| row[k] = (y * scale) as f32);
             row
         });
-        Self { shape, rows, patterns: Vec::new() }
+        Self { shape, rows, patterns: Vec::with_capacity(shape[0] * shape[1]) }
     }
 
     pub(super) fn adapt(&mut self, sets: &Sets) {
         let [nx, ny] = self.shape.map(|n| n as isize);
         self.patterns.clear();
-        self.patterns.reserve_exact(sets.free().len());
         self.patterns.extend(sets.free().map(|cell| {
             let (ix, iy) = (cell as isize / ny, cell as isize % ny);
             let free = |(di, dj): (isize, isize)| {
