@@ -7,18 +7,16 @@ use crate::solver::{Params, Problem, Residual, Solution, active_set};
 
 /// Residual to which the coarse grids are solved: of std(u), or of what the hardness does to a cell where that is
 /// less, for φ never exceeds it.
-const COARSE_TOLERANCE: f64 = 3e-2;
+const COARSE_TOLERANCE: f64 = 1e-2;
 /// Convolutions after which a coarse grid is given up.
 const COARSE_CONVOLUTIONS: usize = 100;
-/// Coarse grids below the given one.
-const LEVELS: usize = 3;
 /// A grid with fewer cells than this along either axis is not coarsened.
 const LEAST_CELLS: usize = 32;
 
 /// Solves on a cascade of grids, each with twice the pitch of the one above it, from the coarsest upwards; the
 /// pressure of each is the first guess of the next.
 pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Params) -> Result<Solution> {
-    let (start, spent) = first_guess(operator, problem, params, LEVELS)?;
+    let (start, spent) = first_guess(operator, problem, params)?;
     let mut solution =
         active_set::solve(operator, problem, start, |_| params.tolerance, params.max_convolutions)?;
     solution.stats.convolutions += spent;
@@ -26,14 +24,9 @@ pub(super) fn solve(operator: &mut dyn Operator, problem: &Problem, params: &Par
 }
 
 /// The prolonged pressure of the next coarser grid and its cost in convolutions of this one.
-fn first_guess(
-    operator: &dyn Operator,
-    problem: &Problem,
-    params: &Params,
-    levels: usize,
-) -> Result<(Option<Field>, f64)> {
+fn first_guess(operator: &dyn Operator, problem: &Problem, params: &Params) -> Result<(Option<Field>, f64)> {
     let shape = operator.grid().shape;
-    if levels == 0 || shape.iter().any(|n| *n < 2 * LEAST_CELLS) {
+    if shape.iter().any(|n| *n < 2 * LEAST_CELLS) {
         return Ok((None, 0.0));
     }
     let mut coarse = operator.coarse();
@@ -48,7 +41,7 @@ fn first_guess(
     if problem.hardness * gap.len() as f64 <= coarse_problem.pressure_sum().unwrap_or(0.0) {
         return Ok((None, 0.0));
     }
-    let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params, levels - 1)?;
+    let (start, spent) = first_guess(coarse.as_ref(), &coarse_problem, params)?;
     let saturation = coarse_problem.self_influence * problem.hardness;
     let loose =
         |state: &Residual| params.tolerance.max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
