@@ -8,11 +8,9 @@ use crate::solver::{Residual, Terms};
 
 /// Residual to which the coarse grids are solved: of std(u), or of what the hardness does to a cell where that is
 /// less, for φ never exceeds it.
-const COARSE_TOLERANCE: f64 = 3e-2;
+const COARSE_TOLERANCE: f64 = 1e-2;
 /// Convolutions after which a coarse grid is given up.
 const COARSE_CONVOLUTIONS: usize = 100;
-/// Coarse grids below the given one.
-const LEVELS: usize = 3;
 /// Grids are not coarsened where none has as many cells as this along both axes.
 const LEAST_CELLS: usize = 64;
 
@@ -33,7 +31,7 @@ pub(super) fn solve(
     if start.is_some() {
         return active_set::solve(sites, terms, start, CAUTION, tolerance, max_convolutions);
     }
-    let (guess, spent) = first_guess(sites, terms, tolerance, LEVELS)?;
+    let (guess, spent) = first_guess(sites, terms, tolerance)?;
     let mut found = active_set::solve(sites, terms, guess, 1.0, tolerance, max_convolutions)?;
     found.stats.convolutions += spent;
     Ok(found)
@@ -44,10 +42,9 @@ fn first_guess(
     sites: &[&dyn Site],
     terms: &Terms,
     tolerance: &dyn Fn(&Residual) -> f64,
-    levels: usize,
 ) -> Result<(Option<Vec<Field>>, f64)> {
     let large = |site: &&dyn Site| site.grid().shape.iter().all(|n| *n >= LEAST_CELLS);
-    if levels == 0 || !sites.iter().any(large) {
+    if !sites.iter().any(large) {
         return Ok((None, 0.0));
     }
     let kept: Vec<Box<dyn Site>> = sites.iter().map(|site| site.coarse()).collect();
@@ -59,7 +56,7 @@ fn first_guess(
     if terms.hardness * cells(&coarse) <= coarse_terms.pressure_sum().unwrap_or(0.0) {
         return Ok((None, 0.0));
     }
-    let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance, levels - 1)?;
+    let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance)?;
     let saturation = coarse_terms.self_influence * terms.hardness;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));

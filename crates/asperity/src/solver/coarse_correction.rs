@@ -141,13 +141,21 @@ impl Bilinear {
         let (rows, columns) = nodes.dim();
         for (row, first, free) in sets.rows() {
             line.fill(0.0);
+            let (mut last, mut sums) = (0, [0.0; 2]);
             for &cell in free {
                 let cell = cell as usize;
                 let (node, share) = along[1][cell - first];
+                if node != last {
+                    line[last] += sums[0];
+                    line[last + 1] += sums[1];
+                    (last, sums) = (node, [0.0; 2]);
+                }
                 let second = share * value(cell);
-                line[node] += value(cell) - second;
-                line[node + 1] += second;
+                sums[0] += value(cell) - second;
+                sums[1] += second;
             }
+            line[last] += sums[0];
+            line[last + 1] += sums[1];
             line[0] += line[columns];
             let (node, share) = along[0][row];
             nodes.row_mut(node).iter_mut().zip(&*line).for_each(|(n, v)| *n += (1.0 - share) * v);

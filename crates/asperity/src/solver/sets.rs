@@ -32,19 +32,21 @@ impl Sets {
     }
 
     /// A cell is at the bound that its pressure in `pressures` is at or beyond.
-    pub(super) fn assign(&mut self, pressures: impl Iterator<Item = f64>, hardness: f64) {
+    pub(super) fn assign(&mut self, mut pressures: impl Iterator<Item = f64>, hardness: f64) {
         self.free.clear();
-        for (cell, (set, p)) in self.of.iter_mut().zip(pressures).enumerate() {
-            if cell.is_multiple_of(self.columns) {
-                self.before[cell / self.columns] = self.free.len() as u32;
-            }
-            *set = match p {
-                p if p <= 0.0 => Set::Zero,
-                p if p >= hardness => Set::Hardness,
-                _ => Set::Free,
-            };
-            if *set == Set::Free {
-                self.free.push(cell as u32);
+        let rows = self.of.chunks_exact_mut(self.columns).zip(&mut self.before);
+        for (row, (sets, before)) in rows.enumerate() {
+            *before = self.free.len() as u32;
+            let first = row * self.columns;
+            for (column, (set, p)) in sets.iter_mut().zip(pressures.by_ref()).enumerate() {
+                *set = match p {
+                    p if p <= 0.0 => Set::Zero,
+                    p if p >= hardness => Set::Hardness,
+                    _ => Set::Free,
+                };
+                if *set == Set::Free {
+                    self.free.push((first + column) as u32);
+                }
             }
         }
         *self.before.last_mut().expect("one more than rows") = self.free.len() as u32;
