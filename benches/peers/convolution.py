@@ -11,8 +11,11 @@ import time
 
 import numpy as np
 import pyfftw
+
 from contact_residual import free_kernel
 from programs import ENVIRONMENT, TARGET
+
+OURS = "asperity, convolution"
 
 
 class Fftw:
@@ -57,6 +60,23 @@ def seconds(function, repeat, before=lambda: None):
     return statistics.median(times)
 
 
+def taken_in_turns(side, arguments):
+    """Seconds of each in every round."""
+    fftw = Fftw(side, arguments.effort)
+    command = [TARGET / "release" / "examples" / "free_convolution", str(side), str(arguments.repeat)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "bufsize": 1}
+    rounds = []
+    with subprocess.Popen(command, env=ENVIRONMENT, **pipes) as ours:
+        for _ in range(arguments.rounds):
+            ours.stdin.write("\n")
+            turn = {OURS: float(ours.stdout.readline())}
+            turn["FFTW, pair"] = seconds(fftw.pair, arguments.repeat, fftw.fill)
+            turn["FFTW, convolution"] = seconds(fftw.convolution, arguments.repeat)
+            rounds.append(turn)
+        ours.stdin.close()
+    return rounds
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--side", type=int, nargs="+", default=[256, 512, 1024])
@@ -68,23 +88,11 @@ def main():
     arguments = parser.parse_args()
     print("| side | what | seconds | ratio to ours |\n|---|---|---|---|")
     for side in arguments.side:
-        fftw = Fftw(side, arguments.effort)
-        command = [TARGET / "release" / "examples" / "free_convolution", str(side), str(arguments.repeat)]
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "bufsize": 1}
-        with subprocess.Popen(command, env=ENVIRONMENT, **pipes) as ours:
-
-            def asperity():
-                ours.stdin.write("\n")
-                return float(ours.stdout.readline())
-
-            turns = {"asperity, convolution": asperity}
-            turns["FFTW, pair"] = lambda: seconds(fftw.pair, arguments.repeat, fftw.fill)
-            turns["FFTW, convolution"] = lambda: seconds(fftw.convolution, arguments.repeat)
-            rounds = [[turn() for turn in turns.values()] for _ in range(arguments.rounds)]
-            ours.stdin.close()
-        for what, times in zip(turns, zip(*rounds)):
-            ratio = statistics.median(t / first for t, (first, *_) in zip(times, rounds))
-            print(f"| {side} | {what} | {statistics.median(times):.3g} | {ratio:.2f} |", flush=True)
+        rounds = taken_in_turns(side, arguments)
+        for what in rounds[0]:
+            ratio = statistics.median(turn[what] / turn[OURS] for turn in rounds)
+            median = statistics.median(turn[what] for turn in rounds)
+            print(f"| {side} | {what} | {median:.3g} | {ratio:.2f} |", flush=True)
 
 
 if __name__ == "__main__":
