@@ -54,28 +54,23 @@ class Bench:
             answer.report["convolutions"],
         )
 
-    def tightened(self, program, options, start, limit=None):
+    def tightened(self, program, options, start, limit):
         """The loosest tolerance, on steps of half a decade, that meets what is wanted, and its run.
 
-        Where none does: the best run, and None where not even that ends within the limit.
+        Where none does: the best run; None where the limit ends the search.
         """
         runs, step = {}, start
-        while len(runs) < 12 and step <= 34:
+        while step not in runs and len(runs) < 12:
             outcome = self.run(program, tolerance(step), options, limit)
             if outcome is None:
                 break
             runs[step] = outcome
-            met = [s for s in runs if runs[s].miss < 1]
-            unmet = [s for s in runs if runs[s].miss >= 1]
-            # A residual usually falls with the tolerance.
-            step += math.ceil(2 * math.log10(max(outcome.miss, 1e-3)))
-            if step in runs or (met and step <= max(unmet, default=0)):
-                step = (max(unmet) + 1) if unmet else min(runs)
-                if step in runs:
-                    break
-        if not runs:
-            return None, None
+            unmet = max((s for s in runs if runs[s].miss >= 1), default=-math.inf)
+            # A residual usually falls with the tolerance, which gives the next step; no looser than one that failed.
+            step = max(step + math.ceil(2 * math.log10(max(outcome.miss, 1e-3))), unmet + 1)
         met = [s for s in runs if runs[s].miss < 1]
+        if not runs or (outcome is None and not met):
+            return None, None
         best = min(met) if met else min(runs, key=lambda s: runs[s].miss)
         return best, runs[best]
 
@@ -85,10 +80,12 @@ class Bench:
         for options in program.variants:
             limit = self.limit if chosen is None else min(self.limit, 2 * chosen[2].seconds + 10)
             step, outcome = self.tightened(program, options, chosen[1] if chosen else start, limit)
-            if outcome is None or (chosen and (outcome.miss >= 1 or outcome.seconds > chosen[2].seconds)):
+            if outcome is None:
                 if chosen:
                     break
                 continue
+            if chosen and (outcome.miss >= 1 or outcome.convolutions >= chosen[2].convolutions):
+                break
             chosen = options, step, outcome
         return chosen
 
@@ -201,6 +198,9 @@ def main():
     parser.add_argument(
         "--area", type=float, nargs="+", default=[1, 5, 20, 60], help="contact area, per cent"
     )
+    parser.add_argument(
+        "--mean", type=float, nargs="+", help="mean pressure over E*, in place of the contact area"
+    )
     parser.add_argument("--hardness", action="store_true", help="a cap that holds a tenth of the contact")
     parser.add_argument("--programs", nargs="+", choices=PROGRAMS, help="default: all")
     parser.add_argument("--slippy-python", help="the interpreter, 3.9 or older, that has slippy")
@@ -224,8 +224,8 @@ def main():
                     chosen = {key: programs[key] for key in arguments.programs or programs if key in programs}
                     about = {"boundary": boundary, "side": side, "shortest wave": shortest}
                     table, judge, steps = Table(about, arguments.json), Judge(side, boundary), {}
-                    for percent in arguments.area:
-                        mean = mean_for_area(folder, boundary, percent / 100)
+                    found = (mean_for_area(folder, boundary, percent / 100) for percent in arguments.area)
+                    for mean in arguments.mean or found:
                         case = Case(folder, boundary, mean)
                         if arguments.hardness:
                             case = case._replace(hardness=hardness_for_share(folder, boundary, mean, 0.1))
