@@ -39,7 +39,7 @@ def peers(boundary, capped, slippy_python):
 
     found = {"polonsky-keer": Program("asperity, Polonsky–Keer", [SOLVE_GAP], ["method=polonsky-keer"])}
     if capped:
-        lengths = tuple([f"length={length}"] for length in (4, 8, 16, 24, 32, 48, 64, 96, 128, 192, 256))
+        lengths = tuple([f"length={length}"] for length in (16, 24, 32, 48, 64, 96, 128, 192, 256))
         found["tamaas"] = Program("Tamaas, KatoSaturated", script("tamaas"), variants=lengths)
     else:
         found["tamaas"] = Program("Tamaas, Polonsky–Keer–Rey", script("tamaas"))
