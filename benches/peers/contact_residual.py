@@ -1,7 +1,8 @@
 """The residual by which all programs are judged, computed with influence coefficients of our own."""
 
 import numpy as np
-import scipy.fft as fft
+from scipy import fft
+from scipy.optimize import minimize_scalar
 
 
 def free_kernel(side, pitch=1.0, modulus=1.0):
@@ -25,7 +26,7 @@ def periodic_kernel(side, pitch=1.0, modulus=1.0):
 
 
 class Judge:
-    """eta of any pressure on one grid."""
+    """The residual eta of any pressure on one grid."""
 
     def __init__(self, side, boundary):
         self.side = side
@@ -40,8 +41,19 @@ class Judge:
     def eta(self, pressure, gap, hardness=np.inf):
         """max|phi| / std(u), phi = c0 (p - clip(p + w/c0, 0, H)), w = delta - h - u, at the best delta."""
         u = self.displacement(pressure)
+        deformed = gap + u
+        c0 = self.self_influence
+
+        def worst(delta):
+            bounded = np.clip(pressure + (delta - deformed) / c0, 0, hardness)
+            return c0 * np.abs(pressure - bounded).max()
+
+        # The largest |phi| falls to the best delta and rises behind it; a shift by t changes it by t at the most.
         free = (pressure > 0) & (pressure < hardness)
-        delta = np.average((gap + u)[free], weights=pressure[free])
-        w = delta - gap - u
-        phi = self.self_influence * (pressure - np.clip(pressure + w / self.self_influence, 0, hardness))
-        return np.abs(phi).max() / u.std()
+        if not free.any():
+            return np.inf
+        middle = np.median(deformed[free])
+        reach = 2 * worst(middle)
+        interval = (middle - reach, middle + reach)
+        best = minimize_scalar(worst, bounds=interval, method="bounded", options={"xatol": 1e-3 * reach})
+        return min(best.fun, worst(middle)) / max(u.std(), np.finfo(float).tiny)
