@@ -267,3 +267,64 @@ fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
         wall_time_s: 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+    use crate::surface::{Amplitude, SelfAffine};
+
+    struct Reports(Vec<PassRecord>);
+
+    impl Output for Reports {
+        fn pass(&mut self, report: &PassReport) -> Result<()> {
+            self.0.push(report.record.clone());
+            Ok(())
+        }
+    }
+
+    fn passes(strategy: Strategy, boundary: Boundary, together: bool) -> Vec<PassRecord> {
+        let grid = crate::grid::Grid::new([32, 24], [1e-6, 1.5e-6]).unwrap();
+        let form =
+            SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(0.1e-6) };
+        let steel = Material::new(210e9, 0.3, 3e9).unwrap();
+        let surface = |seed| form.generate(&grid, seed).unwrap();
+        let pair = Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap();
+        let motion = Motion {
+            strategy,
+            passes: 3,
+            stride: 4,
+            control: Control::PassLoad(0.05 * 3e9 * grid.area()),
+            plastic_update: PlasticUpdate::Pass,
+            load_tolerance: 1e-6,
+        };
+        let mut simulation = Simulation::new(
+            pair,
+            boundary,
+            motion,
+            Params { method: Method::ActiveSet, ..Params::default() },
+        )
+        .unwrap();
+        assert!(simulation.together);
+        simulation.together = together;
+        let mut reports = Reports(Vec::new());
+        simulation.run(&(), &mut [&mut reports]).unwrap();
+        reports.0
+    }
+
+    #[test]
+    fn all_positions_together_are_the_search_on_the_approach_in_fewer_convolutions() {
+        let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+        for (strategy, boundary) in [(Strategy::Overlap, Boundary::Free), (shift, Boundary::Periodic)] {
+            let [one, other] = [true, false].map(|together| passes(strategy, boundary, together));
+            for (a, b) in one.iter().zip(&other) {
+                let close = |a: f64, b: f64, tolerance: f64| (a / b - 1.0).abs() < tolerance;
+                assert!((a.approach - b.approach).abs() < 1e-6 * 0.1e-6, "{a:?}\n{b:?}");
+                assert!(close(a.mean_load, b.mean_load, 2e-6) && close(a.max_load, b.max_load, 1e-5));
+                assert!(close(a.plastic_volume_lower, b.plastic_volume_lower, 1e-3), "{a:?}\n{b:?}");
+            }
+            let cost = |passes: &[PassRecord]| passes.iter().map(|p| p.convolutions).sum::<f64>();
+            assert!(cost(&one) < 0.8 * cost(&other), "{} and {}", cost(&one), cost(&other));
+        }
+    }
+}

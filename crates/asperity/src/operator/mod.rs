@@ -8,7 +8,7 @@ mod periodic_fft;
 pub use direct_sum::DirectSum;
 pub use family::{Boundary, Operators};
 pub use free_fft::{FreeFamily, FreeFft};
-pub use periodic_fft::PeriodicFft;
+pub use periodic_fft::{PeriodicFft, PeriodicKernel};
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::units::Pascal;

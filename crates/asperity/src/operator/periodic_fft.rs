@@ -1,47 +1,68 @@
 //! The periodic boundary.
 
+use std::sync::{Arc, OnceLock};
+
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::spectral::harmonic_displacement;
 use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency};
 use crate::operator::Operator;
 use crate::units::Pascal;
 
+/// What all operators of one periodic grid share: the spectrum of the influence coefficients.
+pub struct PeriodicKernel {
+    grid: Grid,
+    modulus: Pascal,
+    kernel: Arc<MixedKernel>,
+    /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
+    influence: Field,
+    coarse: OnceLock<Arc<PeriodicKernel>>,
+}
+
+impl PeriodicKernel {
+    /// The coefficients of `grid` for the composite `modulus`.
+    pub fn new(grid: Grid, modulus: Pascal) -> Arc<Self> {
+        let [nx, ny] = grid.shape;
+        let kernel = MixedKernel::new(Kernel::from_transform(grid.shape, |k, l| {
+            let qx = angular_frequency(k, nx, grid.pitch[0]);
+            let qy = angular_frequency(l, ny, grid.pitch[1]);
+            harmonic_displacement(qx, qy, modulus)
+        }));
+        let (mut unit, mut response) = (grid.zeros(), grid.zeros());
+        unit[[0, 0]] = 1.0;
+        MixedConvolution::new(Arc::clone(&kernel), grid.shape).apply(&unit, &mut response);
+        let influence = response.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
+        Arc::new(Self { grid, modulus, kernel, influence, coarse: OnceLock::new() })
+    }
+
+    /// An operator with these coefficients.
+    pub fn operator(self: &Arc<Self>) -> PeriodicFft {
+        let convolution = MixedConvolution::new(Arc::clone(&self.kernel), self.grid.shape);
+        PeriodicFft { shared: Arc::clone(self), convolution }
+    }
+}
+
 /// A half-space pair that repeats itself beyond the grid: û(q) = 2 p̂(q)/(E*|q|).
 ///
 /// The mean displacement is free and taken as zero: under load it is part of the approach.
 pub struct PeriodicFft {
-    grid: Grid,
-    modulus: Pascal,
+    shared: Arc<PeriodicKernel>,
     convolution: MixedConvolution,
-    /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
-    influence: Field,
 }
 
 impl PeriodicFft {
     /// The operator on `grid` for the composite `modulus`.
     pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        let [nx, ny] = grid.shape;
-        let kernel = Kernel::from_transform(grid.shape, |k, l| {
-            let qx = angular_frequency(k, nx, grid.pitch[0]);
-            let qy = angular_frequency(l, ny, grid.pitch[1]);
-            harmonic_displacement(qx, qy, modulus)
-        });
-        let mut convolution = MixedConvolution::new(MixedKernel::new(kernel), grid.shape);
-        let (mut unit, mut response) = (grid.zeros(), grid.zeros());
-        unit[[0, 0]] = 1.0;
-        convolution.apply(&unit, &mut response);
-        let influence = response.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
-        Self { grid, modulus, convolution, influence }
+        PeriodicKernel::new(grid, modulus).operator()
     }
 }
 
 impl Operator for PeriodicFft {
     fn grid(&self) -> &Grid {
-        &self.grid
+        &self.shared.grid
     }
 
     fn modulus(&self) -> Pascal {
-        self.modulus
+        self.shared.modulus
     }
 
     fn periodic(&self) -> bool {
@@ -49,8 +70,8 @@ impl Operator for PeriodicFft {
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
-        let [nx, ny] = self.grid.shape;
-        self.influence[[i.min(nx - i), j.min(ny - j)]]
+        let [nx, ny] = self.shared.grid.shape;
+        self.shared.influence[[i.min(nx - i), j.min(ny - j)]]
     }
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
@@ -62,10 +83,13 @@ impl Operator for PeriodicFft {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        let shape = self.grid.shape.map(|n| n.div_ceil(2));
-        let extent = self.grid.extent();
-        let pitch = [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64];
-        Box::new(Self::new(Grid { shape, pitch }, self.modulus))
+        let coarse = self.shared.coarse.get_or_init(|| {
+            let shape = self.grid().shape.map(|n| n.div_ceil(2));
+            let extent = self.grid().extent();
+            let pitch = [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64];
+            PeriodicKernel::new(Grid { shape, pitch }, self.modulus())
+        });
+        Box::new(coarse.operator())
     }
 }
 

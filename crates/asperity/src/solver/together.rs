@@ -20,8 +20,8 @@ pub(crate) struct Together {
 /// box-constrained problem, of a block-diagonal influence matrix. `start` gives a pressure near the answer for each, if
 /// one is known; `tolerance` the η at which a state is accepted.
 ///
-/// Kept of each contact are its pressure, h + u and a response, about 20 bytes for each of its cells. The residual is that
-/// of all cells together; a contact of its own scale may ask for more.
+/// Held of each contact are fewer than 60 bytes for each of its cells, besides what its site holds. The residual is that of
+/// all cells together.
 ///
 /// # Errors
 /// [`crate::Error::NotConverged`].
