@@ -129,8 +129,9 @@ fn motion(case: &Case, outlook: &Outlook) -> String {
 }
 
 fn memory(outlook: &Outlook) -> String {
-    let [solver, results] = outlook.memory.map(bytes);
-    format!("about {solver} for each thread, {results} of results")
+    let [solver, together, results] = outlook.memory;
+    let together = if together > 0.0 { format!(", {} for a pass", bytes(together)) } else { String::new() };
+    format!("about {} for each thread{together}, {} of results", bytes(solver), bytes(results))
 }
 
 fn bytes(count: f64) -> String {

@@ -5,7 +5,7 @@ use super::prepare::{Bodies, Prepared};
 use crate::error::Result;
 use crate::grid::Field;
 use crate::material::{composite_hardness, composite_modulus, plastic_share};
-use crate::motion::{Control, Strategy};
+use crate::motion::{Control, Strategy, memory_together};
 use crate::solver;
 use crate::surface::{Level, Topography};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
@@ -31,8 +31,9 @@ pub struct Outlook {
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, as if the surfaces were independent.
     pub gap_slope: f64,
-    /// Memory that one solver needs, and that the results take until they are written, bytes.
-    pub memory: [f64; 2],
+    /// Memory that one solver needs, that the positions of a pass take together, and that the results take until they are
+    /// written, bytes.
+    pub memory: [f64; 3],
     /// What the user should know before trusting the result.
     pub warnings: Vec<String>,
 }
@@ -67,7 +68,7 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         apparent_area,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
-        memory: memory(case, bodies, &overlaps),
+        memory: memory(case, bodies, &overlaps, hardness),
         warnings: Vec::new(),
     };
     outlook.warnings = warnings(case, bodies, &outlook);
@@ -85,13 +86,19 @@ fn overlaps(case: &Case, lower: usize, upper: usize) -> Vec<usize> {
     }
 }
 
-fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize]) -> [f64; 2] {
+fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize], hardness: Pascal) -> [f64; 3] {
     const NUMBER: f64 = 8.0;
     let [lower, upper] = [&bodies.lower, &bodies.upper].map(|body| body.topography.grid());
     let [nx, ny] = [lower.shape[0].min(upper.shape[0]), lower.shape[1]].map(|n| n as f64);
-    // Some twenty fields of the iteration; of the padded transform half is stored, and its real kernel.
+    // Eight numbers of the iteration for each cell; of the padded transform half is stored, and its real kernel, in double
+    // and in single precision.
     let padded = if case.contact.boundary == Boundary::Free { 2.0 } else { 1.0 };
-    let solver = NUMBER * (20.0 * nx * ny + padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded));
+    let transforms = 1.5 * padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded);
+    let solver = NUMBER * (8.0 * nx * ny + transforms);
+    let motion = case.motion(nx * ny * lower.cell_area());
+    let together = motion
+        .and_then(|motion| memory_together(&motion, case.contact.method, hardness, overlaps, lower.shape[1]));
+    let together = together.unwrap_or(0.0);
     let cells = (lower.cells() + upper.cells()) as f64;
     let results = case.motion.map_or(6.0 * nx * ny, |motion| {
         let passes = motion.passes as f64;
@@ -101,7 +108,7 @@ fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize]) -> [f64; 2] {
         };
         (passes + 1.0) * cells + passes * (cells + kept)
     });
-    [solver, NUMBER * results]
+    [solver, together, NUMBER * results]
 }
 
 fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {

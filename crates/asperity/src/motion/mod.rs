@@ -16,6 +16,7 @@ pub use pair::Pair;
 pub use path::{Position, overlap_positions, shift_positions};
 pub use record::{PassRecord, StaticRecord, StepRecord};
 pub use simulation::Simulation;
+pub(crate) use together::memory_together;
 pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::error::{Error, Result};

@@ -9,11 +9,11 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
-use crate::motion::together::MOST_CELLS;
+use crate::motion::together::memory_together;
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
-use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
+use crate::motion::{Control, Motion, Strategy};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{self, Method, Params};
+use crate::solver::{self, Params};
 use crate::units::{Metre, Newton};
 
 /// Two bodies that pass over each other.
@@ -43,12 +43,10 @@ impl Simulation {
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
         motion.control.check_limit(limit)?;
         let operators = Operators::new(pair.pitch(), pair.modulus(), boundary);
-        let cells = columns.iter().sum::<usize>() * pair.lower.ncols();
-        let frozen = motion.plastic_update == PlasticUpdate::Pass || !pair.yields();
+        let together =
+            memory_together(&motion, params.method, pair.hardness(), &columns, pair.lower.ncols()).is_some();
         Ok(Self {
-            together: frozen
-                && cells <= MOST_CELLS
-                && matches!(params.method, Method::Auto | Method::ActiveSet),
+            together,
             pair,
             motion,
             params,
@@ -272,6 +270,8 @@ fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
 mod tests {
     use super::*;
     use crate::material::Material;
+    use crate::motion::PlasticUpdate;
+    use crate::solver::Method;
     use crate::surface::{Amplitude, SelfAffine};
 
     struct Reports(Vec<PassRecord>);

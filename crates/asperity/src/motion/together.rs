@@ -8,12 +8,15 @@ use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
+use crate::motion::{Control, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
-use crate::solver::{Kept, Params, Residual, Site, coarse_gap, solve_together};
-use crate::units::Newton;
+use crate::solver::{Kept, Method, Params, Residual, Site, coarse_gap, solve_together};
+use crate::units::{Newton, Pascal};
 
-/// Cells of all positions above which they are not held at once: 2.5 GB.
-pub(super) const MOST_CELLS: usize = 40_000_000;
+/// Cells of all positions above which they are not held at once.
+const MOST_CELLS: usize = 40_000_000;
+/// Memory that a cell takes then, bytes.
+const PER_CELL: f64 = 60.0;
 
 /// Residual η at which the approach is known well enough, at the most. From there on the positions are solved one by one,
 /// each with the iterations that it needs itself.
@@ -21,6 +24,23 @@ const LOOSEST: f64 = 3e-2;
 /// The residual for a relative accuracy of the mean load: at the approach found with a residual η the load is off by less
 /// than 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
 const RESIDUAL_PER_ACCURACY: f64 = 300.0;
+
+/// Memory, bytes, for the positions of a pass all at once, so many `columns` of so many cells at each: none where they are
+/// not solved together, because they are too many, a method of the user's own is to be used, no mean load is prescribed or
+/// the geometry changes from one to the next.
+pub(crate) fn memory_together(
+    motion: &Motion,
+    method: Method,
+    hardness: Pascal,
+    columns: &[usize],
+    width: usize,
+) -> Option<f64> {
+    let cells = width * columns.iter().sum::<usize>();
+    let frozen = motion.plastic_update == PlasticUpdate::Pass || hardness.is_infinite();
+    let iterative = matches!(method, Method::Auto | Method::ActiveSet);
+    let searched = matches!(motion.control, Control::PassLoad(_));
+    (frozen && iterative && searched && cells <= MOST_CELLS).then_some(PER_CELL * cells as f64)
+}
 
 impl Solver<'_> {
     /// Solves all positions under the one approach at which their mean load is `load`, so well that it is met to the
