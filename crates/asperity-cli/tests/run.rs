@@ -473,11 +473,10 @@ fn every_bad_input_has_its_own_message() {
             .filter(|line| line.starts_with("error: ") || line.starts_with("hint: "))
             .map(str::to_owned)
             .collect();
-        assert_eq!(
-            (output.status.code(), messages),
-            (Some(code), promised[1..].iter().map(|l| (*l).to_owned()).collect()),
-            "{name}"
-        );
+        let kept =
+            promised[1..].iter().zip(&messages).all(|(promised, message)| as_promised(promised, message));
+        let all = messages.len() == promised.len() - 1;
+        assert!(kept && all && output.status.code() == Some(code), "{name}: {promised:#?}\n{messages:#?}");
         assert!(output.stdout.is_empty(), "{name}");
         // What is wrong before anything is computed leaves no directory behind.
         let out = folder.path().join("out");
@@ -597,6 +596,14 @@ fn refused(output: &Output) -> String {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
     assert!(output.stdout.is_empty());
     stderr(output)
+}
+
+/// Whether a message is the one promised, in which … stands for a number that is nothing but rounding.
+fn as_promised(promised: &str, message: &str) -> bool {
+    match promised.split_once('…') {
+        Some((before, after)) => message.starts_with(before) && message.ends_with(after),
+        None => message == promised,
+    }
 }
 
 fn change(folder: &TempDir, from: &str, to: &str) {

@@ -1,6 +1,7 @@
 //! All positions of a pass together, as one problem: the approach is the multiplier of their mean load.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
@@ -42,6 +43,10 @@ pub(crate) fn memory_together(
     (frozen && iterative && searched && cells <= MOST_CELLS).then_some(PER_CELL * cells as f64)
 }
 
+/// The part of the residual at the start, at which even a good start must arrive: it is wrong where the geometry has
+/// changed, all in one direction, and so is its approach.
+const PROGRESS: f64 = 0.1;
+
 impl Solver<'_> {
     /// Solves all positions under the one approach at which their mean load is `load`, so well that it is met to the
     /// relative `accuracy`, from the pressures of `earlier` contacts at the same positions, if there are any.
@@ -62,9 +67,13 @@ impl Solver<'_> {
         let width = pair.lower.ncols();
         let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
         let total = load * self.positions.len() as f64;
-        let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(LOOSEST).max(params.tolerance);
-        // Whoever wants to stop takes anything.
-        let tolerance = |_: &Residual| if self.watch.stop() { f64::INFINITY } else { residual };
+        let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(LOOSEST);
+        let first = OnceCell::new();
+        let tolerance = |state: &Residual| match self.watch.stop() {
+            // Whoever wants to stop takes anything.
+            true => f64::INFINITY,
+            false => residual.min(PROGRESS * first.get_or_init(|| state.eta)).max(params.tolerance),
+        };
         let found =
             solve_together(&sites, pair.hardness(), total, start, &tolerance, params.max_convolutions)?;
         if self.watch.stop() {

@@ -47,12 +47,13 @@ pub(super) struct Block<'a> {
 }
 
 /// What a set of free cells leaves undone, as displacements: sums of the squares of w at the free cells and of the
-/// violations of the bounds, and the largest w.
+/// violations of the bounds, and the largest w; the approach at which they were taken.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LeftOver {
     pub(super) equations: f64,
     pub(super) bounds: f64,
     pub(super) largest: f64,
+    pub(super) datum: Metre,
 }
 
 impl LeftOver {
@@ -62,6 +63,7 @@ impl LeftOver {
             equations: self.equations + other.equations,
             bounds: self.bounds + other.bounds,
             largest: self.largest.max(other.largest),
+            datum: self.datum,
         }
     }
 }

@@ -50,8 +50,8 @@ pub(super) fn solve(
 ) -> Result<Equilibrium> {
     let mut iteration = Iteration::new(sites, terms, start, caution);
     let mut sharpen = 1.0;
+    let mut state = iteration.residual();
     loop {
-        let mut state = iteration.residual();
         let mut wanted = tolerance(&state);
         if state.eta < sharpen * wanted {
             // The answer is the feasible pressure nearby; its own residual decides.
@@ -71,7 +71,13 @@ pub(super) fn solve(
         if convolutions >= max_convolutions as f64 {
             return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
         }
-        iteration.outer_step(state, sharpen * wanted);
+        state = match iteration.outer_step(state, sharpen * wanted) {
+            // Where the equations alone are far from being met there is no need to look further.
+            Some(left) if left.largest > wanted * state.scale => {
+                Residual { eta: left.largest / state.scale, approach: left.datum, ..state }
+            }
+            _ => iteration.residual(),
+        };
     }
 }
 
@@ -222,17 +228,19 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    fn outer_step(&mut self, state: Residual, wanted: f64) {
+    /// One set of free cells, solved as far as it is worth. Returns what that leaves, unless the pressure is another since.
+    fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<LeftOver> {
         self.predict_sets(state.approach);
         if self.free_cells() == 0.0 {
             self.become_feasible(0.0);
             self.step_along_gap(state.approach);
-            return;
+            return None;
         }
         self.lift_to_bounds(state.approach, TRUSTED * wanted * state.scale);
         let left = self.conjugate_gradients(state, wanted);
         self.restore_the_sum();
-        self.safeguard(left, state.approach);
+        let restarted = self.safeguard(left.equations.hypot(left.bounds), state.approach);
+        (!restarted).then_some(left)
     }
 
     /// Every cell at a bound and no equilibrium: one step along the gap frees some.
@@ -303,8 +311,8 @@ impl<'a> Iteration<'a> {
     }
 
     /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the equations.
-    /// Returns the size of what is left, of the equations and the bounds together.
-    fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> f64 {
+    /// Returns what is left of both.
+    fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> LeftOver {
         let [sum] = self.sum(|block| [block.halt()]);
         let mut datum = match self.terms.control {
             Control::Approach(approach) => approach,
@@ -331,31 +339,32 @@ impl<'a> Iteration<'a> {
                 break;
             }
         }
-        left.equations.hypot(left.bounds)
+        left
     }
 
     /// Moves along the direction and takes stock: roots of the sums of squares, and the largest equation.
     fn advance(&mut self, step: f64, datum: Metre) -> LeftOver {
         let terms = self.terms;
         let sum = self.all(|block| block.advance(step, datum, &terms), LeftOver::and);
-        LeftOver { equations: sum.equations.sqrt(), bounds: sum.bounds.sqrt(), ..sum }
+        LeftOver { equations: sum.equations.sqrt(), bounds: sum.bounds.sqrt(), datum, ..sum }
     }
 
     /// Two outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
     /// energy. It makes the iteration safe where the predicted sets cycle.
-    fn safeguard(&mut self, size: f64, approach: Metre) {
+    /// Returns whether it had to.
+    fn safeguard(&mut self, size: f64, approach: Metre) -> bool {
         if size < 0.7 * self.best {
             self.best = size;
             self.strikes = 0;
             self.leave = LEAVE.min(1.5 * self.leave);
             self.caution = (0.5 * self.caution).max(1.0);
-            return;
+            return false;
         }
         self.strikes += 1;
         self.leave = (self.leave / 3.0).max(0.05);
         self.caution *= 4.0;
         if self.strikes < 2 {
-            return;
+            return false;
         }
         self.become_feasible(0.0);
         self.each(Block::recall);
@@ -374,6 +383,7 @@ impl<'a> Iteration<'a> {
         });
         self.best *= 2.0;
         self.restarts += 1;
+        true
     }
 
     /// The step in [0, 1] from the last feasible pressure to this one at which the energy is least.
