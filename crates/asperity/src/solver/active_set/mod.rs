@@ -141,7 +141,7 @@ impl<'a> Iteration<'a> {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
             blocks => {
-                let parts: Vec<R> = blocks.par_iter_mut().map(|block| task(block)).collect();
+                let parts: Vec<R> = blocks.par_iter_mut().map(&task).collect();
                 parts.into_iter().reduce(and).expect("a block")
             }
         }
