@@ -61,13 +61,14 @@ pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Terms) {
         cells.map(|p| if p < hardness { (p * factor).clamp(0.0, hardness) } else { p });
     }
     let range = cells.range();
-    let shift = shift_for_sum(range, wanted, |shift| {
-        cells.sum(|p| {
-            let p = (p + shift).clamp(0.0, hardness);
-            [p, if 0.0 < p && p < hardness { 1.0 } else { 0.0 }]
-        })
-    });
+    let shift = shift_for_sum(range, wanted, |shift| cells.sum(|p| in_bounds(p + shift, hardness)));
     cells.map(|p| (p + shift).clamp(0.0, hardness));
+}
+
+/// A pressure brought into its bounds, and 1 where it is between them.
+pub(super) fn in_bounds(pressure: Pascal, hardness: Pascal) -> [f64; 2] {
+    let p = pressure.clamp(0.0, hardness);
+    [p, if 0.0 < p && p < hardness { 1.0 } else { 0.0 }]
 }
 
 /// The least and the largest of some values, and their number.

@@ -5,7 +5,7 @@ use ndarray::Array2;
 use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
 use crate::solver::Terms;
-use crate::solver::bounds::Range;
+use crate::solver::bounds::{Range, in_bounds};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::residual::{Multiplier, Tally};
 use crate::solver::sets::{Set, Sets};
@@ -127,9 +127,7 @@ impl<'a> Block<'a> {
 
     /// The displacement of the whole pressure.
     pub(super) fn respond(&mut self) {
-        let Self { site, pressure, touch, .. } = self;
-        site.with_operator(&mut |operator| operator.apply(pressure, touch));
-        *touch += &*site.initial_gap();
+        touch_under(self.site, &self.pressure, &mut self.touch);
         self.convolutions += 1;
         self.rounding = 0.0;
     }
@@ -140,7 +138,7 @@ impl<'a> Block<'a> {
         self.respond_to_direction();
         self.touch.assign(&self.site.initial_gap());
         self.rounding = 0.0;
-        self.take_response(1.0);
+        self.take_response();
     }
 
     fn respond_to_direction(&mut self) {
@@ -150,9 +148,9 @@ impl<'a> Block<'a> {
         self.convolutions += 1;
     }
 
-    fn take_response(&mut self, step: f64) {
-        self.touch.zip_mut_with(&self.response, |touch, r| *touch += step * f64::from(*r));
-        self.rounding += SINGLE * step * self.largest;
+    fn take_response(&mut self) {
+        self.touch.zip_mut_with(&self.response, |touch, r| *touch += f64::from(*r));
+        self.rounding += SINGLE * self.largest;
     }
 
     /// Largest displacement.
@@ -208,10 +206,7 @@ impl<'a> Block<'a> {
 
     /// What the proposed pressure, shifted and in its bounds, adds up to, and how much of it is between them.
     pub(super) fn proposed_sum(&self, shift: Pascal, hardness: Pascal) -> [f64; 2] {
-        sums(flat(&self.response), |y| {
-            let p = (f64::from(y) + shift).clamp(0.0, hardness);
-            [p, if 0.0 < p && p < hardness { 1.0 } else { 0.0 }]
-        })
+        sums(flat(&self.response), |y| in_bounds(f64::from(y) + shift, hardness))
     }
 
     /// Predicts the sets from that step, shifted.
@@ -326,7 +321,7 @@ impl<'a> Block<'a> {
     /// Adds the response to the direction to the displacement.
     pub(super) fn follow(&mut self) {
         self.respond_to_direction();
-        self.take_response(1.0);
+        self.take_response();
     }
 
     /// Adds a pressure to the free cells.
@@ -362,12 +357,10 @@ impl<'a> Block<'a> {
     /// the free cells, where the gap is to close at `datum`, and how far the bounds are violated.
     pub(super) fn advance(&mut self, step: f64, datum: Metre, terms: &Terms) -> LeftOver {
         let Terms { hardness, self_influence: c0, .. } = *terms;
-        let mut left = LeftOver::default();
+        let mut left = LeftOver { datum, ..LeftOver::default() };
         let cells = self.sets.of().iter().zip(flat(&self.direction)).zip(flat(&self.response));
         let cells = cells.zip(flat_mut(&mut self.pressure)).zip(flat_mut(&mut self.touch));
-        for ((((set, d), c), p), (touch, r)) in
-            cells.zip(flat_mut(&mut self.equations)).map(|((rest, touch), r)| (rest, (touch, r)))
-        {
+        for (((((set, d), c), p), touch), r) in cells.zip(flat_mut(&mut self.equations)) {
             *touch += step * f64::from(*c);
             let w = datum - *touch;
             let violation = match set {
@@ -395,8 +388,7 @@ impl<'a> Block<'a> {
     /// The displacement of the pressure that was kept.
     pub(super) fn recall(&mut self) {
         let mut touch = Field::zeros(self.feasible.raw_dim());
-        self.site.with_operator(&mut |operator| operator.apply(&self.feasible, &mut touch));
-        touch += &*self.site.initial_gap();
+        touch_under(self.site, &self.feasible, &mut touch);
         self.touch_before = Some(touch);
         self.convolutions += 1;
     }
@@ -425,6 +417,12 @@ impl<'a> Block<'a> {
     pub(super) fn forget(&mut self) {
         self.touch_before = None;
     }
+}
+
+/// Writes h + u under `pressure` into `touch`.
+fn touch_under(site: &dyn Site, pressure: &Field, touch: &mut Field) {
+    site.with_operator(&mut |operator| operator.apply(pressure, touch));
+    *touch += &*site.initial_gap();
 }
 
 fn flat<T>(field: &Array2<T>) -> &[T] {

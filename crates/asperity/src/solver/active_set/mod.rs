@@ -346,7 +346,7 @@ impl<'a> Iteration<'a> {
     fn advance(&mut self, step: f64, datum: Metre) -> LeftOver {
         let terms = self.terms;
         let sum = self.all(|block| block.advance(step, datum, &terms), LeftOver::and);
-        LeftOver { equations: sum.equations.sqrt(), bounds: sum.bounds.sqrt(), datum, ..sum }
+        LeftOver { equations: sum.equations.sqrt(), bounds: sum.bounds.sqrt(), ..sum }
     }
 
     /// Two outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
