@@ -1,6 +1,7 @@
 //! One displacement from one pressure, dense as in full contact and sparse as at a per cent of it.
 
-use asperity::operator::{FreeFft, Operator, PeriodicFft};
+use asperity::material::Compliances;
+use asperity::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
 use asperity::{Field, Grid, SingleField};
 
 const SIDES: [usize; 4] = [128, 256, 512, 1024];
@@ -34,6 +35,17 @@ fn periodic_single(bencher: divan::Bencher, side: usize) {
     measure_single(bencher, &mut PeriodicFft::new(square(side), 1.0));
 }
 
+/// Three tractions in, three displacements out, of two dissimilar bodies.
+#[divan::bench(args = SIDES)]
+fn free_coupled(bencher: divan::Bencher, side: usize) {
+    measure_coupled(bencher, Boundary::Free, side);
+}
+
+#[divan::bench(args = SIDES)]
+fn periodic_coupled(bencher: divan::Bencher, side: usize) {
+    measure_coupled(bencher, Boundary::Periodic, side);
+}
+
 fn square(side: usize) -> Grid {
     Grid::new([side, side], [1.0, 1.0]).expect("a grid")
 }
@@ -50,4 +62,16 @@ fn measure_single(bencher: divan::Bencher, operator: &mut dyn Operator) {
     let pressure = SingleField::from_shape_fn(operator.grid().shape, |(i, j)| (i * j % 7) as f32);
     let mut displacement = SingleField::zeros(operator.grid().shape);
     bencher.bench_local(|| operator.apply_single(&pressure, &mut displacement));
+}
+
+fn measure_coupled(bencher: divan::Bencher, boundary: Boundary, side: usize) {
+    let Grid { shape, pitch } = square(side);
+    let compliances = Compliances { normal: 1.0, lateral: 0.4, coupling: 0.2 };
+    let mut operator = Operators::new(pitch, compliances, boundary).coupled_on(shape);
+    let traction: [Field; 3] =
+        std::array::from_fn(|n| Field::from_shape_fn(shape, |(i, j)| ((i * j + n) % 7) as f64));
+    let mut displacement: [Field; 3] = std::array::from_fn(|_| Field::zeros(shape));
+    bencher.bench_local(|| {
+        operator.apply(traction.each_ref().map(Some), displacement.each_mut().map(Some));
+    });
 }

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 use asperity::Grid;
 use asperity::io::topography;
-use asperity::operator::{Boundary, Operators};
+use asperity::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Control, Method, Params, solve_normal};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -37,9 +37,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let params = Params { method, tolerance: number("tolerance", 1e-6)?, ..Params::default() };
 
     let start = Instant::now();
-    let mut operator = Operators::new(grid.pitch, number("modulus", 1.0)?, boundary).on(grid.shape);
+    let modulus = number("modulus", 1.0)?;
+    let mut operator: Box<dyn Operator> = match boundary {
+        Boundary::Free => Box::new(FreeFft::new(grid, modulus)),
+        Boundary::Periodic => Box::new(PeriodicFft::new(grid, modulus)),
+    };
     let setup = start.elapsed().as_secs_f64();
-    let solve = |operator: &mut dyn asperity::operator::Operator| {
+    let solve = |operator: &mut dyn Operator| {
         let start = Instant::now();
         let solution = solve_normal(operator, &gap, hardness, Control::Load(load), None, &params);
         solution.map(|solution| (solution, start.elapsed().as_secs_f64()))

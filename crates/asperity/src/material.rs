@@ -33,28 +33,74 @@ impl Material {
         check("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
         Ok(Self { young, poisson, hardness })
     }
+}
 
-    /// (1 − ν²)/E, the normal compliance of the body.
-    fn compliance(&self) -> f64 {
-        (1.0 - self.poisson * self.poisson) / self.young
+/// What the elastic constants of a pair of half-spaces come to: compliances, 1/Pa.
+///
+/// ```text
+/// 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂                                normal
+/// 1/N* = ν₁(1 + ν₁)/E₁ + ν₂(1 + ν₂)/E₂                              lateral
+/// 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂              coupling
+/// ```
+/// A normal traction meets 1/E* alone, a tangential one 1/E* and 1/N*. What a normal traction does tangentially, and a
+/// tangential one normally, is in 1/G*: it vanishes for identical materials and for two incompressible ones, and is
+/// negative where the lower body is the stiffer. Johnson (1985), ch. 3 and 5.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compliances {
+    /// 1/E* > 0.
+    pub normal: f64,
+    /// 1/N* ≥ 0.
+    pub lateral: f64,
+    /// 1/G*, of either sign.
+    pub coupling: f64,
+}
+
+impl Compliances {
+    /// Those of a pair.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if both bodies are rigid.
+    pub fn new(lower: &Material, upper: &Material) -> Result<Self> {
+        let of = |m: &Material| {
+            let (e, nu) = (m.young, m.poisson);
+            [(1.0 - nu * nu) / e, nu * (1.0 + nu) / e, 0.5 * (1.0 + nu) * (1.0 - 2.0 * nu) / e]
+        };
+        let (one, other) = (of(lower), of(upper));
+        let this =
+            Self { normal: one[0] + other[0], lateral: one[1] + other[1], coupling: one[2] - other[2] };
+        if this.normal > 0.0 {
+            Ok(this)
+        } else {
+            Err(Error::OutOfRange {
+                quantity: "young of both bodies",
+                value: Pascal::INFINITY,
+                expected: "at least one deformable body",
+            })
+        }
+    }
+
+    /// Composite modulus E*.
+    pub fn modulus(&self) -> Pascal {
+        1.0 / self.normal
+    }
+
+    /// Dundurs' β = E*/G*, from −1/2 to 1/2; positive where the lower body is the softer.
+    pub fn dundurs(&self) -> f64 {
+        self.coupling / self.normal
+    }
+
+    /// The same bodies, if normal tractions did nothing tangentially, nor tangential ones normally.
+    pub fn uncoupled(&self) -> Self {
+        Self { coupling: 0.0, ..*self }
     }
 }
 
-/// Composite modulus E* of a pair: 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂. Johnson (1985), eq. 4.14.
+/// Composite modulus E* of a pair, see [`Compliances`].
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if both bodies are rigid.
 pub fn composite_modulus(lower: &Material, upper: &Material) -> Result<Pascal> {
-    let compliance = lower.compliance() + upper.compliance();
-    if compliance > 0.0 {
-        Ok(1.0 / compliance)
-    } else {
-        Err(Error::OutOfRange {
-            quantity: "young of both bodies",
-            value: Pascal::INFINITY,
-            expected: "at least one deformable body",
-        })
-    }
+    Compliances::new(lower, upper).map(|pair| pair.modulus())
 }
 
 /// Hardness of the pair: the softer body's.
@@ -82,6 +128,19 @@ mod tests {
         let rigid = Material::elastic(f64::INFINITY, 0.3).unwrap();
         assert_eq!(composite_modulus(&soft, &rigid).unwrap(), 4.0);
         assert!(composite_modulus(&rigid, &rigid).is_err());
+    }
+
+    #[test]
+    fn identical_bodies_and_incompressible_ones_are_not_coupled() {
+        let material = |young, poisson| Material::elastic(young, poisson).unwrap();
+        let beta = |a, b| Compliances::new(&a, &b).unwrap().dundurs();
+        assert_eq!(beta(material(3.0, 0.3), material(3.0, 0.3)), 0.0);
+        assert_eq!(beta(material(1.0, 0.5), material(7.0, 0.5)), 0.0);
+        // Rigid on elastic: (1 − 2ν)/2(1 − ν).
+        let (soft, rigid) = (material(2.0, 0.2), material(f64::INFINITY, 0.3));
+        assert!((beta(soft, rigid) - 0.375).abs() < 1e-15);
+        assert_eq!(beta(soft, rigid), -beta(rigid, soft));
+        assert_eq!(Compliances::new(&soft, &rigid).unwrap().lateral, 0.12);
     }
 
     #[test]

@@ -1,6 +1,9 @@
-//! Influence coefficients: what a unit pressure on one cell does to another.
+//! Influence coefficients: what a unit traction on one cell does to another.
 
+mod cell;
+pub mod coupled;
 pub mod normal;
 pub mod spectral;
 
+pub use coupled::{Coefficients, coupled_displacement};
 pub use normal::{influence_matrix, influence_table, normal_displacement};

@@ -17,29 +17,22 @@ const BLOCK: usize = 8;
 /// Room between the columns of a strip: without it columns of a power of two share their cache lines' places.
 const ROOM: usize = 8;
 
-/// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
-/// precision of `T`.
-pub struct Kernel<T> {
-    shape: [usize; 2],
-    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest.
-    spectrum: Array2<T>,
-    /// The largest of the spectrum, divided by Mx My.
-    unit: T,
+/// The plans of a cyclic grid, for transforms in the precision of `T`.
+pub(super) struct Plans<T> {
+    pub(super) shape: [usize; 2],
     along_y: Arc<dyn RealToComplex<T>>,
     back_y: Arc<dyn ComplexToReal<T>>,
     along_x: Arc<dyn Fft<T>>,
     back_x: Arc<dyn Fft<T>>,
 }
 
-impl<T: FftNum> Kernel<T> {
-    fn new(shape: [usize; 2], spectrum: Array2<T>, unit: T) -> Self {
+impl<T: FftNum> Plans<T> {
+    pub(super) fn new(shape: [usize; 2]) -> Self {
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         let [mx, my] = shape;
         Self {
             shape,
-            spectrum,
-            unit,
             along_y: real.plan_fft_forward(my),
             back_y: real.plan_fft_inverse(my),
             along_x: complex.plan_fft_forward(mx),
@@ -47,7 +40,8 @@ impl<T: FftNum> Kernel<T> {
         }
     }
 
-    fn half(&self) -> usize {
+    /// Number of frequencies along y.
+    pub(super) fn half(&self) -> usize {
         self.shape[1] / 2 + 1
     }
 
@@ -63,52 +57,107 @@ impl<T: FftNum> Kernel<T> {
     }
 }
 
+/// How a kernel changes with the sign of an offset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Parity {
+    Even,
+    Odd,
+}
+
+impl Parity {
+    /// The value at `index` of a period of `length` from those `at` up to half of it.
+    fn extend(self, index: usize, length: usize, at: impl Fn(usize) -> f64) -> f64 {
+        let mirrored = length - index;
+        match self {
+            Self::Even => at(index.min(mirrored)),
+            Self::Odd if index == 0 || index == mirrored => 0.0,
+            Self::Odd if index < mirrored => at(index),
+            Self::Odd => -at(mirrored),
+        }
+    }
+
+    /// What the transform of a real kernel of this parity consists of: its real part, or its imaginary one.
+    fn part(self, value: Complex<f64>) -> f64 {
+        match self {
+            Self::Even => value.re,
+            Self::Odd => value.im,
+        }
+    }
+}
+
+impl Plans<f64> {
+    /// Transform of the kernel with the values `table[[i, j]]` at the offsets i, j for `i ≤ Mx/2`, `j ≤ My/2`, and of
+    /// this parity along x and y: the real number by which iⁿ is multiplied, n the number of odd axes, at `[ky, kx]` for
+    /// `ky ≤ My/2`, `kx ≤ Mx/2`.
+    pub(super) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
+        let [mx, my] = self.shape;
+        let mut scratch = self.scratch();
+        let mut spectrum = Field::zeros([self.half(), mx / 2 + 1]);
+        let mut row = self.along_y.make_input_vec();
+        let mut half = self.along_y.make_output_vec();
+        for (ix, values) in table.outer_iter().enumerate() {
+            for (iy, value) in row.iter_mut().enumerate() {
+                *value = parity[1].extend(iy, my, |iy| values[iy]);
+            }
+            let forward = self.along_y.process_with_scratch(&mut row, &mut half, &mut scratch);
+            forward.expect("lengths come from the plan");
+            spectrum.column_mut(ix).iter_mut().zip(&half).for_each(|(s, h)| *s = parity[1].part(*h));
+        }
+        let mut column = vec![Complex::zero(); mx];
+        for mut spectrum in spectrum.outer_iter_mut() {
+            for (ix, value) in column.iter_mut().enumerate() {
+                *value = Complex::from(parity[0].extend(ix, mx, |ix| spectrum[ix]));
+            }
+            self.along_x.process_with_scratch(&mut column, &mut scratch);
+            spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = parity[0].part(*c));
+        }
+        spectrum
+    }
+}
+
+/// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
+/// precision of `T`.
+pub struct Kernel<T> {
+    plans: Plans<T>,
+    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest.
+    spectrum: Array2<T>,
+    /// The largest of the spectrum, divided by Mx My.
+    unit: T,
+}
+
 impl Kernel<f64> {
     /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `transform`, for
     /// `kx ≤ Mx/2`, `ky ≤ My/2`.
     pub fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> f64) -> Self {
         let half = shape.map(|n| n / 2 + 1);
-        Self::normalised(shape, Field::from_shape_fn([half[1], half[0]], |(ky, kx)| transform(kx, ky)))
+        let spectrum = Field::from_shape_fn([half[1], half[0]], |(ky, kx)| transform(kx, ky));
+        Self::normalised(Plans::new(shape), spectrum)
     }
 
     /// The kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
     /// `i ≤ Mx/2`, `j ≤ My/2`.
     pub fn from_values(shape: [usize; 2], table: &Field) -> Self {
-        let [mx, my] = shape;
-        let mut kernel = Self::new(shape, Field::zeros([my / 2 + 1, mx / 2 + 1]), 1.0);
-        let mut scratch = kernel.scratch();
-        let mut row = kernel.along_y.make_input_vec();
-        let mut half = kernel.along_y.make_output_vec();
-        for (ix, values) in table.outer_iter().enumerate() {
-            for (iy, value) in row.iter_mut().enumerate() {
-                *value = values[iy.min(my - iy)];
-            }
-            let forward = kernel.along_y.process_with_scratch(&mut row, &mut half, &mut scratch);
-            forward.expect("lengths come from the plan");
-            kernel.spectrum.column_mut(ix).iter_mut().zip(&half).for_each(|(s, h)| *s = h.re);
-        }
-        let mut column = vec![Complex::zero(); mx];
-        for mut spectrum in kernel.spectrum.outer_iter_mut() {
-            for (ix, value) in column.iter_mut().enumerate() {
-                *value = Complex::from(spectrum[ix.min(mx - ix)]);
-            }
-            kernel.along_x.process_with_scratch(&mut column, &mut scratch);
-            spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = c.re);
-        }
-        Self::normalised(shape, kernel.spectrum)
+        let plans = Plans::new(shape);
+        let spectrum = plans.spectrum(table, [Parity::Even; 2]);
+        Self::normalised(plans, spectrum)
     }
 
-    fn normalised(shape: [usize; 2], mut spectrum: Field) -> Self {
+    fn normalised(plans: Plans<f64>, mut spectrum: Field) -> Self {
         let largest = spectrum.iter().fold(0.0f64, |m, s| m.max(s.abs()));
         if largest > 0.0 {
             spectrum /= largest;
         }
-        Self::new(shape, spectrum, largest / (shape[0] * shape[1]) as f64)
+        let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
+        Self { plans, spectrum, unit }
     }
 
     /// The same kernel for transforms in single precision.
     pub fn to_single(&self) -> Kernel<f32> {
-        Kernel::new(self.shape, self.spectrum.mapv(|s| s as f32), self.unit as f32)
+        Kernel {
+            plans: Plans::new(self.plans.shape),
+            spectrum: self.spectrum.mapv(|s| s as f32),
+            unit: self.unit as f32,
+        }
     }
 }
 
@@ -120,10 +169,8 @@ impl Kernel<f64> {
 /// half the work of whole transforms. Nothing is allocated after construction.
 pub struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
-    rows: Array2<Complex<T>>,
-    strip: Vec<Complex<T>>,
-    real: Vec<T>,
-    scratch: Vec<Complex<T>>,
+    transform: Transform<T>,
+    scratch: Scratch<T>,
 }
 
 impl<T: FftNum> Convolution<T> {
@@ -132,14 +179,7 @@ impl<T: FftNum> Convolution<T> {
     /// # Panics
     /// If the kernel is smaller than `shape`.
     pub fn new(kernel: Arc<Kernel<T>>, shape: [usize; 2]) -> Self {
-        assert!(shape[0] <= kernel.shape[0] && shape[1] <= kernel.shape[1], "kernel smaller than the field");
-        Self {
-            rows: Array2::from_elem([shape[0], kernel.half()], Complex::zero()),
-            strip: vec![Complex::zero(); STRIP * (kernel.shape[0] + ROOM)],
-            real: vec![T::zero(); kernel.shape[1]],
-            scratch: kernel.scratch(),
-            kernel,
-        }
+        Self { transform: Transform::new(&kernel.plans, shape), scratch: Scratch::new(&kernel.plans), kernel }
     }
 
     /// Writes the convolution of `input` into `output`.
@@ -147,63 +187,127 @@ impl<T: FftNum> Convolution<T> {
     /// # Panics
     /// If a field has another shape than the plans.
     pub fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
-        assert!(input.dim() == output.dim() && input.nrows() == self.rows.nrows(), "shape of the fields");
-        self.rows_forward(input);
-        self.columns_through_the_kernel();
-        self.rows_back(output);
+        let Self { kernel, transform, scratch } = self;
+        let plans = &kernel.plans;
+        transform.rows_forward(plans, input, scratch);
+        for first in strips(plans) {
+            transform.columns_forward(plans, first, scratch);
+            for (c, column) in transform.columns(plans, first).enumerate() {
+                let spectrum = kernel.spectrum.row(first + c);
+                let spectrum = spectrum.as_slice().expect("rows are contiguous");
+                let (front, back) = column.split_at_mut(plans.shape[0] / 2 + 1);
+                front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
+                back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
+            }
+            transform.columns_back(plans, first, scratch);
+        }
+        transform.rows_back(plans, kernel.unit, output, scratch);
+    }
+}
+
+/// The first columns of the strips in which columns are transformed.
+pub(super) fn strips<T: FftNum>(plans: &Plans<T>) -> impl Iterator<Item = usize> + use<T> {
+    (0..plans.half()).step_by(STRIP)
+}
+
+/// Scratch of the transforms, which several fields may share.
+pub(super) struct Scratch<T> {
+    row: Vec<T>,
+    plan: Vec<Complex<T>>,
+}
+
+impl<T: FftNum> Scratch<T> {
+    pub(super) fn new(plans: &Plans<T>) -> Self {
+        Self { row: vec![T::zero(); plans.shape[1]], plan: plans.scratch() }
+    }
+}
+
+/// A field on its way through the transforms: its rows, and one strip of columns.
+pub(super) struct Transform<T> {
+    rows: Array2<Complex<T>>,
+    strip: Vec<Complex<T>>,
+}
+
+impl<T: FftNum> Transform<T> {
+    /// For fields of `shape`, which may be smaller than the plans.
+    pub(super) fn new(plans: &Plans<T>, shape: [usize; 2]) -> Self {
+        let [mx, my] = plans.shape;
+        assert!(shape[0] <= mx && shape[1] <= my, "kernel smaller than the field");
+        Self {
+            rows: Array2::from_elem([shape[0], plans.half()], Complex::zero()),
+            strip: vec![Complex::zero(); STRIP * (mx + ROOM)],
+        }
     }
 
-    fn rows_forward(&mut self, input: &Array2<T>) {
+    pub(super) fn rows_forward(&mut self, plans: &Plans<T>, input: &Array2<T>, scratch: &mut Scratch<T>) {
+        assert_eq!(input.nrows(), self.rows.nrows(), "shape of the field");
         let ny = input.ncols();
         for (values, mut half) in input.outer_iter().zip(self.rows.outer_iter_mut()) {
             if values.iter().all(T::is_zero) {
                 half.fill(Complex::zero());
                 continue;
             }
-            self.real[..ny].iter_mut().zip(values).for_each(|(r, p)| *r = *p);
-            self.real[ny..].fill(T::zero());
+            let row = &mut scratch.row;
+            row[..ny].iter_mut().zip(values).for_each(|(r, p)| *r = *p);
+            row[ny..].fill(T::zero());
             let half = half.as_slice_mut().expect("rows are contiguous");
-            let plan = &self.kernel.along_y;
-            plan.process_with_scratch(&mut self.real, half, &mut self.scratch).expect("lengths of the plan");
+            let forward = plans.along_y.process_with_scratch(row, half, &mut scratch.plan);
+            forward.expect("lengths of the plan");
         }
     }
 
-    fn columns_through_the_kernel(&mut self) {
-        let nx = self.rows.nrows();
-        let mx = self.kernel.shape[0];
-        let half = self.kernel.half();
+    /// The columns of the strip that begins at `first`.
+    pub(super) fn columns(
+        &mut self,
+        plans: &Plans<T>,
+        first: usize,
+    ) -> impl Iterator<Item = &mut [Complex<T>]> {
+        let mx = plans.shape[0];
+        let width = STRIP.min(plans.half() - first);
+        self.strip.chunks_exact_mut(mx + ROOM).take(width).map(move |column| &mut column[..mx])
+    }
+
+    pub(super) fn columns_forward(&mut self, plans: &Plans<T>, first: usize, scratch: &mut Scratch<T>) {
+        let (nx, half) = (self.rows.nrows(), plans.half());
         let rows = self.rows.as_slice_mut().expect("standard layout");
-        for first in (0..half).step_by(STRIP) {
-            let width = STRIP.min(half - first);
-            for (block, rows) in rows.chunks(BLOCK * half).enumerate() {
-                for (c, column) in self.strip.chunks_exact_mut(mx + ROOM).take(width).enumerate() {
-                    let column = &mut column[block * BLOCK..][..rows.len() / half];
-                    column.iter_mut().zip(rows.chunks_exact(half)).for_each(|(v, row)| *v = row[first + c]);
-                }
+        let width = STRIP.min(half - first);
+        for (block, rows) in rows.chunks(BLOCK * half).enumerate() {
+            for (c, column) in self.strip.chunks_exact_mut(plans.shape[0] + ROOM).take(width).enumerate() {
+                let column = &mut column[block * BLOCK..][..rows.len() / half];
+                column.iter_mut().zip(rows.chunks_exact(half)).for_each(|(v, row)| *v = row[first + c]);
             }
-            for (c, column) in self.strip.chunks_exact_mut(mx + ROOM).take(width).enumerate() {
-                let column = &mut column[..mx];
-                column[nx..].fill(Complex::zero());
-                self.kernel.along_x.process_with_scratch(column, &mut self.scratch);
-                let spectrum = self.kernel.spectrum.row(first + c);
-                let spectrum = spectrum.as_slice().expect("rows are contiguous");
-                let (front, back) = column.split_at_mut(mx / 2 + 1);
-                front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
-                back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
-                self.kernel.back_x.process_with_scratch(column, &mut self.scratch);
-            }
-            for (block, rows) in rows.chunks_mut(BLOCK * half).enumerate() {
-                for (c, column) in self.strip.chunks_exact(mx + ROOM).take(width).enumerate() {
-                    let column = &column[block * BLOCK..][..rows.len() / half];
-                    column.iter().zip(rows.chunks_exact_mut(half)).for_each(|(v, row)| row[first + c] = *v);
-                }
+        }
+        for column in self.columns(plans, first) {
+            column[nx..].fill(Complex::zero());
+            plans.along_x.process_with_scratch(column, &mut scratch.plan);
+        }
+    }
+
+    pub(super) fn columns_back(&mut self, plans: &Plans<T>, first: usize, scratch: &mut Scratch<T>) {
+        for column in self.columns(plans, first) {
+            plans.back_x.process_with_scratch(column, &mut scratch.plan);
+        }
+        let half = plans.half();
+        let rows = self.rows.as_slice_mut().expect("standard layout");
+        let width = STRIP.min(half - first);
+        for (block, rows) in rows.chunks_mut(BLOCK * half).enumerate() {
+            for (c, column) in self.strip.chunks_exact(plans.shape[0] + ROOM).take(width).enumerate() {
+                let column = &column[block * BLOCK..][..rows.len() / half];
+                column.iter().zip(rows.chunks_exact_mut(half)).for_each(|(v, row)| row[first + c] = *v);
             }
         }
     }
 
-    fn rows_back(&mut self, output: &mut Array2<T>) {
-        let my = self.kernel.shape[1];
-        let unit = self.kernel.unit;
+    /// Brings the rows back, times `unit`.
+    pub(super) fn rows_back(
+        &mut self,
+        plans: &Plans<T>,
+        unit: T,
+        output: &mut Array2<T>,
+        scratch: &mut Scratch<T>,
+    ) {
+        assert_eq!(output.nrows(), self.rows.nrows(), "shape of the field");
+        let my = plans.shape[1];
         for (mut half, mut values) in self.rows.outer_iter_mut().zip(output.outer_iter_mut()) {
             let half = half.as_slice_mut().expect("rows are contiguous");
             // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
@@ -211,9 +315,9 @@ impl<T: FftNum> Convolution<T> {
             if my.is_multiple_of(2) {
                 half[my / 2].im = T::zero();
             }
-            let plan = &self.kernel.back_y;
-            plan.process_with_scratch(half, &mut self.real, &mut self.scratch).expect("lengths of the plan");
-            values.iter_mut().zip(&self.real).for_each(|(u, r)| *u = *r * unit);
+            let back = plans.back_y.process_with_scratch(half, &mut scratch.row, &mut scratch.plan);
+            back.expect("lengths of the plan");
+            values.iter_mut().zip(&scratch.row).for_each(|(u, r)| *u = *r * unit);
         }
     }
 }

@@ -133,7 +133,7 @@ pub fn press(
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
     let grid: Grid = pair.lower_grid();
     let gap = &pair.upper - &pair.lower;
-    let mut operator = Operators::new(pair.pitch(), pair.modulus(), boundary).on(grid.shape);
+    let mut operator = Operators::new(pair.pitch(), *pair.compliances(), boundary).on(grid.shape);
     let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
     let area = pair.cell_area();
     let record = StaticRecord {

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
-use crate::material::{Material, composite_hardness, composite_modulus, plastic_share};
+use crate::material::{Compliances, Material, composite_hardness, plastic_share};
 use crate::motion::path::Position;
 use crate::surface::Topography;
 use crate::units::{Metre, Pascal, SquareMetre};
@@ -15,7 +15,7 @@ pub struct Pair {
     /// Heights of the upper body's underside, m.
     pub upper: Field,
     pitch: [Metre; 2],
-    modulus: Pascal,
+    compliances: Compliances,
     hardness: Pascal,
     share: f64,
 }
@@ -54,7 +54,7 @@ impl Pair {
             pitch: a.pitch,
             lower: lower.into_heights(),
             upper: upper.into_heights(),
-            modulus: composite_modulus(materials[0], materials[1])?,
+            compliances: Compliances::new(materials[0], materials[1])?,
             hardness: composite_hardness(materials[0], materials[1]),
             share: plastic_share(materials[0], materials[1]),
         })
@@ -72,7 +72,12 @@ impl Pair {
 
     /// Composite modulus E*.
     pub fn modulus(&self) -> Pascal {
-        self.modulus
+        self.compliances.modulus()
+    }
+
+    /// The elastic constants of the pair.
+    pub fn compliances(&self) -> &Compliances {
+        &self.compliances
     }
 
     /// Hardness of the pair, infinite where both bodies are elastic.

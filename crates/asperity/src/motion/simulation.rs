@@ -42,7 +42,7 @@ impl Simulation {
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
         motion.control.check_limit(limit)?;
-        let operators = Operators::new(pair.pitch(), pair.modulus(), boundary);
+        let operators = Operators::new(pair.pitch(), *pair.compliances(), boundary);
         let together =
             memory_together(&motion, params.method, pair.hardness(), &columns, pair.lower.ncols()).is_some();
         Ok(Self {

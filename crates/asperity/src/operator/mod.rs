@@ -1,10 +1,12 @@
-//! Operators: pressure in, displacement out.
+//! Operators: traction in, displacement out.
 
+mod coupled;
 mod direct_sum;
 mod family;
 mod free_fft;
 mod periodic_fft;
 
+pub use coupled::{CoupledFft, CoupledOperator, CoupledSum};
 pub use direct_sum::DirectSum;
 pub use family::{Boundary, Operators};
 pub use free_fft::{FreeFamily, FreeFft};

@@ -1,0 +1,295 @@
+//! Convolution of three fields with a tensor of kernels by real Fourier transforms.
+
+use std::sync::Arc;
+
+use realfft::num_complex::Complex64;
+use rustfft::num_traits::Zero;
+
+use crate::grid::Field;
+use crate::math::convolution::{Parity, Plans, Scratch, Transform, strips};
+
+const PARITIES: [[Parity; 2]; 6] = [
+    [Parity::Even, Parity::Even],
+    [Parity::Odd, Parity::Odd],
+    [Parity::Even, Parity::Even],
+    [Parity::Odd, Parity::Even],
+    [Parity::Even, Parity::Odd],
+    [Parity::Even, Parity::Even],
+];
+
+/// A cyclic tensor in Fourier space, with the plans of its size:
+///
+/// ```text
+/// xx   xy  −zx     xx, yy, zz   even in x and in y
+/// xy   yy  −zy     xy           odd in both
+/// zx   zy   zz     zx, zy       odd in x, in y
+/// ```
+///
+/// What is odd at an offset of half an even period, which is its own opposite, counts as zero.
+pub struct TensorKernel {
+    plans: Plans<f64>,
+    /// xx, xy, yy, zx, zy, zz; zx and zy as the imaginary parts of what has no real one.
+    spectra: [Field; 6],
+    /// Whether zx or zy are not zero.
+    coupled: bool,
+}
+
+impl TensorKernel {
+    /// The tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the offsets i, j,
+    /// for `i ≤ Mx/2`, `j ≤ My/2`.
+    pub fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+        let plans = Plans::new(shape);
+        let tables = tables(shape, at);
+        let spectra = std::array::from_fn(|n| {
+            let spectrum = plans.spectrum(&tables[n], PARITIES[n]);
+            // i² where both axes are odd.
+            if PARITIES[n] == [Parity::Odd; 2] { -spectrum } else { spectrum }
+        });
+        Self::new(plans, spectra)
+    }
+
+    /// The tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i, zy/i, zz) at its
+    /// bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    pub fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+        let own_opposite = |k: usize, n: usize| k == 0 || 2 * k == n;
+        let mut spectra =
+            tables(shape, at).map(|table| table.reversed_axes().as_standard_layout().into_owned());
+        for (spectrum, parity) in spectra.iter_mut().zip(PARITIES) {
+            for ((ky, kx), value) in spectrum.indexed_iter_mut() {
+                let odd =
+                    |axis: usize| parity[axis] == Parity::Odd && own_opposite([kx, ky][axis], shape[axis]);
+                if odd(0) || odd(1) {
+                    *value = 0.0;
+                }
+            }
+        }
+        Self::new(Plans::new(shape), spectra)
+    }
+
+    fn new(plans: Plans<f64>, mut spectra: [Field; 6]) -> Self {
+        let cells = (plans.shape[0] * plans.shape[1]) as f64;
+        spectra.iter_mut().for_each(|spectrum| *spectrum /= cells);
+        let coupled = spectra[3..5].iter().flatten().any(|s| *s != 0.0);
+        Self { plans, spectra, coupled }
+    }
+}
+
+fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6] {
+    let half = shape.map(|n| n / 2 + 1);
+    let mut tables: [Field; 6] = std::array::from_fn(|_| Field::zeros(half));
+    for i in 0..half[0] {
+        for j in 0..half[1] {
+            at(i, j).into_iter().zip(&mut tables).for_each(|(value, table)| table[[i, j]] = value);
+        }
+    }
+    tables
+}
+
+/// Convolution of three fields of one shape with a [`TensorKernel`], as [`super::Convolution`] does it of one.
+///
+/// Each field given is transformed once, each field asked for transformed back once.
+pub struct TensorConvolution {
+    kernel: Arc<TensorKernel>,
+    transforms: [Transform<f64>; 3],
+    scratch: Scratch<f64>,
+}
+
+impl TensorConvolution {
+    /// The convolution of fields of `shape`.
+    ///
+    /// # Panics
+    /// If the kernel is smaller than `shape`.
+    pub fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
+        Self {
+            transforms: std::array::from_fn(|_| Transform::new(&kernel.plans, shape)),
+            scratch: Scratch::new(&kernel.plans),
+            kernel,
+        }
+    }
+
+    /// Writes into the fields asked for the convolution of the fields given; those that are not given are zero.
+    ///
+    /// # Panics
+    /// If a field has another shape than the plans.
+    pub fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
+        let Self { kernel, transforms, scratch } = self;
+        let plans = &kernel.plans;
+        let given = input.map(|field| field.is_some());
+        let asked = output.each_ref().map(|field| field.is_some());
+        // Without coupling the fields in the plane and the one along z do not meet.
+        let meet = |flags: [bool; 3]| match kernel.coupled {
+            true => [flags.contains(&true); 3],
+            false => [flags[0] || flags[1], flags[0] || flags[1], flags[2]],
+        };
+        let both = |a: [bool; 3], b: [bool; 3]| std::array::from_fn::<bool, 3, _>(|n| a[n] && b[n]);
+        let (forward, back) = (both(given, meet(asked)), both(asked, meet(given)));
+        for ((transform, field), forward) in transforms.iter_mut().zip(input).zip(forward) {
+            if let (Some(field), true) = (field, forward) {
+                transform.rows_forward(plans, field, scratch);
+            }
+        }
+        for first in strips(plans) {
+            for (transform, forward) in transforms.iter_mut().zip(forward) {
+                if forward {
+                    transform.columns_forward(plans, first, scratch);
+                } else {
+                    transform.columns(plans, first).for_each(|column| column.fill(Complex64::zero()));
+                }
+            }
+            let [x, y, z] = transforms.each_mut();
+            let columns = x.columns(plans, first).zip(y.columns(plans, first)).zip(z.columns(plans, first));
+            for (c, ((x, y), z)) in columns.enumerate() {
+                kernel.multiply(first + c, [x, y, z]);
+            }
+            for (transform, back) in transforms.iter_mut().zip(back) {
+                if back {
+                    transform.columns_back(plans, first, scratch);
+                }
+            }
+        }
+        for ((transform, field), back) in transforms.iter_mut().zip(output).zip(back) {
+            match field {
+                Some(field) if back => transform.rows_back(plans, 1.0, field, scratch),
+                Some(field) => field.fill(0.0),
+                None => {}
+            }
+        }
+    }
+}
+
+impl TensorKernel {
+    /// Multiplies the columns of the three fields at the bin `ky` by the tensor.
+    fn multiply(&self, ky: usize, [x, y, z]: [&mut [Complex64]; 3]) {
+        let rows = self.spectra.each_ref().map(|spectrum| spectrum.row(ky));
+        let spectra = rows.each_ref().map(|row| row.as_slice().expect("rows are contiguous"));
+        let [xx, xy, yy, zx, zy, zz] = spectra;
+        let mx = x.len();
+        let mut at = |k: usize, bin: usize, sign: f64| {
+            let (a, b, c) = (x[k], y[k], z[k]);
+            let (xy, zx, zy) = (sign * xy[bin], sign * zx[bin], zy[bin]);
+            x[k] = a.scale(xx[bin]) + b.scale(xy) - times_i(c).scale(zx);
+            y[k] = a.scale(xy) + b.scale(yy[bin]) - times_i(c).scale(zy);
+            z[k] = times_i(a.scale(zx) + b.scale(zy)) + c.scale(zz[bin]);
+        };
+        (0..=mx / 2).for_each(|k| at(k, k, 1.0));
+        (mx / 2 + 1..mx).for_each(|k| at(k, mx - k, -1.0));
+    }
+}
+
+fn times_i(value: Complex64) -> Complex64 {
+    Complex64::new(-value.im, value.re)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tensor of the right parities on offsets within a few cells, on a cyclic grid of `shape`.
+    fn value(shape: [usize; 2], offset: [isize; 2]) -> [f64; 6] {
+        let [i, j] = [0, 1].map(|axis| {
+            let n = shape[axis] as isize;
+            let wrapped = (offset[axis] + n / 2).rem_euclid(n) - n / 2;
+            (wrapped as f64, 2 * wrapped.abs() == n)
+        });
+        let decay = 1.0 / (1.0 + i.0 * i.0 + 0.5 * j.0 * j.0);
+        let (x, y) = (if i.1 { 0.0 } else { i.0 }, if j.1 { 0.0 } else { j.0 });
+        [1.0 + i.0 * i.0, 0.7 * x * y, 2.0 + j.0 * j.0, 0.9 * x, -1.3 * y, 1.5].map(|v| v * decay)
+    }
+
+    fn fields(shape: [usize; 2]) -> [Field; 3] {
+        std::array::from_fn(|n| {
+            Field::from_shape_fn(shape, |(i, j)| ((5 * i + 3 * j * j + 7 * n * i * j) % 11) as f64 - 4.0)
+        })
+    }
+
+    fn slowly(shape: [usize; 2], input: &[Field; 3]) -> [Field; 3] {
+        let [nx, ny] = input[0].dim().into();
+        std::array::from_fn(|row| {
+            Field::from_shape_fn([nx, ny], |(i, j)| {
+                let mut sum = 0.0;
+                for ((k, l), _) in input[0].indexed_iter() {
+                    let offset = [i as isize - k as isize, j as isize - l as isize];
+                    let [xx, xy, yy, zx, zy, zz] = value(shape, offset);
+                    let matrix = [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]];
+                    sum += (0..3).map(|n| matrix[row][n] * input[n][[k, l]]).sum::<f64>();
+                }
+                sum
+            })
+        })
+    }
+
+    fn kernel(shape: [usize; 2]) -> Arc<TensorKernel> {
+        Arc::new(TensorKernel::from_values(shape, |i, j| value(shape, [i as isize, j as isize])))
+    }
+
+    fn assert_close(fast: &Field, slow: &Field) {
+        let error = fast.iter().zip(slow).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+        assert!(error < 1e-11, "{error:e}");
+    }
+
+    #[test]
+    fn it_is_the_sum_for_even_and_odd_sizes_whole_and_padded() {
+        for (shape, cells) in
+            [([1, 1], [1, 1]), ([6, 4], [6, 4]), ([5, 7], [5, 7]), ([9, 8], [5, 4]), ([1, 6], [1, 3])]
+        {
+            let input = fields(cells);
+            let slow = slowly(shape, &input);
+            let mut fast = std::array::from_fn(|_| Field::zeros(cells));
+            let mut convolution = TensorConvolution::new(kernel(shape), cells);
+            convolution.apply(input.each_ref().map(Some), fast.each_mut().map(Some));
+            fast.iter().zip(&slow).for_each(|(fast, slow)| assert_close(fast, slow));
+        }
+    }
+
+    #[test]
+    fn what_is_not_given_is_zero_and_what_is_not_asked_for_is_left_alone() {
+        let (shape, cells) = ([8, 9], [4, 5]);
+        let input = fields(cells);
+        let zero = Field::zeros(cells);
+        for coupled in [true, false] {
+            let kernel = TensorKernel::from_values(shape, |i, j| {
+                let mut at = value(shape, [i as isize, j as isize]);
+                if !coupled {
+                    at[3..5].fill(0.0);
+                }
+                at
+            });
+            let mut convolution = TensorConvolution::new(Arc::new(kernel), cells);
+            for given in 0..8 {
+                let given = [0, 1, 2].map(|n| given >> n & 1 == 1);
+                let padded = std::array::from_fn(|n| if given[n] { &input[n] } else { &zero });
+                let mut whole = std::array::from_fn(|_| Field::zeros(cells));
+                convolution.apply(padded.map(Some), whole.each_mut().map(Some));
+                for asked in 0..8 {
+                    let mut part: [Field; 3] = std::array::from_fn(|_| Field::from_elem(cells, 9.0));
+                    let mut n = 0;
+                    let output = part.each_mut().map(|field| {
+                        n += 1;
+                        (asked >> (n - 1) & 1 == 1).then_some(field)
+                    });
+                    convolution.apply(std::array::from_fn(|n| given[n].then_some(&input[n])), output);
+                    for n in 0..3 {
+                        match asked >> n & 1 {
+                            1 => assert_close(&part[n], &whole[n]),
+                            _ => assert!(part[n].iter().all(|v| *v == 9.0)),
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_and_their_transforms_make_the_same_tensor() {
+        for shape in [[6, 4], [5, 7]] {
+            let from_values = kernel(shape);
+            let cells = (shape[0] * shape[1]) as f64;
+            let again = TensorKernel::from_transforms(shape, |kx, ky| {
+                from_values.spectra.each_ref().map(|spectrum| spectrum[[ky, kx]] * cells)
+            });
+            for (a, b) in again.spectra.iter().zip(&from_values.spectra) {
+                assert_close(a, b);
+            }
+        }
+    }
+}

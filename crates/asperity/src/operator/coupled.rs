@@ -1,0 +1,269 @@
+//! Traction in all directions in, displacement in all directions out.
+
+use std::sync::Arc;
+
+use crate::grid::{Field, Grid};
+use crate::kernel::{Coefficients, coupled_displacement, spectral::harmonic_displacements};
+use crate::material::Compliances;
+use crate::math::fft::angular_frequency;
+use crate::math::{TensorConvolution, TensorKernel};
+use crate::operator::{DirectSum, Operator};
+
+/// The displacement of a half-space pair under normal and tangential traction, in the order x, y, z of
+/// [`Coefficients`]: in the plane that of the lower body less that of the upper one, along z what opens the gap.
+pub trait CoupledOperator: Send {
+    /// The grid that it acts on.
+    fn grid(&self) -> &Grid;
+
+    /// The elastic constants of the pair.
+    fn compliances(&self) -> &Compliances;
+
+    /// Displacement of a cell per unit traction on itself, m/Pa.
+    fn self_influence(&self) -> Coefficients;
+
+    /// The part of it that is normal.
+    fn normal(&mut self) -> &mut dyn Operator;
+
+    /// Writes into the displacements asked for those under the tractions given; what is not given is zero. All have the
+    /// grid's shape.
+    fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]);
+}
+
+/// The free boundary by direct summation of the nine influence coefficients: what the transforms are measured against.
+pub struct CoupledSum {
+    normal: DirectSum,
+    compliances: Compliances,
+}
+
+impl CoupledSum {
+    /// The operator on `grid`.
+    pub fn new(grid: Grid, compliances: Compliances) -> Self {
+        Self { normal: DirectSum::new(grid, compliances.modulus()), compliances }
+    }
+}
+
+impl CoupledOperator for CoupledSum {
+    fn grid(&self) -> &Grid {
+        self.normal.grid()
+    }
+
+    fn compliances(&self) -> &Compliances {
+        &self.compliances
+    }
+
+    fn self_influence(&self) -> Coefficients {
+        coupled_displacement(0.0, 0.0, self.grid().pitch, &self.compliances)
+    }
+
+    fn normal(&mut self) -> &mut dyn Operator {
+        &mut self.normal
+    }
+
+    fn apply(&mut self, traction: [Option<&Field>; 3], mut displacement: [Option<&mut Field>; 3]) {
+        let Grid { shape: [nx, ny], pitch } = *self.grid();
+        displacement.iter_mut().flatten().for_each(|field| field.fill(0.0));
+        for i in 0..2 * nx - 1 {
+            for j in 0..2 * ny - 1 {
+                // Cells [k + i, l + j] − [nx − 1, ny − 1] under the traction on [k, l].
+                let (x, y) = (i as f64 - (nx - 1) as f64, j as f64 - (ny - 1) as f64);
+                let at = coupled_displacement(x * pitch[0], y * pitch[1], pitch, &self.compliances).matrix();
+                for (u, at) in displacement.iter_mut().zip(at) {
+                    let Some(u) = u else { continue };
+                    for (t, at) in traction.iter().zip(at).filter_map(|(t, at)| t.map(|t| (t, at))) {
+                        for k in (nx - 1).saturating_sub(i)..nx.min(2 * nx - 1 - i) {
+                            for l in (ny - 1).saturating_sub(j)..ny.min(2 * ny - 1 - j) {
+                                u[[k + i + 1 - nx, l + j + 1 - ny]] += at * t[[k, l]];
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What all coupled operators of one cyclic grid share.
+pub(super) struct CoupledKernel {
+    kernel: Arc<TensorKernel>,
+    self_influence: Coefficients,
+}
+
+impl CoupledKernel {
+    /// For grids that fit into the `padded` one, free at their edges.
+    pub(super) fn free(padded: [usize; 2], pitch: [f64; 2], compliances: &Compliances) -> Arc<Self> {
+        let at = |i: usize, j: usize| {
+            let (x, y) = (i as f64 * pitch[0], j as f64 * pitch[1]);
+            in_order(coupled_displacement(x, y, pitch, compliances))
+        };
+        let self_influence = coupled_displacement(0.0, 0.0, pitch, compliances);
+        Arc::new(Self { kernel: Arc::new(TensorKernel::from_values(padded, at)), self_influence })
+    }
+
+    /// For the periodic `grid`.
+    pub(super) fn periodic(grid: &Grid, compliances: &Compliances) -> Arc<Self> {
+        let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
+        let kernel = Arc::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
+            in_order(harmonic_displacements(q(kx, 0), q(ky, 1), compliances))
+        }));
+        let mut convolution = TensorConvolution::new(Arc::clone(&kernel), grid.shape);
+        let mut unit = grid.zeros();
+        unit[[0, 0]] = 1.0;
+        let mut under = |axis: usize| {
+            let mut u: [Field; 3] = std::array::from_fn(|_| grid.zeros());
+            let loaded = std::array::from_fn(|n| (n == axis).then_some(&unit));
+            convolution.apply(loaded, u.each_mut().map(Some));
+            u.map(|u| u[[0, 0]])
+        };
+        let ([xx, xy, zx], [_, yy, zy], [.., zz]) = (under(0), under(1), under(2));
+        Arc::new(Self { kernel, self_influence: Coefficients { xx, xy, yy, zx, zy, zz } })
+    }
+
+    /// The operator on `grid`, beside its `normal` part.
+    pub(super) fn operator(
+        &self,
+        grid: Grid,
+        compliances: Compliances,
+        normal: Box<dyn Operator>,
+    ) -> CoupledFft {
+        let convolution = TensorConvolution::new(Arc::clone(&self.kernel), grid.shape);
+        CoupledFft { grid, compliances, self_influence: self.self_influence, normal, convolution }
+    }
+}
+
+fn in_order(at: Coefficients) -> [f64; 6] {
+    [at.xx, at.xy, at.yy, at.zx, at.zy, at.zz]
+}
+
+/// All nine coefficients by real transforms, free or periodic as the normal part is: three transforms forth and three
+/// back for a whole traction, fewer where less is given or asked for.
+///
+/// With a periodic boundary the mean displacement is free in all directions, and taken as zero.
+pub struct CoupledFft {
+    grid: Grid,
+    compliances: Compliances,
+    self_influence: Coefficients,
+    normal: Box<dyn Operator>,
+    convolution: TensorConvolution,
+}
+
+impl CoupledOperator for CoupledFft {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn compliances(&self) -> &Compliances {
+        &self.compliances
+    }
+
+    fn self_influence(&self) -> Coefficients {
+        self.self_influence
+    }
+
+    fn normal(&mut self) -> &mut dyn Operator {
+        self.normal.as_mut()
+    }
+
+    fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]) {
+        self.convolution.apply(traction, displacement);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+    use crate::operator::{Boundary, Operators};
+    use std::f64::consts::TAU;
+
+    fn steel_on_rubber() -> Compliances {
+        let steel = Material::elastic(210e9, 0.3).unwrap();
+        let polymer = Material::elastic(3e9, 0.4).unwrap();
+        Compliances::new(&polymer, &steel).unwrap()
+    }
+
+    fn displacement(operator: &mut dyn CoupledOperator, traction: &[Field; 3]) -> [Field; 3] {
+        let mut u = std::array::from_fn(|_| operator.grid().zeros());
+        operator.apply(traction.each_ref().map(Some), u.each_mut().map(Some));
+        u
+    }
+
+    fn largest(field: &Field) -> f64 {
+        field.iter().fold(0.0, |m, v| m.max(v.abs()))
+    }
+
+    #[test]
+    fn the_free_transform_is_the_direct_sum_to_round_off() {
+        let pair = steel_on_rubber();
+        for (shape, pitch) in [([12, 12], [1e-6, 1e-6]), ([1, 9], [1.0, 0.5]), ([17, 10], [0.3, 1.0])] {
+            let grid = Grid::new(shape, pitch).unwrap();
+            let traction: [Field; 3] = std::array::from_fn(|n| {
+                Field::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j * j + n * i * j) % 11) as f64 - 3.0)
+            });
+            let slow = displacement(&mut CoupledSum::new(grid, pair), &traction);
+            let mut operator = Operators::new(pitch, pair, Boundary::Free).coupled_on(shape);
+            let fast = displacement(operator.as_mut(), &traction);
+            for (fast, slow) in fast.iter().zip(&slow) {
+                assert!(largest(&(fast - slow)) < 1e-13 * largest(slow), "{shape:?}");
+            }
+            let mut normal = grid.zeros();
+            operator.normal().apply(&traction[2], &mut normal);
+            let mut alone = grid.zeros();
+            operator.apply([None, None, Some(&traction[2])], [None, None, Some(&mut alone)]);
+            assert!(largest(&(&alone - &normal)) < 1e-14 * largest(&normal));
+        }
+    }
+
+    #[test]
+    fn a_periodic_wave_of_shear_along_its_crests_and_across_them() {
+        let pair = steel_on_rubber();
+        let grid = Grid::new([12, 10], [0.5, 0.25]).unwrap();
+        let [lx, ly] = grid.extent();
+        let phase = |i, j| TAU * (2.0 * grid.centre(0, i) / lx + grid.centre(1, j) / ly);
+        let wave = |f: fn(f64) -> f64| Field::from_shape_fn(grid.shape, |(i, j)| f(phase(i, j)));
+        let (kx, ky) = (2.0 * TAU / lx, TAU / ly);
+        let k = kx.hypot(ky);
+        let (c, s) = (kx / k, ky / k);
+        let cos = wave(f64::cos);
+        let mut operator = Operators::new(grid.pitch, pair, Boundary::Periodic).coupled_on(grid.shape);
+        // Across the crests (along k): plane strain, as stiff as under pressure, and it lifts the surface.
+        let across = displacement(operator.as_mut(), &[c * &cos, s * &cos, grid.zeros()]);
+        let lifted = wave(f64::sin);
+        // Along the crests: antiplane, 1/E* + 1/N* = Σ 1/2G.
+        let along = displacement(operator.as_mut(), &[-s * &cos, c * &cos, grid.zeros()]);
+        let stiff = 2.0 / k * (pair.normal + pair.lateral);
+        let soft = 2.0 / k * pair.normal;
+        let expected = [
+            [c * soft * &cos, s * soft * &cos, 2.0 / k * pair.coupling * &lifted],
+            [-s * stiff * &cos, c * stiff * &cos, grid.zeros()],
+        ];
+        for (found, expected) in across.iter().chain(&along).zip(expected.iter().flatten()) {
+            assert!(largest(&(found - expected)) < 1e-13 * stiff);
+        }
+        let unit = Field::from_shape_fn(grid.shape, |at| if at == (0, 0) { 1.0 } else { 0.0 });
+        let under = displacement(operator.as_mut(), &[unit, grid.zeros(), grid.zeros()]);
+        assert!((under[0][[0, 0]] / operator.self_influence().xx - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn tractions_do_the_same_work_on_each_others_displacements() {
+        let pair = steel_on_rubber();
+        let shape = [9, 8];
+        let traction = |seed: usize| -> [Field; 3] {
+            std::array::from_fn(|n| {
+                Field::from_shape_fn(shape, |(i, j)| {
+                    ((seed * i + 3 * j * j + n * i * j + seed * n) % 13) as f64 - 6.0
+                })
+            })
+        };
+        let (one, other) = (traction(5), traction(8));
+        let work = |t: &[Field; 3], u: &[Field; 3]| t.iter().zip(u).map(|(t, u)| (t * u).sum()).sum::<f64>();
+        for boundary in [Boundary::Free, Boundary::Periodic] {
+            let mut operator = Operators::new([1.0, 0.8], pair, boundary).coupled_on(shape);
+            let (under_one, under_other) =
+                (displacement(operator.as_mut(), &one), displacement(operator.as_mut(), &other));
+            let (a, b) = (work(&other, &under_one), work(&one, &under_other));
+            assert!((a - b).abs() < 1e-12 * work(&one, &under_one), "{boundary:?}: {a:e} and {b:e}");
+            assert!(work(&one, &under_one) > 0.0);
+        }
+    }
+}
