@@ -109,6 +109,16 @@ pub enum Error {
         /// The largest load that can be carried.
         limit: Newton,
     },
+    /// The tangential force is more than friction can hold: the bodies slide.
+    #[error(
+        "tangential force {force:.6e} N is not below what friction holds, {limit:.6e} N: the bodies slide"
+    )]
+    BeyondFriction {
+        /// The force asked for.
+        force: Newton,
+        /// What it must stay below.
+        limit: Newton,
+    },
     /// The iteration ended above the tolerance.
     #[error(
         "no equilibrium after {iterations} iterations: residual {residual:.2e}, tolerance {tolerance:.2e}"

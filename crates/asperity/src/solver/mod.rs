@@ -5,6 +5,7 @@ mod bounds;
 mod cascade;
 mod coarse_correction;
 mod direct;
+mod friction;
 mod polonsky_keer;
 mod preconditioner;
 mod residual;
@@ -13,6 +14,9 @@ mod site;
 mod sparse_inverse;
 mod together;
 
+pub use friction::{
+    Coupling, Friction, FrictionalSolution, Loading, Rolling, Tangential, solve_frictional, solve_rolling,
+};
 pub use residual::{Residual, residual};
 pub(crate) use site::{Kept, Site, coarse_gap};
 pub(crate) use together::solve_together;
@@ -76,6 +80,17 @@ pub struct Stats {
     pub convolutions: f64,
     /// Returns to the last feasible pressure, for lack of progress.
     pub restarts: usize,
+}
+
+impl Stats {
+    /// Of both.
+    fn and(&self, other: &Self) -> Self {
+        Self {
+            iterations: self.iterations + other.iterations,
+            convolutions: self.convolutions + other.convolutions,
+            restarts: self.restarts + other.restarts,
+        }
+    }
 }
 
 /// A contact in equilibrium.

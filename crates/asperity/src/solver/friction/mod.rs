@@ -1,0 +1,312 @@
+//! The contact with friction: normal and tangential tractions, and where the bodies stick.
+
+mod disc;
+mod law;
+mod rolling;
+mod shear;
+
+pub use law::{Coupling, Friction};
+pub use rolling::{Rolling, solve_rolling};
+
+use crate::error::{Result, check};
+use crate::grid::Field;
+use crate::operator::CoupledOperator;
+use crate::solver::{Control, Params, Solution, Stats, residual, solve_normal};
+use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
+
+use shear::{Answer, Rigid, ShearSolver, Task};
+
+/// What is prescribed in the plane, along x and y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tangential {
+    /// Rigid-body displacement D of the upper body against the lower one, from the beginning of the loading.
+    Displacement([Metre; 2]),
+    /// Force of the upper body on the lower one.
+    Force([Newton; 2]),
+    /// The upper body slides in this direction, a unit vector, at every cell.
+    Sliding([f64; 2]),
+}
+
+/// What is prescribed at the end of an increment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loading {
+    /// In the normal direction.
+    pub normal: Control,
+    /// In the plane.
+    pub tangential: Tangential,
+}
+
+/// A contact with friction in equilibrium, at the end of an increment of its loading.
+#[derive(Debug, Clone)]
+pub struct FrictionalSolution {
+    /// Pressure, approach, and the normal displacement under pressure and shear together; the residual is the larger of
+    /// the normal and the tangential one.
+    pub normal: Solution,
+    /// Shear tractions q along x and y on the lower body, Pa.
+    pub shear: [Field; 2],
+    /// Most shear that each cell bears, Pa.
+    pub bound: Field,
+    /// Tangential displacement u along x and y, lower minus upper body, m.
+    pub displacement: [Field; 2],
+    /// Rigid-body displacement D of the upper body against the lower one; from the end of the sliding, after sliding.
+    pub shift: [Metre; 2],
+    /// Slip of the upper surface over the lower one in this increment along x and y, m; 0 where they do not touch, and in
+    /// gross sliding, where it is not bounded.
+    pub slip: [Field; 2],
+}
+
+impl FrictionalSolution {
+    /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
+    pub fn force(&self, cell_area: SquareMetre) -> [Newton; 2] {
+        self.shear.each_ref().map(|q| cell_area * q.sum())
+    }
+
+    /// 1 where the bodies touch and stick, |q| < bound, else 0.
+    pub fn stick(&self) -> Field {
+        let mut stick = self.bound.clone();
+        ndarray::Zip::from(&mut stick)
+            .and(&self.shear[0])
+            .and(&self.shear[1])
+            .for_each(|s, x, y| *s = if x.hypot(*y) < *s * (1.0 - RIM) { 1.0 } else { 0.0 });
+        stick
+    }
+
+    /// Elastic energy ½ ΔA Σ (p u_z + q·u) (periodic: without that of the mean displacements, which are free).
+    pub fn elastic_energy(&self, cell_area: SquareMetre) -> Joule {
+        let work = |t: &Field, u: &Field| (t * u).sum();
+        let tangential: f64 = self.shear.iter().zip(&self.displacement).map(|(q, u)| work(q, u)).sum();
+        self.normal.elastic_energy(cell_area) + 0.5 * cell_area * tangential
+    }
+
+    /// Energy ΔA Σ ½(q₀ + q)·Δs that friction took in this increment, q₀ the shear `before` it.
+    ///
+    /// Over a closed cycle of tangential loading this is the area of the hysteresis loop, but for what pressures and gaps
+    /// of cells that open and close leave, of second order in the increment.
+    pub fn dissipation(&self, before: Option<&Self>, cell_area: SquareMetre) -> Joule {
+        let axis = |n: usize| {
+            let now = (&self.shear[n] * &self.slip[n]).sum();
+            let then = before.map_or(0.0, |before| (&before.shear[n] * &self.slip[n]).sum());
+            0.5 * (now + then)
+        };
+        cell_area * (axis(0) + axis(1))
+    }
+}
+
+/// Shear within this share of its bound is on the rim.
+const RIM: f64 = 1e-9;
+/// Residual of the first round where pressure and shear influence each other.
+const FIRST: f64 = 3e-2;
+/// Each round is solved to so much of the residual that the last one left.
+const SHARPER: f64 = 0.1;
+/// The last round is solved to so much of the tolerance.
+const LAST: f64 = 0.5;
+/// Rounds after which the iteration is given up.
+const MOST_ROUNDS: usize = 200;
+
+/// Solves one increment of a contact with friction, implicitly: the normal contact of [`solve_normal`] together with
+///
+/// ```text
+/// |q| ≤ g = min(μp, τ);   |q| < g ⇒ Δs = 0;   |q| = g ⇒ Δs = λ q, λ ≥ 0
+/// s = D − u(q, p),   Δs = s − s₀
+/// ```
+///
+/// s₀ belongs to the solution `before`, of which there is none for bodies that have not touched yet. Normal and tangential
+/// problems are solved in turn, each for the tractions of the other (Panagiotopoulos 1975), until both are met: at once
+/// where shear does not displace the surface normally. Residuals are η of [`residual()`], and its like
+///
+/// ```text
+/// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
+/// ```
+///
+/// # Errors
+/// Those of [`solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
+pub fn solve_frictional(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    friction: &Friction,
+    loading: Loading,
+    before: Option<&FrictionalSolution>,
+    params: &Params,
+) -> Result<FrictionalSolution> {
+    let friction = friction.checked()?;
+    validate(&loading.tangential)?;
+    let mut bodies = Bodies { operator, coupling: friction.coupling, convolutions: 0.0 };
+    let grid = *bodies.operator.grid();
+    let alternates = bodies.shear_lifts();
+    let slip_before =
+        before.map(|before| [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.shift[axis] - u)));
+    let mut shear = before.map_or_else(|| [grid.zeros(), grid.zeros()], |before| before.shear.clone());
+    let mut lift = bodies.lift(&shear);
+    let mut pressure = before.map(|before| before.normal.pressure.clone());
+    let mut solver = None;
+    let mut stats = Stats::default();
+    let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
+    for _ in 0..MOST_ROUNDS {
+        let gap = lift.as_ref().map(|lift| initial_gap + lift);
+        let params_now = Params { tolerance, ..*params };
+        let mut normal = solve_normal(
+            bodies.operator.normal(),
+            gap.as_ref().unwrap_or(initial_gap),
+            hardness,
+            loading.normal,
+            pressure.as_ref(),
+            &params_now,
+        )?;
+        stats = stats.and(&normal.stats);
+        let bound = normal.pressure.mapv(|p| friction.bound(p));
+        let scale = shear_scale(&normal, &bound, bodies.operator);
+        let mut hold = |control| {
+            let free_slip = bodies.free_slip(&normal.pressure, slip_before.as_ref());
+            let solver = solver.get_or_insert_with(|| ShearSolver::new(bodies.operator));
+            let task = Task { bound: &bound, free_slip: &free_slip, control, scale, tolerance };
+            solver.solve(bodies.operator, &task, &shear, params.max_convolutions)
+        };
+        let answer = match loading.tangential {
+            Tangential::Displacement(shift) => hold(Rigid::Shift(shift))?,
+            Tangential::Force(force) => hold(Rigid::Force(force))?,
+            Tangential::Sliding(direction) => {
+                Answer { shear: direction.map(|n| &bound * n), shift: [0.0; 2], residual: 0.0 }
+            }
+        };
+        shear = answer.shear;
+        lift = bodies.lift(&shear);
+        if let Some(lift) = &lift {
+            normal.displacement += lift;
+            let approach = match loading.normal {
+                Control::Approach(approach) => Some(approach),
+                Control::Load(_) => None,
+            };
+            let c0 = bodies.operator.self_influence().zz;
+            let state = residual(&normal.pressure, &normal.displacement, initial_gap, hardness, c0, approach);
+            (normal.residual, normal.approach) = (state.eta, state.approach);
+        }
+        let reached = normal.residual.max(answer.residual);
+        if reached <= params.tolerance {
+            if let Some(solver) = &solver {
+                stats = stats.and(&solver.stats);
+            }
+            let displacement = bodies.displacement(&shear, &normal.pressure);
+            stats.convolutions += bodies.convolutions;
+            normal.residual = reached;
+            normal.stats = stats;
+            let slip = slip(&loading, &normal.pressure, answer.shift, &displacement, slip_before.as_ref());
+            let shift = answer.shift;
+            return Ok(FrictionalSolution { normal, shear, bound, displacement, shift, slip });
+        }
+        tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
+        pressure = Some(normal.pressure);
+    }
+    Err(crate::Error::NotConverged {
+        iterations: stats.iterations,
+        residual: tolerance / SHARPER,
+        tolerance: params.tolerance,
+    })
+}
+
+fn validate(tangential: &Tangential) -> Result<()> {
+    match *tangential {
+        Tangential::Displacement(shift) => shift
+            .into_iter()
+            .try_for_each(|d| check("tangential displacement", d, d.is_finite(), "a finite length")),
+        Tangential::Force(force) => {
+            force.into_iter().try_for_each(|f| check("tangential force", f, f.is_finite(), "a finite force"))
+        }
+        Tangential::Sliding([x, y]) => {
+            let length = x.hypot(y);
+            check("length of the sliding direction", length, (length - 1.0).abs() < 1e-9, "a unit vector")
+        }
+    }
+}
+
+/// What a residual of the tangential problem is a share of.
+fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator) -> Metre {
+    let local = operator.self_influence().zz * normal.max_pressure();
+    let deviation = normal.displacement.std(0.0);
+    let scale = if deviation <= 1e-12 * local { local } else { deviation };
+    let share = (bound.sum() / normal.pressure.sum()).min(1.0);
+    if share > 0.0 { share * scale } else { 1.0 }
+}
+
+fn slip(
+    loading: &Loading,
+    pressure: &Field,
+    shift: [Metre; 2],
+    displacement: &[Field; 2],
+    before: Option<&[Field; 2]>,
+) -> [Field; 2] {
+    [0, 1].map(|axis| {
+        let mut slip = displacement[axis].mapv(|u| shift[axis] - u);
+        if let Some(before) = before {
+            slip -= &before[axis];
+        }
+        let bounded = !matches!(loading.tangential, Tangential::Sliding(_));
+        slip.zip_mut_with(pressure, |s, p| *s = if bounded && *p > 0.0 { *s } else { 0.0 });
+        slip
+    })
+}
+
+/// The two bodies, coupled as is asked for.
+struct Bodies<'a> {
+    operator: &'a mut dyn CoupledOperator,
+    coupling: Coupling,
+    /// Of coupling terms and whole displacements.
+    convolutions: f64,
+}
+
+impl Bodies<'_> {
+    fn dissimilar(&self) -> bool {
+        self.operator.compliances().coupling != 0.0
+    }
+
+    fn shear_lifts(&self) -> bool {
+        self.dissimilar() && self.coupling == Coupling::Full
+    }
+
+    fn pressure_slips(&self) -> bool {
+        self.dissimilar() && self.coupling != Coupling::None
+    }
+
+    /// Normal displacement under shear.
+    fn lift(&mut self, shear: &[Field; 2]) -> Option<Field> {
+        if !self.shear_lifts() {
+            return None;
+        }
+        let mut lift = self.operator.grid().zeros();
+        self.operator.apply([Some(&shear[0]), Some(&shear[1]), None], [None, None, Some(&mut lift)]);
+        self.convolutions += 1.0;
+        Some(lift)
+    }
+
+    /// The slip that there would be without shear, but for the rigid displacement: −u(0, p) − s₀.
+    fn free_slip(&mut self, pressure: &Field, before: Option<&[Field; 2]>) -> [Field; 2] {
+        let grid = *self.operator.grid();
+        let mut slip = [grid.zeros(), grid.zeros()];
+        if self.pressure_slips() {
+            let [x, y] = slip.each_mut();
+            self.operator.apply([None, None, Some(pressure)], [Some(x), Some(y), None]);
+            self.convolutions += 1.0;
+        }
+        for (axis, slip) in slip.iter_mut().enumerate() {
+            match before {
+                Some(before) => slip.zip_mut_with(&before[axis], |u, s| *u = -*u - s),
+                None => slip.mapv_inplace(|u| -u),
+            }
+        }
+        slip
+    }
+
+    /// Tangential displacement under both tractions.
+    fn displacement(&mut self, shear: &[Field; 2], pressure: &Field) -> [Field; 2] {
+        let grid = *self.operator.grid();
+        let mut u = [grid.zeros(), grid.zeros()];
+        let pressure = self.pressure_slips().then_some(pressure);
+        let [x, y] = u.each_mut();
+        self.operator.apply([Some(&shear[0]), Some(&shear[1]), pressure], [Some(x), Some(y), None]);
+        self.convolutions += 1.0;
+        u
+    }
+}

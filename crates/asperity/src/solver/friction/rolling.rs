@@ -1,0 +1,110 @@
+//! Steady tractive rolling.
+
+use crate::error::{Error, Result, check};
+use crate::grid::Field;
+use crate::operator::CoupledOperator;
+use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional};
+use crate::solver::{Control, Params};
+use crate::units::{Newton, Pascal};
+
+/// What is prescribed of the rolling, along x and y. The contact moves towards +x over both bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rolling {
+    /// Creepage ξ: velocity of the upper body against the lower one, as a share of the rolling velocity.
+    Creepage([f64; 2]),
+    /// Force of the upper body on the lower one.
+    Force([Newton; 2]),
+}
+
+/// Change of the shear in one cell's rolling, as a residual, below which the state is steady: so many tolerances.
+const STEADY: f64 = 1.0;
+
+/// Solves the steady state of bodies that roll along x under friction, and gives it with its creepage ξ: the bodies' gap
+/// stays, and their material passes through it.
+///
+/// In the time in which the contact moves on by a cell, material that was a cell ahead arrives, and slips by
+///
+/// ```text
+/// Δs = ξ Δx − u(x) + u₀(x + Δx)
+/// ```
+///
+/// with u₀ the displacement before. From the state without creepage this is repeated until nothing changes any more, which
+/// takes a few lengths of the contact. The traction grows from the leading edge, where the bodies stick.
+/// Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
+///
+/// # Errors
+/// Those of [`solve_frictional`].
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
+pub fn solve_rolling(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    friction: &Friction,
+    normal: Control,
+    rolling: Rolling,
+    params: &Params,
+) -> Result<(FrictionalSolution, [f64; 2])> {
+    let pitch = operator.grid().pitch[0];
+    let periodic = operator.normal().periodic();
+    let tangential = match rolling {
+        Rolling::Creepage(creepage) => {
+            for xi in creepage {
+                check("creepage", xi, xi.is_finite(), "a finite number")?;
+            }
+            Tangential::Displacement(creepage.map(|xi| xi * pitch))
+        }
+        Rolling::Force(force) => Tangential::Force(force),
+    };
+    let mut solve = |tangential, before: Option<&FrictionalSolution>| {
+        let loading = Loading { normal, tangential };
+        solve_frictional(operator, initial_gap, hardness, friction, loading, before, params)
+    };
+    let mut state = solve(Tangential::Force([0.0; 2]), None)?;
+    let mut stats = state.normal.stats;
+    let most = MOST_LENGTHS * initial_gap.nrows();
+    for _ in 0..most {
+        let arrived = FrictionalSolution {
+            displacement: state.displacement.each_ref().map(|u| a_cell_ahead(u, periodic)),
+            shift: [0.0; 2],
+            ..state.clone()
+        };
+        let next = solve(tangential, Some(&arrived))?;
+        stats = stats.and(&next.normal.stats);
+        let steady = change(&next, &state) < STEADY * params.tolerance;
+        state = next;
+        if steady {
+            state.normal.stats = stats;
+            let creepage = state.shift.map(|shift| shift / pitch);
+            return Ok((state, creepage));
+        }
+    }
+    Err(Error::NotConverged {
+        iterations: stats.iterations,
+        residual: state.normal.residual,
+        tolerance: params.tolerance,
+    })
+}
+
+/// Cells of rolling after which the iteration is given up, in lengths of the grid.
+const MOST_LENGTHS: usize = 50;
+
+/// Values of the next column, of the last for the last (periodic: of the first).
+fn a_cell_ahead(field: &Field, periodic: bool) -> Field {
+    let last = field.nrows() - 1;
+    let ahead = |i: usize| match (i < last, periodic) {
+        (true, _) => i + 1,
+        (false, true) => 0,
+        (false, false) => last,
+    };
+    Field::from_shape_fn(field.raw_dim(), |(i, j)| field[[ahead(i), j]])
+}
+
+/// Largest change of the shear, as a share of the largest bound.
+fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
+    let bound = next.shear.iter().flatten().fold(0.0f64, |m, q| m.max(q.abs()));
+    let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
+    let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    if most == 0.0 { 0.0 } else { most / bound }
+}

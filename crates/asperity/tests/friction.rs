@@ -1,0 +1,291 @@
+//! The contact with friction against an independent method on small grids, and against what must hold of every answer.
+
+use asperity::material::{Compliances, Material};
+use asperity::operator::{Boundary, CoupledOperator, CoupledSum, Operators};
+use asperity::solver::{
+    Control, Coupling, Friction, FrictionalSolution, Loading, Params, Tangential, solve_frictional,
+    solve_normal,
+};
+use asperity::{Error, Field, Grid};
+
+const PARAMS: Params =
+    Params { method: asperity::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };
+
+fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
+    let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
+    Compliances::new(&lower, &upper).unwrap()
+}
+
+fn alike() -> Compliances {
+    pair([0.3, 0.3], [2.0, 2.0])
+}
+
+fn dissimilar() -> Compliances {
+    pair([0.2, 0.3], [1.0, 30.0])
+}
+
+/// A bump with some roughness.
+fn gap(shape: [usize; 2]) -> Field {
+    let [cx, cy] = shape.map(|n| 0.5 * (n as f64 - 1.0));
+    Field::from_shape_fn(shape, |(i, j)| {
+        let (x, y) = (i as f64 - cx, j as f64 - cy);
+        0.02 * (x * x + y * y) + 0.1 * ((1.9 * x + 0.4).sin() * (2.3 * y).cos())
+    })
+}
+
+/// Cell by cell, each for the tractions of all others, over and over: slow and simple.
+struct CellByCell {
+    matrix: Vec<[[f64; 3]; 3]>,
+    cells: usize,
+}
+
+impl CellByCell {
+    fn new(operator: &mut dyn CoupledOperator, coupling: Coupling) -> Self {
+        let grid = *operator.grid();
+        let cells = grid.cells();
+        let mut matrix = vec![[[0.0; 3]; 3]; cells * cells];
+        for source in 0..cells {
+            for axis in 0..3 {
+                let mut unit = grid.zeros();
+                unit.as_slice_mut().unwrap()[source] = 1.0;
+                let mut u: [Field; 3] = std::array::from_fn(|_| grid.zeros());
+                let loaded = std::array::from_fn(|n| (n == axis).then_some(&unit));
+                operator.apply(loaded, u.each_mut().map(Some));
+                let under_unit = |cell: usize| {
+                    let at = u.each_ref().map(|u| u.as_slice().unwrap()[cell]);
+                    match (coupling, axis) {
+                        (Coupling::Full, _) | (Coupling::Goodman, 2) => at,
+                        (Coupling::None, 2) => [0.0, 0.0, at[2]],
+                        _ => [at[0], at[1], 0.0],
+                    }
+                };
+                for (cell, at) in matrix.iter_mut().skip(source).step_by(cells).enumerate() {
+                    at.iter_mut().zip(under_unit(cell)).for_each(|(row, u)| row[axis] = u);
+                }
+            }
+        }
+        Self { matrix, cells }
+    }
+
+    /// Pressure and shear at an approach and a rigid displacement; `slip_before` is s₀.
+    fn solve(
+        &self,
+        gap: &Field,
+        hardness: f64,
+        friction: &Friction,
+        approach: f64,
+        shift: [f64; 2],
+        slip_before: &[[f64; 2]],
+    ) -> Vec<[f64; 3]> {
+        let gap = gap.as_slice().unwrap();
+        let mut traction = vec![[0.0; 3]; self.cells];
+        for _ in 0..20_000 {
+            let mut change = 0.0f64;
+            for cell in 0..self.cells {
+                let own = self.matrix[cell * self.cells + cell];
+                let u = self.displacement(&traction, cell);
+                let old = traction[cell];
+                let w = approach - gap[cell] - u[2];
+                let p = (old[2] + w / own[2][2]).clamp(0.0, hardness);
+                let c = 1.05 * own[0][0].max(own[1][1]);
+                let bound = friction.bound(p);
+                let mut q = [0, 1].map(|k| old[k] + (shift[k] - slip_before[cell][k] - u[k]) / c);
+                let length = q[0].hypot(q[1]);
+                if length > bound {
+                    q = q.map(|v| v * bound / length);
+                }
+                traction[cell] = [q[0], q[1], p];
+                change = (0..3).map(|k| (traction[cell][k] - old[k]).abs()).fold(change, f64::max);
+            }
+            if change < 1e-13 {
+                return traction;
+            }
+        }
+        panic!("no convergence");
+    }
+
+    fn displacement(&self, traction: &[[f64; 3]], cell: usize) -> [f64; 3] {
+        let mut u = [0.0; 3];
+        for (at, t) in self.matrix[cell * self.cells..][..self.cells].iter().zip(traction) {
+            for (u, at) in u.iter_mut().zip(at) {
+                *u += at[0] * t[0] + at[1] * t[1] + at[2] * t[2];
+            }
+        }
+        u
+    }
+}
+
+fn assert_same(solution: &FrictionalSolution, cell_by_cell: &[[f64; 3]], what: &str) {
+    let most = cell_by_cell.iter().map(|t| t[2]).fold(0.0, f64::max);
+    let fields = [&solution.shear[0], &solution.shear[1], &solution.normal.pressure];
+    for (axis, field) in fields.into_iter().enumerate() {
+        for (cell, value) in field.iter().enumerate() {
+            let error = (value - cell_by_cell[cell][axis]).abs();
+            assert!(
+                error < 1e-7 * most,
+                "{what}: traction {axis} of cell {cell} off by {error:e} of {most:e}"
+            );
+        }
+    }
+}
+
+/// Solves under a load and a force, and again at the approach and the displacement that belong to them.
+#[test]
+fn forces_and_displacements_are_two_ways_to_say_the_same() {
+    let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.2 * h);
+    for boundary in [Boundary::Free, Boundary::Periodic] {
+        let mut operator = Operators::new(grid.pitch, dissimilar(), boundary).coupled_on(grid.shape);
+        let friction = Friction::coulomb(0.3).unwrap();
+        let (mut by_force, mut by_shift): (Option<FrictionalSolution>, Option<FrictionalSolution>) =
+            (None, None);
+        for (load, force) in [(3.0, [0.0, 0.0]), (3.0, [0.6, 0.0]), (4.0, [0.3, -0.9]), (4.0, [-1.15, 0.0])] {
+            let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force(force) };
+            let mut solve = |loading, before: Option<&FrictionalSolution>| {
+                solve_frictional(operator.as_mut(), &gap, f64::INFINITY, &friction, loading, before, &PARAMS)
+                    .unwrap()
+            };
+            let one = solve(loading, by_force.as_ref());
+            assert!((one.normal.load(1.0) / load - 1.0).abs() < 1e-10);
+            let got = one.force(1.0);
+            assert!((0..2).all(|k| (got[k] - force[k]).abs() < 1e-9 * load), "{got:?} for {force:?}");
+            let loading = Loading {
+                normal: Control::Approach(one.normal.approach),
+                tangential: Tangential::Displacement(one.shift),
+            };
+            let other = solve(loading, by_shift.as_ref());
+            let most = one.normal.max_pressure();
+            for (a, b) in [
+                (&one.normal.pressure, &other.normal.pressure),
+                (&one.shear[0], &other.shear[0]),
+                (&one.shear[1], &other.shear[1]),
+            ] {
+                let error = a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+                assert!(error < 1e-6 * most, "{boundary:?}, {force:?}: {error:e} of {most:e}");
+            }
+            assert!(one.dissipation(by_force.as_ref(), 1.0) >= 0.0);
+            (by_force, by_shift) = (Some(one), Some(other));
+        }
+    }
+}
+
+#[test]
+fn identical_bodies_press_as_without_friction() {
+    let grid = Grid::new([40, 40], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.1 * h);
+    let mut operator = Operators::new(grid.pitch, alike(), Boundary::Free).coupled_on(grid.shape);
+    let alone = solve_normal(operator.normal(), &gap, 0.05, Control::Load(5.0), None, &PARAMS).unwrap();
+    for tangential in
+        [Tangential::Force([0.9, 0.2]), Tangential::Sliding([0.6, 0.8]), Tangential::Displacement([0.3, 0.0])]
+    {
+        let loading = Loading { normal: Control::Load(5.0), tangential };
+        let friction = Friction::coulomb(0.4).unwrap();
+        let solution =
+            solve_frictional(operator.as_mut(), &gap, 0.05, &friction, loading, None, &PARAMS).unwrap();
+        assert_eq!(solution.normal.pressure, alone.pressure);
+        assert_eq!(solution.normal.approach, alone.approach);
+    }
+}
+
+#[test]
+fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
+    let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.1 * h);
+    let mut operator = Operators::new(grid.pitch, dissimilar(), Boundary::Free).coupled_on(grid.shape);
+    let friction = Friction { shear_strength: 0.02, ..Friction::coulomb(0.5).unwrap() };
+    let loading = Loading { normal: Control::Load(5.0), tangential: Tangential::Sliding([1.0, 0.0]) };
+    let mut solve = |friction: &Friction, loading| {
+        solve_frictional(operator.as_mut(), &gap, f64::INFINITY, friction, loading, None, &PARAMS).unwrap()
+    };
+    let sliding = solve(&friction, loading);
+    for (p, q) in sliding.normal.pressure.iter().zip(&sliding.shear[0]) {
+        assert_eq!(*q, (0.5 * p).min(0.02));
+    }
+    assert_eq!(sliding.stick().sum(), 0.0);
+    // It is what a large displacement ends in.
+    let pushed = Loading { tangential: Tangential::Displacement([1e4, 0.0]), ..loading };
+    let pushed = solve(&friction, pushed);
+    let error = (&pushed.normal.pressure - &sliding.normal.pressure).mapv(f64::abs);
+    assert!(error.iter().all(|e| *e < 1e-5 * sliding.normal.max_pressure()));
+    // Ahead of the shear that drags it the softer lower body sinks, behind it it rises to meet the upper one.
+    let alone = solve(&Friction { coefficient: 0.0, ..friction }, loading);
+    let moment = |p: &Field| p.indexed_iter().map(|((i, _), p)| i as f64 * p).sum::<f64>() / p.sum();
+    assert!(moment(&sliding.normal.pressure) < moment(&alone.normal.pressure) - 0.05);
+}
+
+#[test]
+fn more_force_than_friction_holds_is_an_error_with_the_limit() {
+    let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape);
+    let mut operator = Operators::new(grid.pitch, alike(), Boundary::Free).coupled_on(grid.shape);
+    let mut solve = |force: [f64; 2], coefficient| {
+        let loading = Loading { normal: Control::Load(2.0), tangential: Tangential::Force(force) };
+        let friction = Friction { coefficient, ..Friction::coulomb(0.0).unwrap() };
+        solve_frictional(operator.as_mut(), &gap, f64::INFINITY, &friction, loading, None, &PARAMS)
+    };
+    match solve([0.3, 0.4], 0.25) {
+        Err(Error::BeyondFriction { force, limit }) => {
+            assert!((force - 0.5).abs() < 1e-12 && (limit - 0.5).abs() < 1e-9);
+        }
+        other => panic!("{:?}", other.map(|s| s.shift)),
+    }
+    let nearly = solve([0.299, 0.398], 0.25).unwrap();
+    assert!(nearly.stick().sum() < 0.2 * nearly.normal.contact_cells() as f64);
+    assert!(matches!(solve([0.0; 2], -0.1), Err(Error::OutOfRange { quantity: "friction coefficient", .. })));
+    assert!(matches!(
+        solve([f64::NAN, 0.0], 0.1),
+        Err(Error::OutOfRange { quantity: "tangential force", .. })
+    ));
+}
+
+#[test]
+fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
+    let grid = Grid::new([9, 8], [1.0, 0.8]).unwrap();
+    let gap = gap(grid.shape);
+    for (pair, name) in [(alike(), "alike"), (dissimilar(), "dissimilar")] {
+        for coupling in [Coupling::Full, Coupling::Goodman, Coupling::None] {
+            for (coefficient, shear_strength, hardness) in [
+                (0.3, f64::INFINITY, f64::INFINITY),
+                (0.8, 0.02, f64::INFINITY),
+                (0.2, f64::INFINITY, 0.08),
+                (f64::INFINITY, f64::INFINITY, f64::INFINITY),
+            ] {
+                let friction = Friction { coefficient, shear_strength, coupling };
+                let mut operator = CoupledSum::new(grid, pair);
+                let reference = CellByCell::new(&mut operator, coupling);
+                let what = format!("{name}, {friction:?}, H = {hardness}");
+                let mut before: Option<FrictionalSolution> = None;
+                let mut slip_before = vec![[0.0; 2]; grid.cells()];
+                // Down, aside, further down and back across.
+                for (approach, shift) in
+                    [(0.4, [0.0, 0.0]), (0.4, [0.05, 0.02]), (0.6, [0.06, 0.08]), (0.5, [0.0, -0.04])]
+                {
+                    if coefficient.is_infinite() && approach == 0.5 {
+                        continue; // What bears any shear and then opens has no answer.
+                    }
+                    let loading = Loading {
+                        normal: Control::Approach(approach),
+                        tangential: Tangential::Displacement(shift),
+                    };
+                    let solution = solve_frictional(
+                        &mut operator,
+                        &gap,
+                        hardness,
+                        &friction,
+                        loading,
+                        before.as_ref(),
+                        &PARAMS,
+                    )
+                    .unwrap();
+                    let expected = reference.solve(&gap, hardness, &friction, approach, shift, &slip_before);
+                    assert_same(&solution, &expected, &what);
+                    for (cell, slip) in slip_before.iter_mut().enumerate() {
+                        let u = reference.displacement(&expected, cell);
+                        *slip = [shift[0] - u[0], shift[1] - u[1]];
+                    }
+                    before = Some(solution);
+                }
+            }
+        }
+    }
+}
