@@ -201,7 +201,7 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
     for (p, q) in sliding.normal.pressure.iter().zip(&sliding.shear[0]) {
         assert_eq!(*q, (0.5 * p).min(0.02));
     }
-    assert_eq!(sliding.stick().sum(), 0.0);
+    assert_eq!(sliding.stick.sum(), 0.0);
     // It is what a large displacement ends in.
     let pushed = Loading { tangential: Tangential::Displacement([1e4, 0.0]), ..loading };
     let pushed = solve(&friction, pushed);
@@ -230,7 +230,7 @@ fn more_force_than_friction_holds_is_an_error_with_the_limit() {
         other => panic!("{:?}", other.map(|s| s.shift)),
     }
     let nearly = solve([0.299, 0.398], 0.25).unwrap();
-    assert!(nearly.stick().sum() < 0.2 * nearly.normal.contact_cells() as f64);
+    assert!(nearly.stick.sum() < 0.2 * nearly.normal.contact_cells() as f64);
     assert!(matches!(solve([0.0; 2], -0.1), Err(Error::OutOfRange { quantity: "friction coefficient", .. })));
     assert!(matches!(
         solve([f64::NAN, 0.0], 0.1),

@@ -53,22 +53,14 @@ pub struct FrictionalSolution {
     /// Slip of the upper surface over the lower one in this increment along x and y, m; 0 where they do not touch, and in
     /// gross sliding, where it is not bounded.
     pub slip: [Field; 2],
+    /// 1 where the bodies touch and stick, |q + Δs/c| ≤ g, else 0.
+    pub stick: Field,
 }
 
 impl FrictionalSolution {
     /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
     pub fn force(&self, cell_area: SquareMetre) -> [Newton; 2] {
         self.shear.each_ref().map(|q| cell_area * q.sum())
-    }
-
-    /// 1 where the bodies touch and stick, |q| < bound, else 0.
-    pub fn stick(&self) -> Field {
-        let mut stick = self.bound.clone();
-        ndarray::Zip::from(&mut stick)
-            .and(&self.shear[0])
-            .and(&self.shear[1])
-            .for_each(|s, x, y| *s = if x.hypot(*y) < *s * (1.0 - RIM) { 1.0 } else { 0.0 });
-        stick
     }
 
     /// Elastic energy ½ ΔA Σ (p u_z + q·u) (periodic: without that of the mean displacements, which are free).
@@ -92,8 +84,6 @@ impl FrictionalSolution {
     }
 }
 
-/// Shear within this share of its bound is on the rim.
-const RIM: f64 = 1e-9;
 /// Residual of the first round where pressure and shear influence each other.
 const FIRST: f64 = 3e-2;
 /// Each round is solved to so much of the residual that the last one left.
@@ -193,9 +183,14 @@ pub fn solve_frictional(
             stats.convolutions += bodies.convolutions;
             normal.residual = reached;
             normal.stats = stats;
-            let slip = slip(&loading, &normal.pressure, answer.shift, &displacement, slip_before.as_ref());
+            let slip =
+                slip(loading.tangential, &normal.pressure, answer.shift, &displacement, slip_before.as_ref());
             let shift = answer.shift;
-            return Ok(FrictionalSolution { normal, shear, bound, displacement, shift, slip });
+            let stick = match loading.tangential {
+                Tangential::Sliding(_) => grid.zeros(),
+                _ => stick(&shear, &slip, &bound, self_compliance(bodies.operator)),
+            };
+            return Ok(FrictionalSolution { normal, shear, bound, displacement, shift, slip, stick });
         }
         tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
         pressure = Some(normal.pressure);
@@ -232,7 +227,7 @@ fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator)
 }
 
 fn slip(
-    loading: &Loading,
+    tangential: Tangential,
     pressure: &Field,
     shift: [Metre; 2],
     displacement: &[Field; 2],
@@ -243,10 +238,26 @@ fn slip(
         if let Some(before) = before {
             slip -= &before[axis];
         }
-        let bounded = !matches!(loading.tangential, Tangential::Sliding(_));
+        let bounded = !matches!(tangential, Tangential::Sliding(_));
         slip.zip_mut_with(pressure, |s, p| *s = if bounded && *p > 0.0 { *s } else { 0.0 });
         slip
     })
+}
+
+/// 1 where |q + Δs/c| ≤ g > 0.
+fn stick(shear: &[Field; 2], slip: &[Field; 2], bound: &Field, compliance: f64) -> Field {
+    let mut stick = bound.clone();
+    let predicted = |axis: usize| &shear[axis] + &slip[axis] / compliance;
+    ndarray::Zip::from(&mut stick).and(&predicted(0)).and(&predicted(1)).for_each(|g, x, y| {
+        *g = if *g > 0.0 && x.hypot(*y) <= *g { 1.0 } else { 0.0 };
+    });
+    stick
+}
+
+/// c, displacement of a cell per unit shear on itself, in the mean of the directions.
+fn self_compliance(operator: &dyn CoupledOperator) -> f64 {
+    let influence = operator.self_influence();
+    0.5 * (influence.xx + influence.yy)
 }
 
 /// The two bodies, coupled as is asked for.

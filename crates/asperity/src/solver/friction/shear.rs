@@ -7,6 +7,7 @@ use crate::solver::Stats;
 use crate::solver::friction::disc::{
     Symmetric, Vector, add, dot, length, minus, onto_disc, shift_for_sum, times,
 };
+use crate::solver::friction::self_compliance;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
 use crate::units::{Metre, SquareMetre};
@@ -108,10 +109,9 @@ pub(super) struct ShearSolver {
 impl ShearSolver {
     pub(super) fn new(operator: &mut dyn CoupledOperator) -> Self {
         let grid = *operator.grid();
-        let influence = operator.self_influence();
         Self {
             cell_area: grid.cell_area(),
-            compliance: 0.5 * (influence.xx + influence.yy),
+            compliance: self_compliance(operator),
             preconditioner: Preconditioner::new(operator.normal()),
             sets: Sets::new(grid.shape),
             single: [vec![0.0; grid.cells()], vec![0.0; grid.cells()]],
@@ -321,6 +321,8 @@ impl ShearSolver {
 
 /// Held so many times as strongly as by its own compliance, a cell hardly turns: it is left to itself.
 const FIRM: f64 = 3.0;
+/// Shear below this share of its bound is not on the rim.
+const INSIDE: f64 = 1.0 - 1e-12;
 /// Steps along the projected gradient at a time.
 const DESCENTS: usize = 5;
 
@@ -415,14 +417,18 @@ impl State {
             *q = inside;
         }
         if let Some(wanted) = self.wanted {
-            let shear = &self.shear;
-            let cells = || shear.iter().copied().zip(self.bound.iter().copied());
-            let sum = shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
-            let size = shear.iter().map(|q| length(*q)).sum::<f64>();
-            if length(minus(sum, wanted)) > 1e-12 * size {
-                let shift = shift_for_sum(cells, wanted, [0.0; 2]);
-                for (q, bound) in self.shear.iter_mut().zip(&self.bound) {
-                    *q = onto_disc(add(*q, shift), *bound);
+            // What the rims have taken away the cells within bear: those on them stay there.
+            let within: Vec<usize> =
+                (0..self.shear.len()).filter(|k| length(self.shear[*k]) < INSIDE * self.bound[*k]).collect();
+            let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
+            let missing = minus(wanted, sum);
+            let size = self.shear.iter().map(|q| length(*q)).sum::<f64>();
+            if length(missing) > 1e-12 * size {
+                let theirs = within.iter().fold(missing, |sum, k| add(sum, self.shear[*k]));
+                let cells = || within.iter().map(|k| (self.shear[*k], self.bound[*k]));
+                let shift = shift_for_sum(cells, theirs, [0.0; 2]);
+                for k in within {
+                    self.shear[k] = onto_disc(add(self.shear[k], shift), self.bound[k]);
                 }
                 moved = true;
             }
