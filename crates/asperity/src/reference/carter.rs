@@ -14,7 +14,7 @@ use crate::units::{Metre, Pascal};
 /// ξ = μ d/R                                                      creepage
 /// ```
 /// Against the other body, the one on which Q′ acts along x moves along −x, at ξ times the speed of rolling.
-/// Carter, Proc. R. Soc. A 112, 151 (1926); Johnson (1985), eqs. 8.12–8.18.
+/// Carter, Proc. R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carter {
     /// The normal contact.

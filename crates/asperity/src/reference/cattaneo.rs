@@ -52,7 +52,7 @@ impl CattaneoMindlin {
     /// Energy that friction takes in a closed cycle of the tangential load between Q and −Q.
     ///
     /// (18μ²W²/5aGₜ) {1 − s⁵ − ⅚ (Q/μW)(1 + s²)},  s = c/a;  Q³/9aGₜμW for small Q, where about 3 log₁₀(μW/Q)
-    /// digits are lost. Mindlin & Deresiewicz (1953); Johnson (1985), eqs. 7.57–7.58.
+    /// digits are lost. Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4.
     pub fn cycle_loss(&self) -> Joule {
         let (reserve, limit) = (self.reserve(), self.friction * self.normal.load);
         let square = reserve.cbrt().powi(2);
@@ -72,7 +72,7 @@ impl CattaneoMindlin {
 /// δₜ = (3μW/4aGₜ) [2 (1 − (Q* − Q)/2μW)^{2/3} − (1 − Q*/μW)^{2/3} − 1]
 /// ```
 /// At Q = −Q* all is as after a first push to −Q*. The way up from there is this one with the signs of Q, q and δₜ
-/// changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), eqs. 7.53–7.56.
+/// changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MindlinDeresiewicz {
     /// The contact where the tangential load turned, at Q*.

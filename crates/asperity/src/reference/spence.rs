@@ -6,8 +6,8 @@
 //! in the ring, and the shear on it acts outward; β < 0 turns both round.
 //!
 //! The formulas are Goodman's: the shear does not act back on the pressure. They take too much to stick, by at most
-//! about 0.45 β²; [`COUPLED`] holds the full answer. The friction that a given s needs is too low by 0.5–0.7 β² of it
-//! for s ≤ 0.5, 0.8–1.2 β² at s = 0.9 (from the same program).
+//! 0.44 β² for small β and 0.49 β² at β = ½: the friction that a given s needs is too low by 0.5–0.7 β² of it for
+//! s ≤ 0.5, 0.8–1.2 β² at s = 0.9. [`COUPLED`] holds full answers, whose program these bounds are from.
 //!
 //! Goodman, J. Appl. Mech. 29, 515 (1962); Spence, Proc. R. Soc. A 305, 55 (1968); J. Elasticity 5, 297 (1975).
 
@@ -195,7 +195,7 @@ mod tests {
     fn goodman_lets_a_little_too_much_stick() {
         for punch in COUPLED {
             let excess = stick_ratio(punch.friction, punch.dundurs) - punch.stick_ratio;
-            let bound = 0.46 * punch.dundurs * punch.dundurs;
+            let bound = 0.5 * punch.dundurs * punch.dundurs;
             assert!(0.0 < excess && excess < bound, "{punch:?}: {excess:e}, bound {bound:e}");
         }
     }

@@ -4,7 +4,7 @@
 //! depends on Dundurs' β = E*/G*, |β| ≤ ½, with 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂; its sign, which
 //! is that of the shear, does not matter to the load. β = 0 is the frictionless contact.
 
-use std::f64::consts::PI;
+use std::f64::consts::{LN_2, PI};
 
 use crate::units::{Metre, Newton, Pascal};
 
@@ -83,7 +83,7 @@ fn stiffening(dundurs: f64) -> f64 {
 /// J = 1 − 4ε² Σ (−1)ᵏ η(2k + 1) ε²ᵏ, η Dirichlet's; to 1e-13 for |β| ≤ ½.
 fn integral(dundurs: f64) -> f64 {
     const ETA: [f64; 8] = [
-        0.693_147_180_559_945_3,
+        LN_2,
         0.901_542_677_369_695_7,
         0.972_119_770_446_909_3,
         0.992_593_819_922_830_3,
