@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::io::fields::Fields;
 use asperity::io::results::{Results, pressure_name};
-use asperity::motion::{PassRecord, StepRecord};
+use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
 use asperity::{Field, Grid};
 
 use crate::draw::{
@@ -106,7 +106,50 @@ fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
         let plastic = plastic.map("plastic interference", "depth", Unit::Length, Colours::Pressure);
         sheet.add("plastic.png", |path| draw::map(path, &plastic))?;
     }
+    if fields.names()?.iter().any(|name| name == "stick") {
+        friction(results, &fields, &pressure, sheet)?;
+    }
     Ok(())
+}
+
+/// Shear and where it holds, and the way there.
+fn friction(results: &Results, fields: &Fields, pressure: &Stored, sheet: &mut Sheet) -> Outcome {
+    let read = |name| Stored::read(fields, name);
+    let [mut shear, y] = [read("traction_x")?, read("traction_y")?];
+    shear.field.zip_mut_with(&y.field, |x, y| *x = x.hypot(*y));
+    let mut stick = read("stick")?;
+    stick.field.zip_mut_with(&pressure.field, |s, p| *s += f64::from(u8::from(*p > 0.0)));
+    let maps = [
+        shear.map("shear traction", "shear", Unit::Pressure, Colours::Pressure),
+        stick.map("stick and slip", "", Unit::Number, Colours::Stick),
+    ];
+    sheet.add("shear.png", |path| draw::maps(path, &maps, 2))?;
+    let increments = results.increments()?;
+    if increments.len() > 1 {
+        sheet.add("loading.png", |path| draw::lines(path, &loading(&increments)))?;
+    }
+    Ok(())
+}
+
+/// Force over displacement along the direction of the largest force.
+fn loading(increments: &[IncrementRecord]) -> LineFigure {
+    let size = |i: &&IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y);
+    let largest = increments.iter().max_by(|a, b| size(a).total_cmp(&size(b))).expect("increments");
+    let (x, y) = (largest.tangential_force_x, largest.tangential_force_y);
+    let [x, y] = if x.hypot(y) > 0.0 { [x / x.hypot(y), y / x.hypot(y)] } else { [1.0, 0.0] };
+    let points = std::iter::once([0.0, 0.0]).chain(increments.iter().map(|i| {
+        [
+            x * i.tangential_displacement_x + y * i.tangential_displacement_y,
+            x * i.tangential_force_x + y * i.tangential_force_y,
+        ]
+    }));
+    LineFigure {
+        title: "tangential force over displacement".to_owned(),
+        x: Axis::linear("displacement of the upper body", Unit::Length),
+        y: Axis::linear("force", Unit::Force),
+        right: None,
+        series: vec![Series::new("loading", points.collect(), Mark::LineAndPoints)],
+    }
 }
 
 fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome {
@@ -136,6 +179,10 @@ fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcom
     }
     pressures(&last, &steps, passes.len(), before[0].grid, hardness, sheet)?;
     sheet.add("load.png", |path| draw::lines(path, &over_positions(&steps, passes.len(), "load")))?;
+    if steps.iter().any(|step| step.tangential_force != 0.0) {
+        let force = over_positions(&steps, passes.len(), "friction force");
+        sheet.add("friction.png", |path| draw::lines(path, &force))?;
+    }
     sheet.add("contact_area.png", |path| {
         draw::lines(path, &over_positions(&steps, passes.len(), "real contact area"))
     })?;
@@ -240,6 +287,7 @@ pub(crate) fn in_frame_of(field: &Field, first: usize, grid: Grid) -> Field {
 fn over_positions(steps: &[StepRecord], passes: usize, quantity: &str) -> LineFigure {
     let (unit, value): (Unit, fn(&StepRecord) -> f64) = match quantity {
         "load" => (Unit::Force, |s| s.load),
+        "friction force" => (Unit::Force, |s| s.tangential_force.abs()),
         _ => (Unit::Area, |s| s.contact_area),
     };
     let mut shown = vec![1, passes.div_ceil(2), passes];

@@ -148,6 +148,7 @@ fn run_in(pair: Pair) -> asperity::Result<Vec<Kept>> {
         control: Control::PassLoad(0.6),
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
+        friction: None,
     };
     let mut kept = Keep(Vec::new());
     Simulation::new(pair, Boundary::Free, motion, Params::default())?.run(&(), &mut [&mut kept])?;
@@ -287,7 +288,7 @@ impl Cost {
         // The approach at which all over all bears a mean pressure of 1 % of the composite modulus: much contact.
         let gap = &pair.upper - &pair.lower;
         let load = solver::Control::Load(0.01 * pair.modulus() * pair.lower_grid().area());
-        let mut operator = Operators::new(pair.pitch(), pair.modulus(), Boundary::Free).on([n, n]);
+        let mut operator = Operators::new(pair.pitch(), *pair.compliances(), Boundary::Free).on([n, n]);
         let hardness = f64::INFINITY;
         let approach = solve_normal(operator.as_mut(), &gap, hardness, load, None, &params)?.approach;
         let time = |strategy| -> asperity::Result<f64> {
@@ -298,6 +299,7 @@ impl Cost {
                 control: Control::Approach(approach),
                 plastic_update: PlasticUpdate::Pass,
                 load_tolerance: 1e-4,
+                friction: None,
             };
             let mut simulation = Simulation::new(pair.clone(), Boundary::Free, motion, params)?;
             let positions = simulation.positions().len() as f64;

@@ -130,7 +130,7 @@ fn table(summary: &Summary) -> String {
 
 fn static_table(record: &StaticRecord) -> String {
     let share = 100.0 * record.contact_area / record.apparent_area;
-    let rows = [
+    let mut rows = vec![
         ("load", format(record.load, Dimension::Force)),
         ("approach", format(record.approach, Dimension::Length)),
         ("contact area", format!("{} ({share:.3} %)", format(record.contact_area, Dimension::Area))),
@@ -142,7 +142,23 @@ fn static_table(record: &StaticRecord) -> String {
         ("residual", format!("{:.1e}", record.residual)),
         ("convolutions", format!("{:.1}", record.convolutions)),
     ];
-    rows.map(|(name, value)| format!("{name:<17} {value}\n")).concat()
+    if let Some(shear) = &record.shear {
+        let both =
+            |[x, y]: [f64; 2], dimension| format!("{}, {}", format(x, dimension), format(y, dimension));
+        let stick = 100.0 * shear.stick_area / record.contact_area;
+        rows.extend([
+            ("tangential force", both(shear.tangential_force, Dimension::Force)),
+            ("displacement", both(shear.tangential_displacement, Dimension::Length)),
+            ("friction coeff.", format!("{:.6}", shear.friction_coefficient)),
+            ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
+            ("largest shear", format(shear.max_shear, Dimension::Pressure)),
+            ("dissipation", format(shear.dissipation, Dimension::Energy)),
+        ]);
+        if let Some([x, y]) = shear.creepage {
+            rows.push(("creepage", format!("{x:.6e}, {y:.6e}")));
+        }
+    }
+    rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
 }
 
 fn passes_table(passes: &[PassRecord]) -> String {

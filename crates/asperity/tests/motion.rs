@@ -484,6 +484,7 @@ fn motion(control: Control, passes: usize) -> Motion {
         control,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
+        friction: None,
     }
 }
 

@@ -52,6 +52,7 @@ fn motion(control: Control, plastic_update: PlasticUpdate) -> Motion {
         control,
         plastic_update,
         load_tolerance: 1e-12,
+        friction: None,
     }
 }
 

@@ -39,6 +39,8 @@ pub(crate) enum Colours {
         /// Cap on the pressure, Pa; infinite if there is none.
         hardness: f64,
     },
+    /// No contact (0), slip (1) or stick (2).
+    Stick,
 }
 
 /// One map.
@@ -153,6 +155,7 @@ impl<'a> Picture<'a> {
             Colours::Heights => (Kind::Heights, None),
             Colours::Pressure => (Kind::Pressure, Some(0.0)),
             Colours::Contact { hardness } => (Kind::Contact { hardness }, Some(0.0)),
+            Colours::Stick => (Kind::Stick, Some(0.0)),
         };
         let range = figure.range.unwrap_or_else(|| {
             let [low, high] = extremes(figure.field.iter().copied());
@@ -184,6 +187,7 @@ enum Kind {
     Heights,
     Pressure,
     Contact { hardness: f64 },
+    Stick,
     Logarithmic,
 }
 
@@ -210,6 +214,7 @@ impl Shading {
         Tone::At(match self.kind {
             Kind::Heights | Kind::Pressure => ((value - low) / (high - low)).clamp(0.0, 1.0),
             Kind::Contact { hardness } => f64::from(u8::from(value >= hardness * (1.0 - 1e-6))),
+            Kind::Stick => f64::from(u8::from(value > 1.5)),
             Kind::Logarithmic => ((value / low).log10() / (high / low).log10()).clamp(0.0, 1.0),
         })
     }
@@ -219,6 +224,7 @@ impl Shading {
             Kind::Heights => CIVIDIS,
             Kind::Pressure | Kind::Logarithmic => VIRIDIS,
             Kind::Contact { .. } => return mix(ELASTIC, PLASTIC, t),
+            Kind::Stick => return mix(PLASTIC, ELASTIC, t),
         };
         gradient.eval_continuous(t).into_array()
     }
@@ -267,6 +273,7 @@ impl Shading {
                 vec![(PAPER, "no contact"), (ELASTIC, "elastic"), (PLASTIC, "plastic, p = H")]
             }
             Kind::Contact { .. } => vec![(PAPER, "no contact"), (ELASTIC, "contact")],
+            Kind::Stick => vec![(PAPER, "no contact"), (ELASTIC, "stick"), (PLASTIC, "slip")],
             _ => Vec::new(),
         }
     }

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::error::Result;
-use crate::io::case::Case;
+use crate::io::case::{Case, Course};
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
 use crate::io::results::{Existing, Results};
 use crate::io::summary::{Outcome, Summary};
-use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, press};
+use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, load_in_stages, press, roll};
 use crate::solver::Params;
 use crate::surface::Topography;
 
@@ -31,9 +31,31 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
     let outcome = match case.motion(area) {
         None => {
             let control = case.contact.prescribed.control(area);
-            let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
-            results.write_static(&pair, &solution)?;
-            Outcome::Static(record)
+            Outcome::Static(match case.friction {
+                None => {
+                    let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
+                    results.write_static(&pair, &solution)?;
+                    record
+                }
+                Some(friction) => {
+                    let course = friction.course(case.contact.prescribed, &case.history, area);
+                    let contact = match course {
+                        Course::Stages(stages) => load_in_stages(
+                            &pair,
+                            case.contact.boundary,
+                            &friction.law,
+                            &stages,
+                            &params,
+                            watch,
+                        )?,
+                        Course::Rolling(rolling) => {
+                            roll(&pair, case.contact.boundary, &friction.law, control, rolling, &params)?
+                        }
+                    };
+                    results.write_frictional(&pair, &contact)?;
+                    contact.record
+                }
+            })
         }
         Some(motion) => Outcome::Passes(move_over(case, &results, pair, motion, params, watch)?),
     };

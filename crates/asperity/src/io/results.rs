@@ -6,6 +6,7 @@
 //!     fields/initial.h5    the surfaces before the first pass
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
 //!     fields.h5            a static contact
+//!     increments.csv       with friction, a row per increment of its loading
 //!     summary.json         once all is done
 //!     figures/             pictures
 //! ```
@@ -20,7 +21,7 @@ use super::{atomic, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::summary::Summary;
-use crate::motion::{Output, Pair, PassRecord, PassReport, StepRecord};
+use crate::motion::{FrictionalContact, IncrementRecord, Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
 use crate::surface::Topography;
 
@@ -183,24 +184,41 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
-        let grid = pair.lower_grid();
-        let gap = &pair.upper - &pair.lower;
-        let mut file = FieldFile::new();
-        file.set("version", env!("CARGO_PKG_VERSION"))
-            .set("approach", solution.approach)
-            .set("hardness", pair.hardness());
-        let plastic = solution.plastic_interference(&gap, pair.hardness());
+        static_fields(pair, solution).write(&self.directory.join("fields.h5"))
+    }
+
+    /// Writes the fields of a static contact with friction, and the increments of its loading.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_frictional(&self, pair: &Pair, contact: &FrictionalContact) -> Result<()> {
+        let solution = &contact.solution;
+        let mut file = static_fields(pair, &solution.normal);
         for (name, unit, field) in [
-            ("pressure", "Pa", &solution.pressure),
-            ("displacement", "m", &solution.displacement),
-            ("gap", "m", &solution.gap(&gap)),
-            ("lower", "m", &pair.lower),
-            ("upper", "m", &pair.upper),
-            ("plastic", "m", &plastic),
+            ("traction_x", "Pa", &solution.shear[0]),
+            ("traction_y", "Pa", &solution.shear[1]),
+            ("displacement_x", "m", &solution.displacement[0]),
+            ("displacement_y", "m", &solution.displacement[1]),
+            ("slip_x", "m", &contact.slip[0]),
+            ("slip_y", "m", &contact.slip[1]),
+            ("stick", "1", &solution.stick),
         ] {
-            file.add_field(name, unit, &grid, [0.0, 0.0], field);
+            file.add_field(name, unit, &pair.lower_grid(), [0.0, 0.0], field);
         }
-        file.write(&self.directory.join("fields.h5"))
+        file.write(&self.directory.join("fields.h5"))?;
+        match contact.increments.as_slice() {
+            [] => Ok(()),
+            increments => tables::write_increments(&self.directory.join("increments.csv"), increments),
+        }
+    }
+
+    /// The increments of the loading of a static contact with friction; none of other contacts.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
+        let path = self.directory.join("increments.csv");
+        if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
     }
 
     /// Writes the surfaces before the first pass.
@@ -244,7 +262,7 @@ impl Results {
             fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
         }
         // Last the file by which the directory is known as ours.
-        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "case.json"];
+        let files = ["summary.json", "passes.csv", "steps.csv", "increments.csv", "fields.h5", "case.json"];
         files.iter().try_for_each(|name| self.remove(name))
     }
 
@@ -306,6 +324,10 @@ impl Output for PassWriter {
                 let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
                 let grid = pair.grid(contact.position.columns);
                 file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                if let Some(sliding) = report.sliding {
+                    let traction = pressure.mapv(|p| sliding.shear(p)[0]);
+                    file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
+                }
             }
         }
         file.write(&self.results.fields_path(report.record.pass))?;
@@ -319,6 +341,33 @@ impl Output for PassWriter {
 /// Name of the pressure field of a position, which is counted from 1.
 pub fn pressure_name(step: usize) -> String {
     format!("pressure_{step:05}")
+}
+
+/// Name of the shear traction along x of a position, which is counted from 1.
+pub fn traction_name(step: usize) -> String {
+    format!("traction_x_{step:05}")
+}
+
+/// What every static contact leaves.
+fn static_fields(pair: &Pair, solution: &Solution) -> FieldFile {
+    let grid = pair.lower_grid();
+    let gap = &pair.upper - &pair.lower;
+    let mut file = FieldFile::new();
+    file.set("version", env!("CARGO_PKG_VERSION"))
+        .set("approach", solution.approach)
+        .set("hardness", pair.hardness());
+    let plastic = solution.plastic_interference(&gap, pair.hardness());
+    for (name, unit, field) in [
+        ("pressure", "Pa", &solution.pressure),
+        ("displacement", "m", &solution.displacement),
+        ("gap", "m", &solution.gap(&gap)),
+        ("lower", "m", &pair.lower),
+        ("upper", "m", &pair.upper),
+        ("plastic", "m", &plastic),
+    ] {
+        file.add_field(name, unit, &grid, [0.0, 0.0], field);
+    }
+    file
 }
 
 fn add_surfaces(file: &mut FieldFile, pair: &Pair) {

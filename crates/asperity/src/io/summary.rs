@@ -78,6 +78,7 @@ mod tests {
             convolutions: 15.5,
             residual: 3e-7,
             converged: true,
+            shear: None,
         };
         let summary = Summary {
             version: "0.1.0".into(),

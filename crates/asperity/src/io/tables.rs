@@ -1,4 +1,4 @@
-//! `steps.csv` and `passes.csv`: a row per position, a row per pass.
+//! `steps.csv`, `passes.csv` and `increments.csv`: a row per position, per pass, per increment of a loading.
 //!
 //! A table is always written whole and atomically, after each pass: a killed run leaves the tables of the last
 //! finished pass, never half a row. Numbers are written so that they read back to the same bits.
@@ -11,16 +11,17 @@ use serde::de::DeserializeOwned;
 
 use super::atomic;
 use crate::error::{Error, Result};
-use crate::motion::{PassRecord, StepRecord};
+use crate::motion::{IncrementRecord, PassRecord, StepRecord};
 
 /// Columns of `steps.csv`.
-pub const STEP_COLUMNS: [&str; 13] = [
+pub const STEP_COLUMNS: [&str; 14] = [
     "pass",
     "step",
     "offset",
     "overlap_columns",
     "approach",
     "load",
+    "tangential_force",
     "contact_area",
     "max_pressure",
     "plastic_cells",
@@ -31,10 +32,12 @@ pub const STEP_COLUMNS: [&str; 13] = [
 ];
 
 /// Columns of `passes.csv`.
-pub const PASS_COLUMNS: [&str; 14] = [
+pub const PASS_COLUMNS: [&str; 16] = [
     "pass",
     "approach",
     "mean_load",
+    "mean_tangential_force",
+    "friction_coefficient",
     "min_load",
     "max_load",
     "mean_contact_area",
@@ -47,6 +50,43 @@ pub const PASS_COLUMNS: [&str; 14] = [
     "convolutions",
     "wall_time_s",
 ];
+
+/// Columns of `increments.csv`.
+pub const INCREMENT_COLUMNS: [&str; 17] = [
+    "increment",
+    "stage",
+    "load",
+    "approach",
+    "tangential_force_x",
+    "tangential_force_y",
+    "tangential_displacement_x",
+    "tangential_displacement_y",
+    "contact_area",
+    "stick_area",
+    "max_pressure",
+    "max_shear",
+    "elastic_energy",
+    "dissipation",
+    "iterations",
+    "convolutions",
+    "residual",
+];
+
+/// Writes `increments.csv`.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn write_increments(path: &Path, increments: &[IncrementRecord]) -> Result<()> {
+    write(path, &INCREMENT_COLUMNS, increments)
+}
+
+/// Reads `increments.csv`.
+///
+/// # Errors
+/// [`Error::File`], with the line where a row is damaged.
+pub fn read_increments(path: &Path) -> Result<Vec<IncrementRecord>> {
+    read(path)
+}
 
 /// Writes `steps.csv`.
 ///
@@ -112,6 +152,7 @@ mod tests {
             overlap_columns: 17,
             approach: f64::MIN_POSITIVE,
             load: 0.1 + 0.2,
+            tangential_force: -0.03,
             contact_area: 1e-300,
             max_pressure: 4e9,
             plastic_cells: 0,
@@ -127,6 +168,8 @@ mod tests {
             pass: 1,
             approach: 1e-7,
             mean_load: 2.0,
+            mean_tangential_force: 0.2,
+            friction_coefficient: 0.1,
             min_load: 0.0,
             max_load: 3.0,
             mean_contact_area: 1e-10,
@@ -156,13 +199,13 @@ mod tests {
             assert_eq!(names, sorted);
         }
         write_steps(&path, &[]).unwrap();
-        let header = "pass,step,offset,overlap_columns,approach,load,contact_area,max_pressure,plastic_cells,\
+        let header = "pass,step,offset,overlap_columns,approach,load,tangential_force,contact_area,max_pressure,plastic_cells,\
                       plastic_volume,\
                       iterations,convolutions,residual\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
         assert_eq!(read_steps(&path).unwrap(), []);
         write_passes(&path, &[]).unwrap();
-        let header = "pass,approach,mean_load,min_load,max_load,mean_contact_area,max_pressure,\
+        let header = "pass,approach,mean_load,mean_tangential_force,friction_coefficient,min_load,max_load,mean_contact_area,max_pressure,\
                       plastic_volume_lower,plastic_volume_upper,sq_lower,sq_upper,outer_iterations,convolutions,\
                       wall_time_s\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), header);

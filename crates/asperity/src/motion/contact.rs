@@ -6,7 +6,7 @@ use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Params, Solution, Stats, solve_normal};
+use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal, solve_sliding};
 use crate::units::{CubicMetre, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -20,6 +20,8 @@ pub struct Contact {
     pub plastic: Vec<(u32, Metre)>,
     /// Load W = ΔA Σ p.
     pub load: Newton,
+    /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
+    pub tangential_force: Newton,
     /// Approach δ.
     pub approach: Metre,
     /// Residual η.
@@ -29,19 +31,31 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position`, from the pressure of `before` where there is one.
+    /// Solves the contact of `pair` at `position`, sliding where there is friction, from the pressure `start` where there is
+    /// one.
     pub(super) fn solve(
         pair: &Pair,
         operators: &Operators,
         position: Position,
+        sliding: Option<&Sliding>,
         control: Control,
         start: Option<&Field>,
         params: &Params,
     ) -> Result<Self> {
         let gap = pair.initial_gap(&position);
-        let mut operator = operators.on([position.columns, gap.ncols()]);
-        let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, start, params)?;
-        Ok(Self::new(pair, position, &gap, &solution))
+        let shape = [position.columns, gap.ncols()];
+        let hardness = pair.hardness();
+        let solution = match sliding {
+            Some(sliding) if sliding.lifts(pair.compliances()) => {
+                let mut operator = operators.coupled_on(shape);
+                solve_sliding(operator.as_mut(), &gap, hardness, sliding, control, start, params)?.normal
+            }
+            _ => {
+                let mut operator = operators.on(shape);
+                solve_normal(operator.as_mut(), &gap, hardness, control, start, params)?
+            }
+        };
+        Ok(Self::new(pair, position, sliding, &gap, &solution))
     }
 
     /// A contact of which no more is known than the pressure at an approach, and what it cost.
@@ -53,10 +67,26 @@ impl Contact {
         stats: Stats,
     ) -> Self {
         let load = pair.cell_area() * pressure.iter().map(|(_, p)| p).sum::<f64>();
-        Self { position, pressure, plastic: Vec::new(), load, approach, residual: f64::NAN, stats }
+        let residual = f64::NAN;
+        Self {
+            position,
+            pressure,
+            plastic: Vec::new(),
+            load,
+            tangential_force: 0.0,
+            approach,
+            residual,
+            stats,
+        }
     }
 
-    fn new(pair: &Pair, position: Position, gap: &Field, solution: &Solution) -> Self {
+    fn new(
+        pair: &Pair,
+        position: Position,
+        sliding: Option<&Sliding>,
+        gap: &Field,
+        solution: &Solution,
+    ) -> Self {
         let mut pressure = Vec::new();
         let mut plastic = Vec::new();
         let cells = solution.pressure.iter().zip(&solution.displacement).zip(gap);
@@ -68,8 +98,10 @@ impl Contact {
                 plastic.push((cell as u32, (solution.approach - h - u).max(0.0)));
             }
         }
+        let shear = |sliding: &Sliding| pressure.iter().map(|(_, p)| sliding.shear(*p)[0]).sum::<f64>();
         Self {
             position,
+            tangential_force: pair.cell_area() * sliding.map_or(0.0, shear),
             pressure,
             plastic,
             load: solution.load(pair.cell_area()),
@@ -106,6 +138,7 @@ impl Contact {
             overlap_columns: self.position.columns,
             approach: self.approach,
             load: self.load,
+            tangential_force: self.tangential_force,
             contact_area: pair.cell_area() * self.pressure.len() as f64,
             max_pressure: self.max_pressure(),
             plastic_cells: self.plastic.len(),
@@ -135,21 +168,29 @@ pub fn press(
     let gap = &pair.upper - &pair.lower;
     let mut operator = Operators::new(pair.pitch(), *pair.compliances(), boundary).on(grid.shape);
     let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
-    let area = pair.cell_area();
-    let record = StaticRecord {
-        load: solution.load(area),
-        approach: solution.approach,
-        contact_area: area * solution.contact_cells() as f64,
-        apparent_area: grid.area(),
-        max_pressure: solution.max_pressure(),
-        mean_gap: solution.gap(&gap).mean().unwrap_or(0.0),
-        elastic_energy: solution.elastic_energy(area),
-        plastic_cells: solution.plastic_cells(pair.hardness()),
-        plastic_volume: solution.plastic_volume(&gap, pair.hardness(), area),
-        iterations: solution.stats.iterations,
-        convolutions: solution.stats.convolutions,
-        residual: solution.residual,
-        converged: true,
-    };
-    Ok((record, solution))
+    Ok((StaticRecord::new(pair, &solution), solution))
+}
+
+impl StaticRecord {
+    /// The numbers of a contact of `pair` without friction.
+    pub(super) fn new(pair: &Pair, solution: &Solution) -> Self {
+        let gap = &pair.upper - &pair.lower;
+        let area = pair.cell_area();
+        Self {
+            load: solution.load(area),
+            approach: solution.approach,
+            contact_area: area * solution.contact_cells() as f64,
+            apparent_area: pair.lower_grid().area(),
+            max_pressure: solution.max_pressure(),
+            mean_gap: solution.gap(&gap).mean().unwrap_or(0.0),
+            elastic_energy: solution.elastic_energy(area),
+            plastic_cells: solution.plastic_cells(pair.hardness()),
+            plastic_volume: solution.plastic_volume(&gap, pair.hardness(), area),
+            iterations: solution.stats.iterations,
+            convolutions: solution.stats.convolutions,
+            residual: solution.residual,
+            converged: true,
+            shear: None,
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 mod approach;
 mod contact;
+mod loading;
 mod pair;
 mod pass;
 mod together;
@@ -12,14 +13,16 @@ mod simulation;
 mod watch;
 
 pub use contact::{Contact, press};
+pub use loading::{FrictionalContact, Stage, load_in_stages, roll};
 pub use pair::Pair;
 pub use path::{Position, overlap_positions, shift_positions};
-pub use record::{PassRecord, StaticRecord, StepRecord};
+pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord};
 pub use simulation::Simulation;
 pub(crate) use together::memory_together;
 pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::error::{Error, Result};
+use crate::solver::{Friction, Sliding};
 use crate::units::{Metre, MetrePerSecond, Newton, Pascal, SquareMetre};
 
 /// What is prescribed in the normal direction during the motion.
@@ -76,6 +79,15 @@ impl Control {
 }
 
 impl Strategy {
+    /// Sign of the velocity of the upper body against the lower one: 0 where both roll alike.
+    pub fn direction(&self) -> f64 {
+        match *self {
+            Self::Overlap => 1.0,
+            Self::Shift { speed_lower, speed_upper } if speed_lower == speed_upper => 0.0,
+            Self::Shift { speed_lower, speed_upper } => (speed_upper - speed_lower).signum(),
+        }
+    }
+
     /// The positions of a pass of two bodies of so many columns, every `stride`-th.
     pub fn positions(&self, lower: usize, upper: usize, stride: usize) -> Vec<Position> {
         match *self {
@@ -112,4 +124,13 @@ pub struct Motion {
     pub plastic_update: PlasticUpdate,
     /// Relative tolerance on the pass-mean load, > 0.
     pub load_tolerance: f64,
+    /// Friction of the sliding bodies, if they have any.
+    pub friction: Option<Friction>,
+}
+
+impl Motion {
+    /// How the bodies slide, if there is friction: the upper one towards where it goes.
+    pub(crate) fn sliding(&self) -> Option<Sliding> {
+        self.friction.map(|friction| Sliding { friction, direction: [self.strategy.direction(), 0.0] })
+    }
 }

@@ -50,6 +50,8 @@ impl Solver<'_> {
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
         let solved = AtomicUsize::new(0);
+        let sliding = self.motion.sliding();
+        let sliding = sliding.as_ref();
         let solve = |pair: &Pair, index: usize| {
             if self.watch.stop() {
                 return Err(Error::Interrupted);
@@ -57,7 +59,7 @@ impl Solver<'_> {
             let position = self.positions[index];
             let start = first_guess(earlier, index, control, pair.lower.ncols());
             let mut contact =
-                Contact::solve(pair, self.operators, position, control, start.as_ref(), params)?;
+                Contact::solve(pair, self.operators, position, sliding, control, start.as_ref(), params)?;
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }

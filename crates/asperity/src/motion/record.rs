@@ -33,6 +33,68 @@ pub struct StaticRecord {
     pub residual: f64,
     /// Whether the residual is below the tolerance.
     pub converged: bool,
+    /// What friction adds to it.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub shear: Option<ShearRecord>,
+}
+
+/// What friction adds to a static contact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ShearRecord {
+    /// Force of the upper body on the lower one, along x and y.
+    pub tangential_force: [Newton; 2],
+    /// Its magnitude over the load.
+    pub friction_coefficient: f64,
+    /// Rigid-body displacement of the upper body against the lower one, along x and y; 0 in sliding.
+    pub tangential_displacement: [Metre; 2],
+    /// Area of the cells that stick.
+    pub stick_area: SquareMetre,
+    /// Largest shear traction.
+    pub max_shear: Pascal,
+    /// Energy that friction took; in rolling, while the contact moves on by a cell.
+    pub dissipation: Joule,
+    /// Velocity of the upper body against the lower one over the rolling velocity, along x and y.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub creepage: Option<[f64; 2]>,
+}
+
+/// One increment of the loading of a contact with friction: a row of `increments.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct IncrementRecord {
+    /// Increment, from 1.
+    pub increment: usize,
+    /// Stage of the loading that it belongs to, from 1.
+    pub stage: usize,
+    /// Normal force.
+    pub load: Newton,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Force of the upper body on the lower one along x.
+    pub tangential_force_x: Newton,
+    /// The same along y.
+    pub tangential_force_y: Newton,
+    /// Rigid-body displacement of the upper body along x; 0 in sliding.
+    pub tangential_displacement_x: Metre,
+    /// The same along y.
+    pub tangential_displacement_y: Metre,
+    /// Area of the cells with p > 0.
+    pub contact_area: SquareMetre,
+    /// Area of those that stick.
+    pub stick_area: SquareMetre,
+    /// Largest pressure.
+    pub max_pressure: Pascal,
+    /// Largest shear traction.
+    pub max_shear: Pascal,
+    /// Elastic energy of both tractions.
+    pub elastic_energy: Joule,
+    /// Energy that friction took in this increment.
+    pub dissipation: Joule,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Convolutions.
+    pub convolutions: f64,
+    /// Scale-free residual η, normal and tangential.
+    pub residual: f64,
 }
 
 /// One position of one pass: a row of `steps.csv`.
@@ -50,6 +112,8 @@ pub struct StepRecord {
     pub approach: Metre,
     /// Normal force at this position.
     pub load: Newton,
+    /// Friction force along x of the upper body on the lower one.
+    pub tangential_force: Newton,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
     /// Largest pressure.
@@ -75,6 +139,10 @@ pub struct PassRecord {
     pub approach: Metre,
     /// Mean load over the positions.
     pub mean_load: Newton,
+    /// Mean friction force along x of the upper body on the lower one.
+    pub mean_tangential_force: Newton,
+    /// Mean friction force over mean load.
+    pub friction_coefficient: f64,
     /// Smallest load.
     pub min_load: Newton,
     /// Largest load.

@@ -96,7 +96,8 @@ impl Simulation {
             record.wall_time_s = began.elapsed().as_secs_f64();
             for output in outputs.iter_mut() {
                 let (contacts, pair) = (&outcome.contacts, &outcome.pair);
-                output.pass(&PassReport { record: &record, steps: &steps, contacts, pair })?;
+                let sliding = self.motion.sliding();
+                output.pass(&PassReport { record: &record, steps: &steps, contacts, pair, sliding })?;
             }
             self.pair = outcome.pair;
             self.latest = Some(outcome.contacts);
@@ -185,7 +186,7 @@ impl Simulation {
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(self.pair.lower.ncols()));
             let control = solver::Control::Load(load);
-            Contact::solve(&self.pair, &self.operators, *fullest, control, start.as_ref(), &params)
+            Contact::solve(&self.pair, &self.operators, *fullest, None, control, start.as_ref(), &params)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
         let first = solve(less, None)?;
@@ -215,6 +216,12 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     check("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
     if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
         check("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+    }
+    if let Some(friction) = motion.friction {
+        friction.checked()?;
+        if motion.strategy.direction() == 0.0 {
+            return Err(Error::Unsupported("bodies that roll at equal speeds do not slide over each other"));
+        }
     }
     if let Control::Approach(approach) = motion.control {
         check("approach", approach, approach.is_finite(), "a finite length")?;
@@ -252,6 +259,8 @@ fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
         pass,
         approach: mean(|s| s.approach),
         mean_load: mean(|s| s.load),
+        mean_tangential_force: mean(|s| s.tangential_force),
+        friction_coefficient: mean(|s| s.tangential_force).abs() / mean(|s| s.load),
         min_load: -most(|s| -s.load),
         max_load: most(|s| s.load),
         mean_contact_area: mean(|s| s.contact_area),
@@ -297,6 +306,7 @@ mod tests {
             control: Control::PassLoad(0.05 * 3e9 * grid.area()),
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-6,
+            friction: None,
         };
         let mut simulation = Simulation::new(
             pair,

@@ -5,6 +5,7 @@ use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
+use crate::solver::Sliding;
 use crate::units::Newton;
 
 /// How far a motion has come.
@@ -52,6 +53,8 @@ pub struct PassReport<'a> {
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
+    /// How they slid, if there is friction.
+    pub sliding: Option<Sliding>,
 }
 
 impl PassReport<'_> {

@@ -14,8 +14,10 @@ mod site;
 mod sparse_inverse;
 mod together;
 
+pub(crate) use friction::solve_sliding;
 pub use friction::{
-    Coupling, Friction, FrictionalSolution, Loading, Rolling, Tangential, solve_frictional, solve_rolling,
+    Coupling, Friction, FrictionalSolution, Loading, Rolling, Sliding, Tangential, solve_frictional,
+    solve_rolling,
 };
 pub use residual::{Residual, residual};
 pub(crate) use site::{Kept, Site, coarse_gap};

@@ -129,7 +129,7 @@ impl<'a> Entry<'a> {
         self.error(format!("'{}' is {found}, expected {expected}", self.key()), None)
     }
 
-    fn key(&self) -> &str {
+    pub(super) fn key(&self) -> &str {
         self.path.rsplit('.').next().unwrap_or_default()
     }
 
@@ -140,6 +140,26 @@ impl<'a> Entry<'a> {
             }
             _ => Err(self.wrong_type(&format!("a table [{}]", self.path))),
         }
+    }
+
+    /// The tables of an array of tables.
+    pub(super) fn tables(&self) -> Result<Vec<Table<'a>>> {
+        let expected = format!("tables [[{}]]", self.path);
+        let DeValue::Array(items) = self.value else { return Err(self.wrong_type(&expected)) };
+        let table = |item: &'a toml::Spanned<DeValue<'a>>| match item.get_ref() {
+            DeValue::Table(entries) => Ok(Table {
+                document: self.document,
+                path: format!("[{}]", self.path),
+                span: item.span(),
+                entries,
+            }),
+            _ => Err(self.wrong_type(&expected)),
+        };
+        items.iter().map(table).collect()
+    }
+
+    pub(super) fn is_array(&self) -> bool {
+        matches!(self.value, DeValue::Array(_))
     }
 
     pub(super) fn text(&self) -> Result<&'a str> {

@@ -5,6 +5,7 @@
 
 mod cursor;
 mod document;
+mod friction;
 mod parse;
 mod source;
 
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 use self::document::Document;
+pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
 pub use self::source::{Source, TopographySpec};
 use crate::error::{Error, Result};
 use crate::material::Material;
@@ -34,6 +36,12 @@ pub struct Case {
     pub upper: Body,
     /// What presses them together.
     pub contact: Contact,
+    /// Their friction; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionSpec>,
+    /// Stages of the loading of a static contact after the first, which `contact` and `friction` prescribe.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<StageSpec>,
     /// How they move; a static contact if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
@@ -180,6 +188,7 @@ impl Case {
             control,
             plastic_update: spec.plastic_update,
             load_tolerance: spec.load_tolerance,
+            friction: self.friction.map(|friction| friction.law),
         })
     }
 

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::cursor::{Entry, Table};
 use super::document::{Document, join};
+use super::friction::friction;
 use super::{
-    Body, Boundary, Case, Contact, ControlKind, Method, MotionSpec, Mount, Output, Prescribed, Source,
-    TopographySpec,
+    Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Method, MotionSpec, Mount, Output, Prescribed,
+    Source, StageSpec, TopographySpec,
 };
 use crate::error::Result;
 use crate::material::{self, Material};
@@ -15,7 +16,7 @@ use crate::surface::{Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Le
 use crate::units::Dimension;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 5] = [
+const TABLES: [(&str, &[&str]); 6] = [
     ("lower", &["young", "poisson", "hardness", "topography"]),
     ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
     ("contact", &["load", "mean_pressure", "approach", "boundary", "method", "tolerance"]),
@@ -30,6 +31,20 @@ const TABLES: [(&str, &[&str]); 5] = [
             "control",
             "plastic_update",
             "load_tolerance",
+        ],
+    ),
+    (
+        "friction",
+        &[
+            "coefficient",
+            "coupling",
+            "shear_strength",
+            "force",
+            "displacement",
+            "sliding",
+            "creepage",
+            "rolling_force",
+            "increments",
         ],
     ),
     ("output", &["pressure_every"]),
@@ -65,7 +80,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    root.known(&["title", "lower", "upper", "contact", "motion", "output"], |key| belongs(key, ""))?;
+    root.known(&["title", "lower", "upper", "contact", "friction", "history", "motion", "output"], |key| {
+        belongs(key, "")
+    })?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),
         None => file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -82,8 +99,35 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
     let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
+    let friction = root.table("friction")?.map(|table| friction(&table, motion.is_some())).transpose()?;
+    let history = history(root.get("history").as_ref(), motion.is_some(), friction.as_ref())?;
+    if let (Some(_), Some(motion)) = (friction, motion)
+        && motion.strategy.direction() == 0.0
+    {
+        let hint = "give the speeds different values, or leave [friction] out".to_owned();
+        let message = "surfaces of equal speeds do not slide over each other".to_owned();
+        return Err(root.required_table("friction")?.error(message, Some(hint)));
+    }
     let output = output(root.table("output")?.as_ref())?;
-    Ok(Case { title, lower, upper, contact, motion, output, document })
+    Ok(Case { title, lower, upper, contact, friction, history, motion, output, document })
+}
+
+/// The stages after the first, which only a static contact with friction has.
+fn history(
+    entry: Option<&Entry<'_>>,
+    moves: bool,
+    friction: Option<&FrictionSpec>,
+) -> Result<Vec<StageSpec>> {
+    let Some(entry) = entry else { return Ok(Vec::new()) };
+    let tables = entry.tables()?;
+    match friction {
+        Some(friction) if !moves => super::friction::history(&tables, friction),
+        Some(_) => Err(entry.error("a [motion] has no [[history]]".to_owned(), None)),
+        None => {
+            let hint = "without friction a contact does not depend on its history".to_owned();
+            Err(entry.error("[[history]] needs [friction]".to_owned(), Some(hint)))
+        }
+    }
 }
 
 fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
@@ -266,16 +310,6 @@ fn form(table: &Table<'_>) -> Result<Source> {
 
 fn contact(table: &Table<'_>) -> Result<Contact> {
     known_in(table)?;
-    let key = table.exactly_one(
-        &["load", "mean_pressure", "approach"],
-        "for example `load = \"2 N\"` and no other of them",
-    )?;
-    let entry = table.required(key, "\"2 N\"")?;
-    let prescribed = match key {
-        "load" => Prescribed::Load(entry.positive(Dimension::Force)?),
-        "mean_pressure" => Prescribed::MeanPressure(entry.positive(Dimension::Pressure)?),
-        _ => Prescribed::Approach(entry.quantity(Dimension::Length)?),
-    };
     let boundaries = [("free", Boundary::Free), ("periodic", Boundary::Periodic)];
     let methods = [
         ("auto", Method::Auto),
@@ -284,10 +318,23 @@ fn contact(table: &Table<'_>) -> Result<Contact> {
         ("active-set", Method::ActiveSet),
     ];
     Ok(Contact {
-        prescribed,
+        prescribed: prescribed(table)?,
         boundary: choice_or(table, "boundary", &boundaries, Boundary::Free)?,
         method: choice_or(table, "method", &methods, Method::Auto)?,
         tolerance: fraction_or(table, "tolerance", 1e-6)?,
+    })
+}
+
+pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
+    let key = table.exactly_one(
+        &["load", "mean_pressure", "approach"],
+        "for example `load = \"2 N\"` and no other of them",
+    )?;
+    let entry = table.required(key, "\"2 N\"")?;
+    Ok(match key {
+        "load" => Prescribed::Load(entry.positive(Dimension::Force)?),
+        "mean_pressure" => Prescribed::MeanPressure(entry.positive(Dimension::Pressure)?),
+        _ => Prescribed::Approach(entry.quantity(Dimension::Length)?),
     })
 }
 
@@ -377,7 +424,7 @@ fn output(table: Option<&Table<'_>>) -> Result<Output> {
     Ok(Output { pressure_every: pressure_every.unwrap_or(default.pressure_every) })
 }
 
-fn known_in(table: &Table<'_>) -> Result<()> {
+pub(super) fn known_in(table: &Table<'_>) -> Result<()> {
     let keys = TABLES.iter().find(|(name, _)| *name == table.path()).map_or(&[][..], |(_, keys)| keys);
     table.known(keys, |key| belongs(key, table.path()))
 }
@@ -427,7 +474,12 @@ fn lengths(entry: &Entry<'_>) -> Result<[f64; 2]> {
     entry.pair(LENGTHS, |item| item.positive(Dimension::Length))
 }
 
-fn choice_or<T: Copy>(table: &Table<'_>, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {
+pub(super) fn choice_or<T: Copy>(
+    table: &Table<'_>,
+    key: &str,
+    choices: &[(&str, T)],
+    default: T,
+) -> Result<T> {
     table.get(key).map_or(Ok(default), |entry| entry.choice(choices))
 }
 

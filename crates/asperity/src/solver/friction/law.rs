@@ -1,6 +1,7 @@
 //! How much shear a cell bears.
 
 use crate::error::{Result, check};
+use crate::material::Compliances;
 use crate::units::Pascal;
 
 /// How normal and tangential displacements are coupled where the bodies are dissimilar.
@@ -16,11 +17,23 @@ pub enum Coupling {
     None,
 }
 
+impl Coupling {
+    /// Whether shear displaces the surface normally.
+    pub(super) fn lifts(self, compliances: &Compliances) -> bool {
+        self == Self::Full && compliances.coupling != 0.0
+    }
+
+    /// Whether pressure displaces the surface tangentially.
+    pub(super) fn slips(self, compliances: &Compliances) -> bool {
+        self != Self::None && compliances.coupling != 0.0
+    }
+}
+
 /// Friction in each cell: |q| ≤ min(μp, τ), in any direction of the plane.
 ///
 /// Where |q| is less the bodies stick; where it is that much they may slip, and q on the lower body points where the upper
 /// one slips to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Friction {
     /// Coefficient of friction μ ≥ 0; infinite where the bodies stick wherever they touch.
     pub coefficient: f64,

@@ -10,6 +10,7 @@ pub use rolling::{Rolling, solve_rolling};
 
 use crate::error::{Result, check};
 use crate::grid::Field;
+use crate::material::Compliances;
 use crate::operator::CoupledOperator;
 use crate::solver::{Control, Params, Solution, Stats, residual, solve_normal};
 use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
@@ -25,6 +26,27 @@ pub enum Tangential {
     Force([Newton; 2]),
     /// The upper body slides in this direction, a unit vector, at every cell.
     Sliding([f64; 2]),
+}
+
+/// Bodies that slide over each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sliding {
+    /// Their friction.
+    pub friction: Friction,
+    /// Where the upper body slides to, a unit vector.
+    pub direction: [f64; 2],
+}
+
+impl Sliding {
+    /// Shear on the lower body of a cell under `pressure`.
+    pub fn shear(&self, pressure: Pascal) -> [Pascal; 2] {
+        self.direction.map(|n| n * self.friction.bound(pressure))
+    }
+
+    /// Whether the shear displaces these bodies normally.
+    pub(crate) fn lifts(&self, compliances: &Compliances) -> bool {
+        self.friction.coefficient > 0.0 && self.friction.coupling.lifts(compliances)
+    }
 }
 
 /// What is prescribed at the end of an increment.
@@ -61,6 +83,11 @@ impl FrictionalSolution {
     /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
     pub fn force(&self, cell_area: SquareMetre) -> [Newton; 2] {
         self.shear.each_ref().map(|q| cell_area * q.sum())
+    }
+
+    /// Largest shear traction |q|.
+    pub fn max_shear(&self) -> Pascal {
+        self.shear[0].iter().zip(&self.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
     }
 
     /// Elastic energy ½ ΔA Σ (p u_z + q·u) (periodic: without that of the mean displacements, which are free).
@@ -122,16 +149,61 @@ pub fn solve_frictional(
     before: Option<&FrictionalSolution>,
     params: &Params,
 ) -> Result<FrictionalSolution> {
+    let start = match before {
+        Some(before) => Start {
+            pressure: Some(before.normal.pressure.clone()),
+            shear: Some(before.shear.clone()),
+            slip: Some([0, 1].map(|axis| before.displacement[axis].mapv(|u| before.shift[axis] - u))),
+        },
+        None => Start::default(),
+    };
+    alternate(operator, initial_gap, hardness, friction, loading, start, params)
+}
+
+/// Where an increment begins.
+#[derive(Default)]
+struct Start {
+    /// Near the answer.
+    pressure: Option<Field>,
+    shear: Option<[Field; 2]>,
+    /// s₀.
+    slip: Option<[Field; 2]>,
+}
+
+/// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
+/// near the answer.
+pub(crate) fn solve_sliding(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    sliding: &Sliding,
+    normal: Control,
+    pressure: Option<&Field>,
+    params: &Params,
+) -> Result<FrictionalSolution> {
+    let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
+    let start = Start { pressure: pressure.cloned(), ..Start::default() };
+    alternate(operator, initial_gap, hardness, &sliding.friction, loading, start, params)
+}
+
+/// Normal and tangential problems in turn.
+fn alternate(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    hardness: Pascal,
+    friction: &Friction,
+    loading: Loading,
+    start: Start,
+    params: &Params,
+) -> Result<FrictionalSolution> {
     let friction = friction.checked()?;
     validate(&loading.tangential)?;
     let mut bodies = Bodies { operator, coupling: friction.coupling, convolutions: 0.0 };
     let grid = *bodies.operator.grid();
+    let Start { mut pressure, shear, slip: slip_before } = start;
+    let mut lift = shear.as_ref().and_then(|shear| bodies.lift(shear));
+    let mut shear = shear.unwrap_or_else(|| [grid.zeros(), grid.zeros()]);
     let alternates = bodies.shear_lifts();
-    let slip_before =
-        before.map(|before| [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.shift[axis] - u)));
-    let mut shear = before.map_or_else(|| [grid.zeros(), grid.zeros()], |before| before.shear.clone());
-    let mut lift = bodies.lift(&shear);
-    let mut pressure = before.map(|before| before.normal.pressure.clone());
     let mut solver = None;
     let mut stats = Stats::default();
     let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
@@ -269,16 +341,12 @@ struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
-    fn dissimilar(&self) -> bool {
-        self.operator.compliances().coupling != 0.0
-    }
-
     fn shear_lifts(&self) -> bool {
-        self.dissimilar() && self.coupling == Coupling::Full
+        self.coupling.lifts(self.operator.compliances())
     }
 
     fn pressure_slips(&self) -> bool {
-        self.dissimilar() && self.coupling != Coupling::None
+        self.coupling.slips(self.operator.compliances())
     }
 
     /// Normal displacement under shear.

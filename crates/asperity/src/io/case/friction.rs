@@ -1,0 +1,200 @@
+//! `[friction]` and `[[history]]`: friction, and how a static contact comes to bear what it bears.
+
+use serde::{Serialize, Serializer};
+
+use super::cursor::{Entry, Table};
+use super::parse::{choice_or, known_in, prescribed};
+use super::{Number, Prescribed};
+use crate::error::Result;
+use crate::motion::Stage;
+use crate::solver::{Coupling, Friction, Loading, Rolling, Tangential};
+use crate::units::{Dimension, SquareMetre};
+
+/// Friction, and what it resists.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FrictionSpec {
+    /// The law.
+    #[serde(flatten, serialize_with = "with_infinities")]
+    pub law: Friction,
+    /// What is prescribed in the plane of a static contact; no force where there is nothing.
+    #[serde(flatten)]
+    pub prescribed: Option<InPlane>,
+    /// Equal steps in which a static contact is loaded, ≥ 1.
+    pub increments: usize,
+}
+
+/// What is prescribed in the plane, along x and y.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InPlane {
+    /// Force of the upper body on the lower one.
+    Force([f64; 2]),
+    /// Displacement of the upper body against the lower one.
+    Displacement([f64; 2]),
+    /// The upper body slides in this direction, a unit vector.
+    Sliding([f64; 2]),
+    /// Rolling along x, with the velocity of the upper body against the lower one over the rolling velocity.
+    Creepage([f64; 2]),
+    /// Rolling along x, with the force of the upper body on the lower one.
+    RollingForce([f64; 2]),
+}
+
+/// A further stage of the loading: what it does not name stays.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StageSpec {
+    /// In the normal direction.
+    #[serde(flatten)]
+    pub normal: Option<Prescribed>,
+    /// In the plane: force, displacement or sliding.
+    #[serde(flatten)]
+    pub in_plane: Option<InPlane>,
+    /// Equal steps, ≥ 1.
+    pub increments: usize,
+}
+
+/// How a static contact with friction is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// Loaded stage after stage.
+    Stages(Vec<Stage>),
+    /// In steady rolling.
+    Rolling(Rolling),
+}
+
+impl FrictionSpec {
+    /// The course of a static contact that `first` presses together, and the `history` after that, on so large an apparent
+    /// area.
+    pub fn course(&self, first: Prescribed, history: &[StageSpec], apparent_area: SquareMetre) -> Course {
+        let tangential = match self.prescribed {
+            Some(InPlane::Creepage(creepage)) => return Course::Rolling(Rolling::Creepage(creepage)),
+            Some(InPlane::RollingForce(force)) => return Course::Rolling(Rolling::Force(force)),
+            other => other.and_then(|in_plane| in_plane.tangential()),
+        };
+        let normal = first.control(apparent_area);
+        let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
+        let mut stages = vec![Stage { loading, increments: self.increments }];
+        for stage in history {
+            if let Some(normal) = stage.normal {
+                loading.normal = normal.control(apparent_area);
+            }
+            if let Some(tangential) = stage.in_plane.and_then(|in_plane| in_plane.tangential()) {
+                loading.tangential = tangential;
+            }
+            stages.push(Stage { loading, increments: stage.increments });
+        }
+        Course::Stages(stages)
+    }
+}
+
+impl InPlane {
+    /// What is prescribed to bodies that do not roll.
+    fn tangential(self) -> Option<Tangential> {
+        match self {
+            Self::Force(force) => Some(Tangential::Force(force)),
+            Self::Displacement(shift) => Some(Tangential::Displacement(shift)),
+            Self::Sliding(direction) => Some(Tangential::Sliding(direction)),
+            Self::Creepage(_) | Self::RollingForce(_) => None,
+        }
+    }
+}
+
+/// What a static contact may be told in its plane.
+const IN_PLANE: [&str; 5] = ["force", "displacement", "sliding", "creepage", "rolling_force"];
+/// What a stage may be told.
+const STAGE: [&str; 7] =
+    ["load", "mean_pressure", "approach", "force", "displacement", "sliding", "increments"];
+
+pub(super) fn friction(table: &Table<'_>, moves: bool) -> Result<FrictionSpec> {
+    known_in(table)?;
+    let coefficient = table
+        .required("coefficient", "0.3")?
+        .number(|value| value >= 0.0, "a number of at least 0 such as 0.3, or inf where nothing slips")?;
+    let couplings = [("full", Coupling::Full), ("goodman", Coupling::Goodman), ("none", Coupling::None)];
+    let shear_strength = match table.get("shear_strength") {
+        Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
+        None => f64::INFINITY,
+    };
+    if moves && let Some(entry) = IN_PLANE.iter().chain(&["increments"]).find_map(|key| table.get(key)) {
+        let hint = "in a [motion] the upper body slides over the lower one".to_owned();
+        return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
+    }
+    Ok(FrictionSpec {
+        law: Friction {
+            coefficient,
+            shear_strength,
+            coupling: choice_or(table, "coupling", &couplings, Coupling::Full)?,
+        },
+        prescribed: in_plane(table, &IN_PLANE)?,
+        increments: increments(table)?,
+    })
+}
+
+pub(super) fn history(tables: &[Table<'_>], friction: &FrictionSpec) -> Result<Vec<StageSpec>> {
+    let rolls = matches!(friction.prescribed, Some(InPlane::Creepage(_) | InPlane::RollingForce(_)));
+    tables
+        .iter()
+        .map(|table| {
+            if rolls {
+                let hint = "its steady state does not depend on how it was reached".to_owned();
+                return Err(table.error("a rolling contact has no [[history]]".to_owned(), Some(hint)));
+            }
+            table.known(&STAGE, |_| None)?;
+            let given = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
+            let normal = given(&STAGE[..3]).then(|| prescribed(table)).transpose()?;
+            Ok(StageSpec { normal, in_plane: in_plane(table, &STAGE[3..6])?, increments: increments(table)? })
+        })
+        .collect()
+}
+
+fn increments(table: &Table<'_>) -> Result<usize> {
+    table.get("increments").map_or(Ok(1), |entry| entry.count(1))
+}
+
+fn in_plane(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<InPlane>> {
+    if keys.iter().all(|key| table.get(key).is_none()) {
+        return Ok(None);
+    }
+    let key = table.exactly_one(keys, "give one of them, or none")?;
+    let entry = table.required(key, "\"0.1 N\"")?;
+    let quantity = |dimension, expected| vector(&entry, expected, |item| item.quantity(dimension));
+    let number = |expected| vector(&entry, expected, |item| item.number(f64::is_finite, "a finite number"));
+    Ok(Some(match key {
+        "force" => InPlane::Force(quantity(Dimension::Force, "a force along x, or two along x and y")?),
+        "rolling_force" => {
+            InPlane::RollingForce(quantity(Dimension::Force, "a force along x, or two along x and y")?)
+        }
+        "displacement" => {
+            InPlane::Displacement(quantity(Dimension::Length, "a length along x, or two along x and y")?)
+        }
+        "creepage" => InPlane::Creepage(number("a number along x, or two along x and y")?),
+        _ => {
+            let [x, y] = number("a direction such as [1, 0]")?;
+            let length = x.hypot(y);
+            if length == 0.0 {
+                return Err(entry.unexpected("a direction such as [1, 0]", None));
+            }
+            InPlane::Sliding([x / length, y / length])
+        }
+    }))
+}
+
+/// A component along x, or an array of two along x and y.
+fn vector<'a>(
+    entry: &Entry<'a>,
+    expected: &str,
+    read: impl Fn(&Entry<'a>) -> Result<f64>,
+) -> Result<[f64; 2]> {
+    if entry.is_array() { entry.array(expected, read) } else { read(entry).map(|x| [x, 0.0]) }
+}
+
+fn with_infinities<S: Serializer>(law: &Friction, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        coefficient: Number,
+        shear_strength: Number,
+        coupling: Coupling,
+    }
+    let Friction { coefficient, shear_strength, coupling } = *law;
+    Keys { coefficient: coefficient.into(), shear_strength: shear_strength.into(), coupling }
+        .serialize(serializer)
+}
