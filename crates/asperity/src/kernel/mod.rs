@@ -2,5 +2,7 @@
 
 pub mod normal;
 pub mod spectral;
+pub mod subsurface;
 
 pub use normal::{influence_matrix, influence_table, normal_displacement};
+pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};
