@@ -7,9 +7,9 @@ use crate::error::Result;
 use crate::io::case::Case;
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
-use crate::io::results::{Existing, Results};
+use crate::io::results::{Existing, PassWriter, Results};
 use crate::io::summary::{Outcome, Summary};
-use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, press};
+use crate::motion::{Motion, Pair, Simulation, Watch, press};
 use crate::solver::Params;
 use crate::surface::Topography;
 
@@ -28,19 +28,25 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
     let params =
         Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
     let area = outlook.apparent_area;
-    let outcome = match case.motion(area) {
+    let (outcome, subsurface) = match case.motion(area) {
         None => {
             let control = case.contact.prescribed.control(area);
             let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
             results.write_static(&pair, &solution)?;
-            Outcome::Static(record)
+            let stress = outlook.subsurface.map(|plan| results.write_subsurface(&plan, solution.pressure));
+            (Outcome::Static(record), stress.transpose()?.into_iter().collect())
         }
-        Some(motion) => Outcome::Passes(move_over(case, &results, pair, motion, params, watch)?),
+        Some(motion) => {
+            let writer = results.writer(case.output.pressure_every, outlook.subsurface)?;
+            let writer = move_over(case, &results, writer, pair, motion, params, watch)?;
+            (Outcome::Passes(writer.passes().to_vec()), writer.subsurface().to_vec())
+        }
     };
     let summary = Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,
+        subsurface,
         warnings: outlook.warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };
@@ -53,15 +59,16 @@ fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
     Pair::new(lower, upper, [&case.lower.material, &case.upper.material])
 }
 
-/// The passes that are not yet there.
+/// The passes that are not yet there; the writer has then written them.
 fn move_over(
     case: &Case,
     results: &Results,
+    mut writer: PassWriter,
     initial: Pair,
     motion: Motion,
     params: Params,
     watch: &dyn Watch,
-) -> Result<Vec<PassRecord>> {
+) -> Result<PassWriter> {
     let boundary = case.contact.boundary;
     let done = results.passes()?;
     let mut simulation = match done.last() {
@@ -75,7 +82,6 @@ fn move_over(
             Simulation::new(pair, boundary, motion, params)?.resumed(done.len(), last.approach)
         }
     };
-    let mut writer = results.writer(case.output.pressure_every)?;
     simulation.run(watch, &mut [&mut writer])?;
-    Ok(writer.passes().to_vec())
+    Ok(writer)
 }

@@ -5,7 +5,9 @@
 //!     steps.csv passes.csv a motion: a row per position, a row per pass
 //!     fields/initial.h5    the surfaces before the first pass
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
+//!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
+//!     subsurface.h5        the stress under its surface, where it is wanted
 //!     summary.json         once all is done
 //!     figures/             pictures
 //! ```
@@ -19,9 +21,11 @@ use super::fields::{FieldFile, Fields};
 use super::{atomic, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
 use crate::motion::{Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
+use crate::subsurface::Tractions;
 use crate::surface::Topography;
 
 /// What to do about results that are there already.
@@ -203,6 +207,22 @@ impl Results {
         file.write(&self.directory.join("fields.h5"))
     }
 
+    /// The stress under the surface: of a static contact, or in the pass, from 1, of a motion.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn subsurface_fields(&self, pass: Option<usize>) -> Result<Fields> {
+        Fields::open(&self.subsurface_path(pass))
+    }
+
+    /// Computes and writes the stress under the surface of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_subsurface(&self, plan: &Plan, pressure: Field) -> Result<SubsurfaceRecord> {
+        plan.write(&self.subsurface_path(None), None, tractions(pressure))
+    }
+
     /// Writes the surfaces before the first pass.
     ///
     /// # Errors
@@ -229,12 +249,24 @@ impl Results {
         Ok([topography("lower")?, topography("upper")?])
     }
 
-    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none).
+    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none) and
+    /// the stress under the surface, where there is a plan for it.
     ///
     /// # Errors
-    /// [`Error::File`] if the rows of earlier passes cannot be read.
-    pub fn writer(&self, pressure_every: usize) -> Result<PassWriter> {
-        Ok(PassWriter { steps: self.steps()?, passes: self.passes()?, results: self.clone(), pressure_every })
+    /// [`Error::File`] if the results of earlier passes cannot be read.
+    pub fn writer(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
+        let passes = self.passes()?;
+        let done = plan.iter().flat_map(|_| 1..=passes.len());
+        Ok(PassWriter {
+            steps: self.steps()?,
+            subsurface: done
+                .map(|pass| SubsurfaceRecord::read(&self.subsurface_path(Some(pass))))
+                .collect::<Result<_>>()?,
+            passes,
+            results: self.clone(),
+            pressure_every,
+            plan,
+        })
     }
 
     /// Removes what an earlier computation left, and nothing else.
@@ -244,7 +276,7 @@ impl Results {
             fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
         }
         // Last the file by which the directory is known as ours.
-        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "case.json"];
+        let files = ["summary.json", "passes.csv", "steps.csv", "fields.h5", "subsurface.h5", "case.json"];
         files.iter().try_for_each(|name| self.remove(name))
     }
 
@@ -269,6 +301,13 @@ impl Results {
         self.directory.join("fields").join(name)
     }
 
+    fn subsurface_path(&self, pass: Option<usize>) -> PathBuf {
+        match pass {
+            None => self.directory.join("subsurface.h5"),
+            Some(pass) => self.directory.join("fields").join(format!("subsurface-{pass:04}.h5")),
+        }
+    }
+
     fn failed(&self, path: &Path, source: std::io::Error) -> Error {
         Error::File { path: path.to_owned(), source }
     }
@@ -279,13 +318,20 @@ pub struct PassWriter {
     results: Results,
     steps: Vec<StepRecord>,
     passes: Vec<PassRecord>,
+    subsurface: Vec<SubsurfaceRecord>,
     pressure_every: usize,
+    plan: Option<Plan>,
 }
 
 impl PassWriter {
     /// The passes written so far.
     pub fn passes(&self) -> &[PassRecord] {
         &self.passes
+    }
+
+    /// The stresses under the surface in them; none without a plan.
+    pub fn subsurface(&self) -> &[SubsurfaceRecord] {
+        &self.subsurface
     }
 }
 
@@ -309,11 +355,22 @@ impl Output for PassWriter {
             }
         }
         file.write(&self.results.fields_path(report.record.pass))?;
+        if let Some(plan) = &self.plan {
+            let pass = Some(report.record.pass);
+            let pressure = report.contacts[plan.index].pressure_field(pair.lower.ncols());
+            let path = self.results.subsurface_path(pass);
+            self.subsurface.push(plan.write(&path, pass, tractions(pressure))?);
+        }
         self.steps.extend_from_slice(report.steps);
         self.passes.push(report.record.clone());
         tables::write_steps(&self.results.directory.join("steps.csv"), &self.steps)?;
         tables::write_passes(&self.results.directory.join("passes.csv"), &self.passes)
     }
+}
+
+/// What acts on the lower body: contact is frictionless so far.
+fn tractions(pressure: Field) -> Tractions {
+    Tractions::frictionless(pressure)
 }
 
 /// Name of the pressure field of a position, which is counted from 1.

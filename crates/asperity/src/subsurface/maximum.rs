@@ -73,7 +73,7 @@ impl Subsurface {
         let (up, down) = (most.depth - above?, below? - most.depth);
         let (rise, fall) = (most.value - at(above?), most.value - at(below?));
         let shift = 0.5 * (down * down * rise - up * up * fall) / (down * rise + up * fall);
-        shift.is_finite().then(|| most.depth + shift)
+        shift.is_finite().then_some(most.depth + shift)
     }
 }
 

@@ -7,6 +7,7 @@ mod cursor;
 mod document;
 mod parse;
 mod source;
+mod subsurface;
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,7 @@ use serde::{Serialize, Serializer};
 
 use self::document::Document;
 pub use self::source::{Source, TopographySpec};
+pub use self::subsurface::{Side, SubsurfaceSpec};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
@@ -37,6 +39,9 @@ pub struct Case {
     /// How they move; a static contact if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
+    /// What is looked at under the surface; nothing if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subsurface: Option<SubsurfaceSpec>,
     /// What is kept.
     pub output: Output,
     #[serde(skip)]

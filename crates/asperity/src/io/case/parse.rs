@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::cursor::{Entry, Table};
 use super::document::{Document, join};
+use super::subsurface::subsurface;
 use super::{
     Body, Boundary, Case, Contact, ControlKind, Method, MotionSpec, Mount, Output, Prescribed, Source,
     TopographySpec,
@@ -15,7 +16,7 @@ use crate::surface::{Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Le
 use crate::units::Dimension;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 5] = [
+const TABLES: [(&str, &[&str]); 6] = [
     ("lower", &["young", "poisson", "hardness", "topography"]),
     ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
     ("contact", &["load", "mean_pressure", "approach", "boundary", "method", "tolerance"]),
@@ -32,6 +33,7 @@ const TABLES: [(&str, &[&str]); 5] = [
             "load_tolerance",
         ],
     ),
+    ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
     ("output", &["pressure_every"]),
 ];
 
@@ -65,7 +67,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    root.known(&["title", "lower", "upper", "contact", "motion", "output"], |key| belongs(key, ""))?;
+    root.known(&["title", "lower", "upper", "contact", "motion", "subsurface", "output"], |key| {
+        belongs(key, "")
+    })?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),
         None => file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -82,8 +86,10 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
     let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
+    let subsurface =
+        root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     let output = output(root.table("output")?.as_ref())?;
-    Ok(Case { title, lower, upper, contact, motion, output, document })
+    Ok(Case { title, lower, upper, contact, motion, subsurface, output, document })
 }
 
 fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
@@ -377,7 +383,7 @@ fn output(table: Option<&Table<'_>>) -> Result<Output> {
     Ok(Output { pressure_every: pressure_every.unwrap_or(default.pressure_every) })
 }
 
-fn known_in(table: &Table<'_>) -> Result<()> {
+pub(super) fn known_in(table: &Table<'_>) -> Result<()> {
     let keys = TABLES.iter().find(|(name, _)| *name == table.path()).map_or(&[][..], |(_, keys)| keys);
     table.known(keys, |key| belongs(key, table.path()))
 }
@@ -427,7 +433,12 @@ fn lengths(entry: &Entry<'_>) -> Result<[f64; 2]> {
     entry.pair(LENGTHS, |item| item.positive(Dimension::Length))
 }
 
-fn choice_or<T: Copy>(table: &Table<'_>, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {
+pub(super) fn choice_or<T: Copy>(
+    table: &Table<'_>,
+    key: &str,
+    choices: &[(&str, T)],
+    default: T,
+) -> Result<T> {
     table.get(key).map_or(Ok(default), |entry| entry.choice(choices))
 }
 
