@@ -69,7 +69,7 @@ impl Stress {
     pub fn principal(&self) -> [Pascal; 3] {
         const SWEEPS: usize = 6;
         let mut s = [[self.xx, self.xy, self.xz], [self.xy, self.yy, self.yz], [self.xz, self.yz, self.zz]];
-        for (i, j, k) in [(0, 1, 2), (0, 2, 1), (1, 2, 0)].repeat(SWEEPS) {
+        for (i, j, k) in (0..SWEEPS).flat_map(|_| [(0, 1, 2), (0, 2, 1), (1, 2, 0)]) {
             let shear = s[i][j];
             if shear == 0.0 {
                 continue;

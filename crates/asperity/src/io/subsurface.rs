@@ -19,7 +19,7 @@ use crate::grid::{Field, Grid};
 use crate::motion::Position;
 use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
-use crate::subsurface::{Extreme, Plane, Subsurface, Tractions};
+use crate::subsurface::{Extreme, Plane, Subsurface, Tractions, von_mises};
 use crate::units::{self, Dimension, Metre, Pascal};
 
 /// What is looked at, on the grid of one contact.
@@ -159,7 +159,7 @@ impl Plan {
             }
             field
         };
-        self.add_section(&mut file, Component::ALL.map(section));
+        self.add_section(&mut file, &Component::ALL.map(section));
         for k in 0..self.columns.len() {
             for component in Component::ALL {
                 let values: Vec<f64> =
@@ -172,14 +172,13 @@ impl Plan {
         Ok(record)
     }
 
-    fn add_section(&self, file: &mut FieldFile, section: [Field; 6]) {
+    fn add_section(&self, file: &mut FieldFile, section: &[Field; 6]) {
         let pitch = [self.grid.pitch[0], self.spacing()];
         let x = self.corner[0] + self.grid.centre(0, 0);
-        for (component, field) in Component::ALL.iter().zip(&section) {
+        for (component, field) in Component::ALL.iter().zip(section) {
             file.add_section(&format!("section_{}", component.name()), "Pa", pitch, x, field);
         }
-        let von_mises = Plane { depth: f64::NAN, stress: section }.von_mises();
-        file.add_section("section_von_mises", "Pa", pitch, x, &von_mises);
+        file.add_section("section_von_mises", "Pa", pitch, x, &von_mises(section));
     }
 
     fn describe(&self, file: &mut FieldFile, record: &SubsurfaceRecord, row: usize) {

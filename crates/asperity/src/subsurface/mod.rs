@@ -2,6 +2,24 @@
 //!
 //! z points into the body, stress is positive in tension. A [`Subsurface`] knows the tractions on the surface by their
 //! transforms; [`Subsurface::plane`] is the stress at one depth, [`Subsurface::maximum`] the largest over many.
+//!
+//! ```
+//! use asperity::reference::HertzSphere;
+//! use asperity::subsurface::{Subsurface, Tractions};
+//! use asperity::{Field, Grid, operator::Boundary};
+//!
+//! let ball = HertzSphere { radius: 1e-3, modulus: 115e9, load: 1.0 };
+//! let grid = Grid::new([65, 65], [1e-6; 2])?;
+//! let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+//!     ball.pressure((grid.centre(0, i) - 32.5e-6).hypot(grid.centre(1, j) - 32.5e-6))
+//! });
+//! let steel = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions::frictionless(pressure));
+//! let most = steel.maximum(&[0.0, 4e-6, 8e-6, 12e-6]).von_mises;
+//! assert_eq!(most.cell, [32, 32]);
+//! assert!((most.value / ball.peak_pressure() - 0.62).abs() < 0.002);
+//! assert!((most.depth / ball.contact_radius() - 0.48).abs() < 0.02);
+//! # Ok::<(), asperity::Error>(())
+//! ```
 
 mod maximum;
 
@@ -201,8 +219,14 @@ impl Plane {
 
     /// Von Mises' stress of each cell, Pa.
     pub fn von_mises(&self) -> Field {
-        Field::from_shape_fn(self.stress[0].raw_dim(), |(i, j)| self.at([i, j]).von_mises())
+        von_mises(&self.stress)
     }
+}
+
+/// Von Mises' stress, Pa, where the components, in the order of [`Component::ALL`], are these.
+pub fn von_mises(stress: &[Field; 6]) -> Field {
+    let at = |cell| Stress::from_components(stress.each_ref().map(|component| component[cell]));
+    Field::from_shape_fn(stress[0].raw_dim(), |(i, j)| at([i, j]).von_mises())
 }
 
 #[cfg(test)]
