@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use asperity::io::case::{Boundary, Case, Method};
+use asperity::io::case::{Boundary, Case, Method, Side};
 use asperity::io::outlook::{Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
+use asperity::io::subsurface::Plan;
 use asperity::motion::{Control, PlasticUpdate, Strategy};
 use asperity::units::{self, Dimension};
 
@@ -31,8 +32,9 @@ fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
         ("motion", motion(case, outlook)),
         ("memory", memory(outlook)),
     ];
+    let stress = outlook.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
-    for (name, value) in rows {
+    for (name, value) in rows.into_iter().chain(stress) {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page
@@ -132,6 +134,22 @@ fn memory(outlook: &Outlook) -> String {
     let [solver, together, results] = outlook.memory;
     let together = if together > 0.0 { format!(", {} for a pass", bytes(together)) } else { String::new() };
     format!("about {} for each thread{together}, {} of results", bytes(solver), bytes(results))
+}
+
+fn stress(case: &Case, plan: &Plan) -> String {
+    let body = match case.subsurface.as_ref().map(|spec| spec.body) {
+        Some(Side::Upper) => "upper",
+        _ => "lower",
+    };
+    let position =
+        if case.motion.is_some() { format!(" at position {}", plan.index + 1) } else { String::new() };
+    let deepest = plan.depths.last().copied().unwrap_or(0.0);
+    format!(
+        "in the {body} body{position}, {} depths to {}, about {} for each thread",
+        plan.depths.len(),
+        units::format(deepest, Dimension::Length),
+        bytes(plan.memory())
+    )
 }
 
 fn bytes(count: f64) -> String {

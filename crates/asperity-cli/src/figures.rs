@@ -3,13 +3,14 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use asperity::io::fields::Fields;
+use asperity::io::fields::{Attribute, Fields};
 use asperity::io::results::{Results, pressure_name};
 use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
+use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
 use crate::draw::{
-    self, Animation, Axis, Colours, Frame, LineFigure, MapFigure, Mark, Quantity, Series, Unit,
+    self, Animation, Axis, Colours, Frame, LineFigure, MapFigure, Mark, Quantity, SectionFigure, Series, Unit,
 };
 use crate::report::{Failure, Outcome};
 
@@ -27,6 +28,9 @@ pub(crate) fn draw(results: &Results) -> Outcome<Vec<PathBuf>> {
         static_contact(results, &mut sheet)?;
     } else {
         motion(results, &passes, &mut sheet)?;
+    }
+    if results.case()?.get("subsurface").is_some() {
+        subsurface(&results.subsurface_fields(passes.last().map(|pass| pass.pass))?, &mut sheet)?;
     }
     Ok(sheet.drawn)
 }
@@ -192,6 +196,39 @@ fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcom
     Ok(())
 }
 
+/// Von Mises' stress on the section; the most stressed point is marked if it lies there.
+fn subsurface(fields: &Fields, sheet: &mut Sheet) -> Outcome {
+    let stored = fields.read("section_von_mises")?;
+    let ([dx, dz], x) = ([stored.pitch[0], stored.pitch[1]], stored.origin[0]);
+    let layers =
+        stored.into_field().ok_or_else(|| Failure::usage("`section_von_mises` is not a section", None))?;
+    // Values stand at depths, from the surface on: between them, lines.
+    const FINER: usize = 4;
+    let cells = [layers.nrows(), FINER * (layers.ncols() - 1)];
+    let field = Field::from_shape_fn(cells, |(i, k)| {
+        let part = ((k % FINER) as f64 + 0.5) / FINER as f64;
+        (1.0 - part) * layers[[i, k / FINER]] + part * layers[[i, k / FINER + 1]]
+    });
+    let attributes = fields.attributes()?;
+    let place = match (attributes.get("section"), attributes.get("position"), attributes.get("body")) {
+        (Some(Attribute::Number(y)), Some(Attribute::Numbers(at)), Some(Attribute::Text(body))) => {
+            Some((*y, at, body))
+        }
+        _ => None,
+    };
+    let (y, at, body) = place.ok_or_else(|| Failure::usage("it is not said where the section lies", None))?;
+    let begin = x - 0.5 * dx;
+    let figure = SectionFigure {
+        title: format!("von Mises stress in the {body} body, y = {}", format(y, Dimension::Length)),
+        field: &field,
+        ends: [[begin, begin + cells[0] as f64 * dx], [0.0, (layers.ncols() - 1) as f64 * dz]],
+        quantity: Quantity::new("von Mises stress", Unit::Pressure),
+        mark: (at[1] == y).then(|| [at[0], at[2]]),
+    };
+    sheet.add("subsurface.png", |path| draw::section(path, &figure))?;
+    Ok(())
+}
+
 /// Least and greatest value of some fields.
 fn range(fields: &[&Field]) -> [f64; 2] {
     let values = fields.iter().flat_map(|field| field.iter());
@@ -235,11 +272,7 @@ fn pressures(
             let step = kept[(2 * k + 1) * kept.len() / (2 * SHEET.min(kept.len()))];
             let stored = pressure(step)?;
             let field = in_frame_of(&stored.field, stored.column, lower);
-            let title = format!(
-                "position {}: {}",
-                step.step,
-                asperity::units::format(step.load, asperity::units::Dimension::Force,)
-            );
+            let title = format!("position {}: {}", step.step, format(step.load, Dimension::Force));
             Ok((title, Stored { field, grid: lower, column: 0 }))
         })
         .collect::<Outcome<_>>()?;
@@ -338,7 +371,6 @@ fn approach_over_passes(passes: &[PassRecord]) -> LineFigure {
 }
 
 fn hardness(fields: &Fields) -> Outcome<f64> {
-    use asperity::io::fields::Attribute;
     match fields.attributes()?.get("hardness") {
         Some(Attribute::Number(hardness)) => Ok(*hardness),
         _ => Ok(f64::INFINITY),

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use asperity::io::case::Case;
 use asperity::io::engine;
 use asperity::io::results::{Existing, Results};
+use asperity::io::subsurface::SubsurfaceRecord;
 use asperity::io::summary::{Outcome, Summary};
 use asperity::motion::{PassRecord, Progress, StaticRecord, Watch};
 use asperity::units::{Dimension, format};
@@ -122,10 +123,20 @@ impl Watch for Display {
 }
 
 fn table(summary: &Summary) -> String {
-    match &summary.outcome {
+    let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(record),
         Outcome::Passes(passes) => passes_table(passes),
-    }
+    };
+    contact + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+fn stress_line(record: &SubsurfaceRecord) -> String {
+    let pass = record.pass.map_or(String::new(), |pass| format!("pass {pass}: "));
+    let [x, y, z] = record.position.map(|length| format(length, Dimension::Length));
+    format!(
+        "{pass}largest von Mises stress {} at x = {x}, y = {y}, depth {z}\n",
+        format(record.max_von_mises, Dimension::Pressure)
+    )
 }
 
 fn static_table(record: &StaticRecord) -> String {

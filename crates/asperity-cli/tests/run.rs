@@ -55,6 +55,36 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
 }
 
 #[test]
+fn the_stress_is_written_and_drawn_where_it_is_wanted_and_replaced_with_the_rest() {
+    let wanted = "\n[subsurface]\nto = \"5 um\"\nlayers = 10\n";
+    let folder = folder_with("case.toml", &format!("{BALL}{wanted}"));
+    let table = ok(&run(&folder, "case.toml --out out"));
+    assert!(table.contains("\nlargest von Mises stress "), "{table}");
+    let out = folder.path().join("out");
+    let (left, summary) = (files(&out), summary(&out));
+    assert!(left.contains("subsurface.h5") && left.contains("figures/subsurface.png"), "{left:?}");
+    let expected = ["max_von_mises", "position", "max_shear", "max_shear_position"];
+    assert_eq!(keys(&summary["subsurface"][0]), set(expected));
+    let drawn = fs::read(out.join("figures/subsurface.png")).unwrap();
+    fs::remove_dir_all(out.join("figures")).unwrap();
+    ok(&asperity(&folder, "plot out"));
+    assert!(fs::read(out.join("figures/subsurface.png")).unwrap() == drawn);
+
+    fs::write(
+        folder.path().join("case.toml"),
+        moving(2, 4).replace("output", "subsurface = { to = 5e-6 }\noutput"),
+    )
+    .unwrap();
+    let table = ok(&run(&folder, "case.toml --out out --overwrite"));
+    assert!(table.contains("\npass 2: largest von Mises stress "), "{table}");
+    let left = files(&out);
+    for name in ["fields/subsurface-0001.h5", "fields/subsurface-0002.h5", "figures/subsurface.png"] {
+        assert!(left.contains(name), "{left:?}");
+    }
+    assert!(!left.contains("subsurface.h5"), "{left:?}");
+}
+
+#[test]
 fn the_summary_of_a_motion_has_the_keys_and_numbers_of_its_tables() {
     let folder = folder_with("case.toml", &moving(2, 4));
     ok(&run(&folder, "case.toml"));
@@ -215,7 +245,10 @@ fn a_ball_on_a_plane_is_hertz() {
     let output = run(&folder, "--example hertz");
     assert!(ok(&output).contains("largest pressure"));
     assert!(folder.path().join("hertz/case/case.toml").exists());
-    let record = &summary(&folder.path().join("hertz/results"))["static"];
+    let summary = summary(&folder.path().join("hertz/results"));
+    let (record, stress) = (&summary["static"], &summary["subsurface"][0]);
+    assert!((number(&stress["max_von_mises"]) / 850e6 - 1.0).abs() < 2e-3, "{stress}");
+    assert!((number(&stress["position"][2]) / 9.0e-6 - 1.0).abs() < 2e-2, "{stress}");
     for (key, closed_form, tolerance) in
         [("approach", 348.2e-9, 2e-3), ("max_pressure", 1.371e9, 2e-3), ("contact_area", 1094e-12, 2e-2)]
     {

@@ -7,6 +7,7 @@
 //! pressure   p   ≥ 0, positive in compression      approach  δ grows as the bodies move together
 //! displacement u positive where it opens the gap   fields    indexed [ix, iy]; metres, pascals, newtons
 //! x              the direction of motion           load      W = ΔA Σ p, ΔA the area of a cell
+//! stress     σ   positive in tension; z then points from the surface into the body that bears it
 //! ```
 //!
 //! Everything is SI and `f64`; single precision serves the steps of an iteration only. The lower body is described by the height of its surface, the upper one by the
@@ -41,12 +42,14 @@ pub mod units;
 pub mod error;
 pub mod grid;
 pub mod math;
+pub mod stress;
 pub mod material;
 pub mod reference;
 pub mod surface;
 pub mod kernel;
 pub mod operator;
 pub mod solver;
+pub mod subsurface;
 pub mod motion;
 pub mod verification;
 pub mod io;

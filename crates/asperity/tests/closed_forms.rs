@@ -29,6 +29,9 @@ cases! {
     what_flows_everywhere_bears_its_hardness: "fully plastic: W = 0.2 H A₀",
     the_bodies_store_the_work_of_the_load: "rough contact: work of the load",
     the_contact_does_not_depend_on_how_it_is_found: "rough contact: three methods",
+    stresses_under_a_rectangle_are_those_of_its_parts: "Love: stress under a loaded rectangle",
+    a_sphere_yields_below_its_contact: "Hertz: stress under a sphere",
+    a_sliding_sphere_yields_nearer_to_the_surface: "Hamilton: stress under a sliding sphere, friction 0.25",
 }
 
 fn holds(name: &str) {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::case::{Boundary, Case, ControlKind, Method, Mount, Prescribed, Source};
+use asperity::io::case::{Boundary, Case, ControlKind, Method, Mount, Prescribed, Side, Source};
 use asperity::motion::{Control, PlasticUpdate, Strategy};
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine,
@@ -83,6 +83,15 @@ fn one_length_serves_both_directions_and_two_serve_each() {
     assert_eq!(form, Form::Sinusoid { amplitude: 1e-7, wavelength: [8e-6, f64::INFINITY] });
     let Source::Form { form, .. } = load("forms").upper.topography.source else { panic!() };
     assert_eq!(form, Form::Cylinder { radius: 5e-3, axis: Axis::X });
+}
+
+#[test]
+fn what_is_wanted_of_the_stress_is_read_in_si() {
+    let wanted = load("looked_into").subsurface.unwrap();
+    assert_eq!((wanted.body, wanted.to, wanted.layers), (Side::Upper, 20e-6, 80));
+    assert_eq!((wanted.planes, wanted.section, wanted.step), (vec![0.5e-6, 0.0], Some(10e-6), Some(8)));
+    assert_eq!(wanted.columns, [[5e-6, 10e-6], [0.0, 20e-6]]);
+    assert_eq!(load("smallest").subsurface, None);
 }
 
 #[test]

@@ -134,6 +134,18 @@ impl Canvas {
         }
     }
 
+    /// Marks a point by a cross that is seen on any colour.
+    pub(super) fn cross(&mut self, at: [f64; 2]) {
+        const ARM: f64 = 6.0;
+        let [x, y] = at.map(|v| v * f64::from(FINE));
+        for (width, colour) in [(4.0, PAPER), (1.6, INK)] {
+            for (dx, dy) in [(ARM, ARM), (ARM, -ARM)].map(|(x, y)| (x * f64::from(FINE), y * f64::from(FINE)))
+            {
+                self.stroke([x - dx, y - dy], [x + dx, y + dy], width * f64::from(FINE), colour, 1.0);
+            }
+        }
+    }
+
     /// Writes `text` with its `anchor` at `(x, y)`, turned about that point.
     ///
     /// The box that is anchored is as wide as the text and as high as a capital.

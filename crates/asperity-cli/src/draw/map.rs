@@ -73,6 +73,21 @@ pub(crate) struct MatrixFigure<'a> {
     pub(crate) nodes: [String; 2],
 }
 
+/// A section along x into the depth z, which runs downwards from the surface.
+#[derive(Debug, Clone)]
+pub(crate) struct SectionFigure<'a> {
+    /// Stands above the section.
+    pub(crate) title: String,
+    /// Values in SI, `[x, z]`, not below 0.
+    pub(crate) field: &'a Field,
+    /// Where the section begins and ends along x and z, m.
+    pub(crate) ends: [[f64; 2]; 2],
+    /// What the field holds: label of the colour bar.
+    pub(crate) quantity: Quantity,
+    /// A point `[x, z]` that is marked.
+    pub(crate) mark: Option<[f64; 2]>,
+}
+
 /// Draws a field with its colour bar into the PNG file `path`.
 ///
 /// The map is true to scale unless one side is more than four times the other.
@@ -121,6 +136,26 @@ pub(crate) fn matrix(path: &Path, figure: &MatrixFigure) -> Result<()> {
         names: [&figure.nodes[1], &figure.nodes[0]],
         unit: Unit::Number,
         reversed: true,
+        mark: None,
+    };
+    save(path, &sheet(&[picture], 1, false).canvas)
+}
+
+/// Draws a section into the PNG file `path`, true to scale unless one side is more than four times the other.
+pub(crate) fn section(path: &Path, figure: &SectionFigure) -> Result<()> {
+    let [_, high] = extremes(figure.field.iter().copied());
+    let mut cells = figure.field.view();
+    cells.invert_axis(Axis(1));
+    let picture = Picture {
+        title: &figure.title,
+        cells,
+        shading: Shading { range: [0.0, if high > 0.0 { high } else { 1.0 }], kind: Kind::Pressure },
+        quantity: &figure.quantity,
+        ends: figure.ends,
+        names: ["x", "depth"],
+        unit: Unit::Length,
+        reversed: true,
+        mark: figure.mark,
     };
     save(path, &sheet(&[picture], 1, false).canvas)
 }
@@ -142,6 +177,8 @@ pub(super) struct Picture<'a> {
     unit: Unit,
     /// The y axis is labelled downwards.
     reversed: bool,
+    /// A point that is marked, SI.
+    mark: Option<[f64; 2]>,
 }
 
 impl<'a> Picture<'a> {
@@ -171,6 +208,7 @@ impl<'a> Picture<'a> {
             names: ["x", "y"],
             unit: Unit::Length,
             reversed: false,
+            mark: None,
         })
     }
 }
@@ -340,6 +378,16 @@ impl<'a> Panel<'a> {
         [left + self.size[0] + right, top + self.size[1] + bottom]
     }
 
+    /// Where a point, in SI, lies on the map at `at`.
+    fn place(&self, at: Rect, point: [f64; 2]) -> [f64; 2] {
+        let share = |axis: usize| {
+            let [low, high] = self.picture.ends[axis];
+            (point[axis] - low) / (high - low)
+        };
+        let down = if self.picture.reversed { share(1) } else { 1.0 - share(1) };
+        [f64::from(at.x) + share(0) * f64::from(at.width), f64::from(at.y) + down * f64::from(at.height)]
+    }
+
     /// Draws the panel with its upper left corner at `(x, y)`; says where the map and the title are.
     fn draw(&self, canvas: &mut Canvas, x: i32, y: i32) -> (Rect, [f64; 2]) {
         let [width, height] = self.size;
@@ -351,6 +399,9 @@ impl<'a> Panel<'a> {
 
         let up = if self.picture.reversed { self.y.reversed() } else { self.y.coordinate() };
         axes(canvas, at, [self.x.coordinate(), up], Labels::Left);
+        if let Some(mark) = self.picture.mark {
+            canvas.cross(self.place(at, mark));
+        }
         let [middle_x, middle_y] = middle(at);
         let bottom = f64::from(at.y + height);
         let edge = f64::from(at.x - GAP * 3) - self.y.width();

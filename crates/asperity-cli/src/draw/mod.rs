@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 pub(crate) use animation::{Animation, Frame, animation};
 pub(crate) use axis::{Quantity, Unit};
 pub(crate) use lines::{Axis, LineFigure, Mark, Series, lines};
-pub(crate) use map::{Colours, MapFigure, MatrixFigure, map, maps, matrix};
+pub(crate) use map::{Colours, MapFigure, MatrixFigure, SectionFigure, map, maps, matrix, section};
 
 /// A figure that could not be drawn, or not be written.
 #[derive(Debug)]

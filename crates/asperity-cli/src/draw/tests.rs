@@ -281,6 +281,33 @@ fn the_first_row_of_a_matrix_is_at_the_top() {
 }
 
 #[test]
+fn a_section_has_the_surface_at_the_top_and_a_cross_at_its_mark() {
+    let folder = Folder::new();
+    let path = folder.file("section.png");
+    let mut field = Field::zeros([20, 10]);
+    field[[15, 2]] = 2e9;
+    let figure = SectionFigure {
+        title: "section".to_owned(),
+        field: &field,
+        ends: [[1e-6, 21e-6], [0.0, 10e-6]],
+        quantity: Quantity::new("von Mises stress", Unit::Pressure),
+        mark: None,
+    };
+    section(&path, &figure).unwrap();
+    let picture = Picture::read(&path);
+    assert!(picture.has_a_white_edge());
+    let [left, top, right, bottom] = picture.bounds(viridis(1.0), picture.size[0] - 100);
+    let side = 27;
+    assert_eq!([right - left, bottom - top], [side; 2]);
+    // Two cells below the frame; a map would have it seven cells below.
+    assert_eq!(picture.at(left, top - 2 * side - 1), [38; 3]);
+
+    section(&path, &SectionFigure { mark: Some([16.5e-6, 2.5e-6]), ..figure }).unwrap();
+    let marked = Picture::read(&path);
+    assert_eq!(marked.at(left + side / 2, top + side / 2), [38; 3]);
+}
+
+#[test]
 fn load_and_area_have_an_axis_each() {
     let folder = Folder::new();
     let path = folder.file("load.png");

@@ -7,11 +7,13 @@ use crate::error::Result;
 use crate::io::case::{Case, Course};
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
-use crate::io::results::{Existing, Results};
+use crate::io::results::{Existing, PassWriter, Results};
 use crate::io::summary::{Outcome, Summary};
-use crate::motion::{Motion, Pair, PassRecord, Simulation, Watch, load_in_stages, press, roll};
+use crate::motion::{Motion, Pair, Simulation, StaticRecord, Watch, load_in_stages, press, roll};
 use crate::solver::Params;
+use crate::subsurface::Tractions;
 use crate::surface::Topography;
+use crate::units::SquareMetre;
 
 /// Computes `case` and writes its results to `directory`.
 ///
@@ -28,41 +30,23 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
     let params =
         Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
     let area = outlook.apparent_area;
-    let outcome = match case.motion(area) {
+    let (outcome, subsurface) = match case.motion(area) {
         None => {
-            let control = case.contact.prescribed.control(area);
-            Outcome::Static(match case.friction {
-                None => {
-                    let (record, solution) = press(&pair, case.contact.boundary, control, &params)?;
-                    results.write_static(&pair, &solution)?;
-                    record
-                }
-                Some(friction) => {
-                    let course = friction.course(case.contact.prescribed, &case.history, area);
-                    let contact = match course {
-                        Course::Stages(stages) => load_in_stages(
-                            &pair,
-                            case.contact.boundary,
-                            &friction.law,
-                            &stages,
-                            &params,
-                            watch,
-                        )?,
-                        Course::Rolling(rolling) => {
-                            roll(&pair, case.contact.boundary, &friction.law, control, rolling, &params)?
-                        }
-                    };
-                    results.write_frictional(&pair, &contact)?;
-                    contact.record
-                }
-            })
+            let (record, tractions) = rest(case, &results, &pair, area, &params, watch)?;
+            let stress = outlook.subsurface.map(|plan| results.write_subsurface(&plan, tractions));
+            (Outcome::Static(record), stress.transpose()?.into_iter().collect())
         }
-        Some(motion) => Outcome::Passes(move_over(case, &results, pair, motion, params, watch)?),
+        Some(motion) => {
+            let writer = results.writer(case.output.pressure_every, outlook.subsurface)?;
+            let writer = move_over(case, &results, writer, pair, motion, params, watch)?;
+            (Outcome::Passes(writer.passes().to_vec()), writer.subsurface().to_vec())
+        }
     };
     let summary = Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,
+        subsurface,
         warnings: outlook.warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };
@@ -75,15 +59,42 @@ fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
     Pair::new(lower, upper, [&case.lower.material, &case.upper.material])
 }
 
-/// The passes that are not yet there.
+/// A static contact: its numbers and what acts on the lower body.
+fn rest(
+    case: &Case,
+    results: &Results,
+    pair: &Pair,
+    apparent_area: SquareMetre,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<(StaticRecord, Tractions)> {
+    let boundary = case.contact.boundary;
+    let control = case.contact.prescribed.control(apparent_area);
+    let Some(friction) = case.friction else {
+        let (record, solution) = press(pair, boundary, control, params)?;
+        results.write_static(pair, &solution)?;
+        return Ok((record, Tractions::frictionless(solution.pressure)));
+    };
+    let contact = match friction.course(case.contact.prescribed, &case.history, apparent_area) {
+        Course::Stages(stages) => load_in_stages(pair, boundary, &friction.law, &stages, params, watch)?,
+        Course::Rolling(rolling) => roll(pair, boundary, &friction.law, control, rolling, params)?,
+    };
+    results.write_frictional(pair, &contact)?;
+    let solution = contact.solution;
+    let tractions = Tractions { pressure: solution.normal.pressure, shear: solution.shear.map(Some) };
+    Ok((contact.record, tractions))
+}
+
+/// The passes that are not yet there; the writer has then written them.
 fn move_over(
     case: &Case,
     results: &Results,
+    mut writer: PassWriter,
     initial: Pair,
     motion: Motion,
     params: Params,
     watch: &dyn Watch,
-) -> Result<Vec<PassRecord>> {
+) -> Result<PassWriter> {
     let boundary = case.contact.boundary;
     let done = results.passes()?;
     let mut simulation = match done.last() {
@@ -97,7 +108,6 @@ fn move_over(
             Simulation::new(pair, boundary, motion, params)?.resumed(done.len(), last.approach)
         }
     };
-    let mut writer = results.writer(case.output.pressure_every)?;
     simulation.run(watch, &mut [&mut writer])?;
-    Ok(writer.passes().to_vec())
+    Ok(writer)
 }

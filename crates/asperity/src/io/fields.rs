@@ -96,6 +96,23 @@ impl FieldFile {
         self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, &values)
     }
 
+    /// Adds values on a section along x and into the depth z, whose first row is the surface and whose first column
+    /// is at `x`.
+    ///
+    /// # Panics
+    /// If there are no values, or there is an array `name` already.
+    pub fn add_section(
+        &mut self,
+        name: &str,
+        unit: &str,
+        pitch: [Metre; 2],
+        x: Metre,
+        values: &Field,
+    ) -> &mut Self {
+        let flat: Vec<f64> = values.iter().copied().collect();
+        self.add(name, unit, "x,z", values.shape(), &pitch, &[x, 0.0], &flat)
+    }
+
     /// Adds values at `origin`, `origin + pitch`, … along one axis.
     ///
     /// # Panics
@@ -112,7 +129,7 @@ impl FieldFile {
         self.add(name, unit, axis, &[values.len()], &[pitch], &[origin], values)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the two public ways to call it name them")]
+    #[expect(clippy::too_many_arguments, reason = "the public ways to call it name them")]
     fn add(
         &mut self,
         name: &str,
@@ -317,10 +334,11 @@ mod tests {
         file.add_field("gap", "m", &small, [0.0, 0.0], &with_hole);
         file.add_field("pressure", "Pa", &large, [1e-3, 0.0], &field(&large));
         file.add_series("load", "N", "x", 1e-6, 0.0, &loads);
+        file.add_section("stress", "Pa", [1e-6, 5e-7], 3e-6, &field(&small));
         file.write(&path).unwrap();
 
         let fields = Fields::open(&path).unwrap();
-        assert_eq!(fields.names().unwrap(), ["gap", "load", "pressure"]);
+        assert_eq!(fields.names().unwrap(), ["gap", "load", "pressure", "stress"]);
         let attributes = fields.attributes().unwrap();
         assert_eq!(attributes["version"], "0.1.0".into());
         assert_eq!(attributes["pass"], 3.into());
@@ -334,6 +352,12 @@ mod tests {
             (&[1e-6, 2e-6][..], &[1e-3 + 0.5e-6, 1e-6][..])
         );
         assert_eq!(pressure.into_field().unwrap(), field(&large));
+        let stress = fields.read("stress").unwrap();
+        assert_eq!(
+            (stress.axes.as_str(), &stress.origin[..], stress.pitch[1]),
+            ("x,z", &[3e-6, 0.0][..], 5e-7)
+        );
+        assert_eq!(stress.into_field().unwrap(), field(&small));
         let gap = read_field(&path, "gap").unwrap().into_field().unwrap();
         assert!(gap.iter().zip(&with_hole).all(|(found, written)| found.to_bits() == written.to_bits()));
         let load = fields.read("load").unwrap();

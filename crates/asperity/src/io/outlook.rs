@@ -4,8 +4,9 @@ use super::case::{Body, Boundary, Case, Source};
 use super::prepare::{Bodies, Prepared};
 use crate::error::Result;
 use crate::grid::Field;
+use crate::io::subsurface::Plan;
 use crate::material::{composite_hardness, composite_modulus, plastic_share};
-use crate::motion::{Control, Strategy, memory_together};
+use crate::motion::{Control, Position, Strategy, memory_together};
 use crate::solver;
 use crate::surface::{Level, Topography};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
@@ -34,6 +35,8 @@ pub struct Outlook {
     /// Memory that one solver needs, that the positions of a pass take together, and that the results take until they are
     /// written, bytes.
     pub memory: [f64; 3],
+    /// What is looked at under the surface.
+    pub subsurface: Option<Plan>,
     /// What the user should know before trusting the result.
     pub warnings: Vec<String>,
 }
@@ -45,7 +48,8 @@ pub struct Outlook {
 pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
-    let overlaps = overlaps(case, lower_grid.shape[0], upper_grid.shape[0]);
+    let positions = positions(case, lower_grid.shape[0], upper_grid.shape[0]);
+    let overlaps: Vec<usize> = positions.iter().map(|position| position.columns).collect();
     let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
     let apparent_area = facing as f64 * column;
@@ -69,20 +73,18 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
         memory: memory(case, bodies, &overlaps, hardness),
+        subsurface: Plan::new(case, &lower_grid, &positions)?,
         warnings: Vec::new(),
     };
     outlook.warnings = warnings(case, bodies, &outlook);
     Ok(outlook)
 }
 
-/// Columns that face each other at each position of a pass.
-fn overlaps(case: &Case, lower: usize, upper: usize) -> Vec<usize> {
+/// The positions of a pass; of a static contact, the only one.
+fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
     match case.motion {
-        None => vec![lower.min(upper)],
-        Some(motion) => {
-            let positions = motion.strategy.positions(lower, upper, motion.stride);
-            positions.iter().map(|position| position.columns).collect()
-        }
+        None => vec![Position { offset: 0, lower: 0, upper: 0, columns: lower.min(upper) }],
+        Some(motion) => motion.strategy.positions(lower, upper, motion.stride),
     }
 }
 
@@ -242,7 +244,10 @@ mod tests {
 
     #[test]
     fn every_position_of_a_pass_has_a_column_that_faces_another() {
-        let columns = |stride| overlaps(&case(&format!("[motion]\nstride = {stride}"), "load = 1"), 5, 3);
+        let columns = |stride| -> Vec<usize> {
+            let case = case(&format!("[motion]\nstride = {stride}"), "load = 1");
+            positions(&case, 5, 3).iter().map(|position| position.columns).collect()
+        };
         assert_eq!(columns(1), [1, 2, 3, 3, 3, 2, 1]);
         assert_eq!(columns(2), [1, 3, 3, 1]);
         assert_eq!(columns(9), [3]);

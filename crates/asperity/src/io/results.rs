@@ -5,8 +5,10 @@
 //!     steps.csv passes.csv a motion: a row per position, a row per pass
 //!     fields/initial.h5    the surfaces before the first pass
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
+//!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
 //!     increments.csv       with friction, a row per increment of its loading
+//!     subsurface.h5        the stress under its surface, where it is wanted
 //!     summary.json         once all is done
 //!     figures/             pictures
 //! ```
@@ -20,9 +22,11 @@ use super::fields::{FieldFile, Fields};
 use super::{atomic, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
 use crate::motion::{FrictionalContact, IncrementRecord, Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
+use crate::subsurface::Tractions;
 use crate::surface::Topography;
 
 /// What to do about results that are there already.
@@ -221,6 +225,23 @@ impl Results {
         if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
     }
 
+    /// The stress under the surface: of a static contact, or in the pass, from 1, of a motion.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn subsurface_fields(&self, pass: Option<usize>) -> Result<Fields> {
+        Fields::open(&self.subsurface_path(pass))
+    }
+
+    /// Computes and writes the stress under the surface of a static contact, whose lower body bears
+    /// `tractions`.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_subsurface(&self, plan: &Plan, tractions: Tractions) -> Result<SubsurfaceRecord> {
+        plan.write(&self.subsurface_path(None), None, tractions)
+    }
+
     /// Writes the surfaces before the first pass.
     ///
     /// # Errors
@@ -247,12 +268,24 @@ impl Results {
         Ok([topography("lower")?, topography("upper")?])
     }
 
-    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none).
+    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none) and
+    /// the stress under the surface, where there is a plan for it.
     ///
     /// # Errors
-    /// [`Error::File`] if the rows of earlier passes cannot be read.
-    pub fn writer(&self, pressure_every: usize) -> Result<PassWriter> {
-        Ok(PassWriter { steps: self.steps()?, passes: self.passes()?, results: self.clone(), pressure_every })
+    /// [`Error::File`] if the results of earlier passes cannot be read.
+    pub fn writer(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
+        let passes = self.passes()?;
+        let done = plan.iter().flat_map(|_| 1..=passes.len());
+        Ok(PassWriter {
+            steps: self.steps()?,
+            subsurface: done
+                .map(|pass| SubsurfaceRecord::read(&self.subsurface_path(Some(pass))))
+                .collect::<Result<_>>()?,
+            passes,
+            results: self.clone(),
+            pressure_every,
+            plan,
+        })
     }
 
     /// Removes what an earlier computation left, and nothing else.
@@ -262,7 +295,15 @@ impl Results {
             fs::remove_dir_all(path).map_err(|source| self.failed(path, source))?;
         }
         // Last the file by which the directory is known as ours.
-        let files = ["summary.json", "passes.csv", "steps.csv", "increments.csv", "fields.h5", "case.json"];
+        let files = [
+            "summary.json",
+            "passes.csv",
+            "steps.csv",
+            "increments.csv",
+            "fields.h5",
+            "subsurface.h5",
+            "case.json",
+        ];
         files.iter().try_for_each(|name| self.remove(name))
     }
 
@@ -287,6 +328,13 @@ impl Results {
         self.directory.join("fields").join(name)
     }
 
+    fn subsurface_path(&self, pass: Option<usize>) -> PathBuf {
+        match pass {
+            None => self.directory.join("subsurface.h5"),
+            Some(pass) => self.directory.join("fields").join(format!("subsurface-{pass:04}.h5")),
+        }
+    }
+
     fn failed(&self, path: &Path, source: std::io::Error) -> Error {
         Error::File { path: path.to_owned(), source }
     }
@@ -297,13 +345,20 @@ pub struct PassWriter {
     results: Results,
     steps: Vec<StepRecord>,
     passes: Vec<PassRecord>,
+    subsurface: Vec<SubsurfaceRecord>,
     pressure_every: usize,
+    plan: Option<Plan>,
 }
 
 impl PassWriter {
     /// The passes written so far.
     pub fn passes(&self) -> &[PassRecord] {
         &self.passes
+    }
+
+    /// The stresses under the surface in them; none without a plan.
+    pub fn subsurface(&self) -> &[SubsurfaceRecord] {
+        &self.subsurface
     }
 }
 
@@ -331,6 +386,14 @@ impl Output for PassWriter {
             }
         }
         file.write(&self.results.fields_path(report.record.pass))?;
+        if let Some(plan) = &self.plan {
+            let pass = Some(report.record.pass);
+            let pressure = report.contacts[plan.index].pressure_field(pair.lower.ncols());
+            let path = self.results.subsurface_path(pass);
+            let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
+            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            self.subsurface.push(plan.write(&path, pass, tractions)?);
+        }
         self.steps.extend_from_slice(report.steps);
         self.passes.push(report.record.clone());
         tables::write_steps(&self.results.directory.join("steps.csv"), &self.steps)?;

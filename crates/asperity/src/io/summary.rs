@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::atomic;
+use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::motion::{PassRecord, StaticRecord};
 use crate::units::Second;
@@ -19,6 +20,9 @@ pub struct Summary {
     /// Under the key `static` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
+    /// Of a static contact one, of a motion one for each pass; none where the stress was not wanted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub subsurface: Vec<SubsurfaceRecord>,
     /// What the user should know about the result.
     pub warnings: Vec<String>,
     /// Time the whole computation took.
@@ -84,13 +88,21 @@ mod tests {
             version: "0.1.0".into(),
             case: serde_json::json!({"contact": {"load": 2.0}}),
             outcome: Outcome::Static(record),
+            subsurface: vec![SubsurfaceRecord {
+                pass: None,
+                step: None,
+                max_von_mises: 2.5e9,
+                position: [1e-6, 2e-6, 5e-7],
+                max_shear: 1.3e9,
+                max_shear_position: [1e-6, 2e-6, 4e-7],
+            }],
             warnings: vec!["the mesh is coarse".into()],
             wall_time_s: 0.5,
         };
         write(&path, &summary).unwrap();
         assert_eq!(read(&path).unwrap(), summary);
 
-        let passes = Summary { outcome: Outcome::Passes(vec![]), ..summary };
+        let passes = Summary { outcome: Outcome::Passes(vec![]), subsurface: vec![], ..summary };
         let value = serde_json::to_value(&passes).unwrap();
         let keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
         assert_eq!(keys, ["case", "passes", "version", "wall_time_s", "warnings"]);

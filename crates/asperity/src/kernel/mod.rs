@@ -4,6 +4,8 @@ mod cell;
 pub mod coupled;
 pub mod normal;
 pub mod spectral;
+pub mod subsurface;
 
 pub use coupled::{Coefficients, coupled_displacement};
 pub use normal::{influence_matrix, influence_table, normal_displacement};
+pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

@@ -39,17 +39,23 @@ impl RealFft2 {
         self.shape[1] / 2 + 1
     }
 
-    /// The spectrum of `field`, shape `[nx, ny/2 + 1]`.
+    /// Shape of the fields.
+    pub fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// The spectrum of `field`, shape `[nx, ny/2 + 1]`. A smaller field is continued by zeros.
     ///
     /// # Panics
-    /// If `field` has another shape than the plans.
+    /// If `field` is larger than the plans.
     pub fn forward(&self, field: &Field) -> Array2<Complex64> {
-        assert_eq!(field.dim(), (self.shape[0], self.shape[1]), "shape of the field");
+        assert!(field.nrows() <= self.shape[0] && field.ncols() <= self.shape[1], "shape of the field");
         let mut columns = Array2::zeros([self.half(), self.shape[0]]);
         let mut row = self.along_y.make_input_vec();
         let mut spectrum = self.along_y.make_output_vec();
         for (ix, values) in field.outer_iter().enumerate() {
             row.iter_mut().zip(values).for_each(|(r, v)| *r = *v);
+            row[values.len()..].fill(0.0);
             self.along_y.process(&mut row, &mut spectrum).expect("lengths come from the plan");
             columns.column_mut(ix).iter_mut().zip(&spectrum).for_each(|(c, s)| *c = *s);
         }
@@ -62,10 +68,19 @@ impl RealFft2 {
     /// # Panics
     /// If `spectrum` has another shape than [`RealFft2::forward`] gives.
     pub fn inverse(&self, spectrum: &Array2<Complex64>) -> Field {
+        self.inverse_leading(spectrum, self.shape)
+    }
+
+    /// The first rows and columns, so many as `shape` says, of the field whose spectrum this is.
+    ///
+    /// # Panics
+    /// If `spectrum` has another shape than [`RealFft2::forward`] gives, or `shape` is larger than the plans.
+    pub fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
+        assert!(shape[0] <= self.shape[0] && shape[1] <= self.shape[1], "shape of the field");
         assert_eq!(spectrum.dim(), (self.shape[0], self.half()), "shape of the spectrum");
         let mut columns = spectrum.t().as_standard_layout().into_owned();
         self.back_x.process(columns.as_slice_mut().expect("standard layout"));
-        let mut field = Field::zeros(self.shape);
+        let mut field = Field::zeros(shape);
         let mut half = self.back_y.make_input_vec();
         let mut row = self.back_y.make_output_vec();
         let scale = 1.0 / (self.shape[0] * self.shape[1]) as f64;
@@ -112,5 +127,17 @@ mod tests {
             let back = fft.inverse(&spectrum);
             assert!(back.iter().zip(&field).all(|(a, b)| (a - b).abs() < 1e-12));
         }
+    }
+
+    #[test]
+    fn a_smaller_field_is_continued_by_zeros() {
+        let (small, fft) =
+            (Field::from_shape_fn([3, 4], |(i, j)| (1 + 5 * i + j * j) as f64), RealFft2::new([6, 7]));
+        let mut padded = Field::zeros([6, 7]);
+        padded.slice_mut(ndarray::s![..3, ..4]).assign(&small);
+        let spectrum = fft.forward(&small);
+        assert_eq!(spectrum, fft.forward(&padded));
+        let whole = fft.inverse(&spectrum);
+        assert_eq!(fft.inverse_leading(&spectrum, [2, 5]), whole.slice(ndarray::s![..2, ..5]));
     }
 }

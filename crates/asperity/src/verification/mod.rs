@@ -19,6 +19,7 @@ mod operators;
 mod rough;
 mod sinusoid;
 mod smooth;
+mod subsurface;
 
 use std::ops::RangeInclusive;
 
@@ -113,6 +114,9 @@ pub const CASES: &[Case] = &[
     rough::PLASTIC_LIMIT,
     rough::WORK,
     rough::METHODS,
+    subsurface::LOADED_RECTANGLE,
+    subsurface::SPHERE,
+    subsurface::SLIDING_SPHERE,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.

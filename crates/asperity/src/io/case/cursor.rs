@@ -254,6 +254,11 @@ impl<'a> Entry<'a> {
         expected: &str,
         read: impl Fn(&Entry<'a>) -> Result<T>,
     ) -> Result<[T; N]> {
+        self.list(expected, read)?.try_into().map_err(|_| self.unexpected(expected, None))
+    }
+
+    /// An array of any number of entries; `expected` says what they are.
+    pub(super) fn list<T>(&self, expected: &str, read: impl Fn(&Entry<'a>) -> Result<T>) -> Result<Vec<T>> {
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(expected)) };
         let items = items.iter().map(|item| {
             read(&Entry {
@@ -263,8 +268,7 @@ impl<'a> Entry<'a> {
                 value: item.get_ref(),
             })
         });
-        let items = items.collect::<Result<Vec<_>>>()?;
-        items.try_into().map_err(|_| self.unexpected(expected, None))
+        items.collect()
     }
 
     /// One value for x and y, or an array of the two.

@@ -8,6 +8,7 @@ mod document;
 mod friction;
 mod parse;
 mod source;
+mod subsurface;
 
 use std::path::{Path, PathBuf};
 
@@ -16,6 +17,7 @@ use serde::{Serialize, Serializer};
 use self::document::Document;
 pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
 pub use self::source::{Source, TopographySpec};
+pub use self::subsurface::{Side, SubsurfaceSpec};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
@@ -45,6 +47,9 @@ pub struct Case {
     /// How they move; a static contact if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
+    /// What is looked at under the surface; nothing if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subsurface: Option<SubsurfaceSpec>,
     /// What is kept.
     pub output: Output,
     #[serde(skip)]

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::cursor::{Entry, Table};
 use super::document::{Document, join};
 use super::friction::friction;
+use super::subsurface::subsurface;
 use super::{
     Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Method, MotionSpec, Mount, Output, Prescribed,
     Source, StageSpec, TopographySpec,
@@ -16,7 +17,7 @@ use crate::surface::{Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Le
 use crate::units::Dimension;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 6] = [
+const TABLES: [(&str, &[&str]); 7] = [
     ("lower", &["young", "poisson", "hardness", "topography"]),
     ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
     ("contact", &["load", "mean_pressure", "approach", "boundary", "method", "tolerance"]),
@@ -47,6 +48,7 @@ const TABLES: [(&str, &[&str]); 6] = [
             "increments",
         ],
     ),
+    ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
     ("output", &["pressure_every"]),
 ];
 
@@ -80,9 +82,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    root.known(&["title", "lower", "upper", "contact", "friction", "history", "motion", "output"], |key| {
-        belongs(key, "")
-    })?;
+    const ROOT: [&str; 9] =
+        ["title", "lower", "upper", "contact", "friction", "history", "motion", "subsurface", "output"];
+    root.known(&ROOT, |key| belongs(key, ""))?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),
         None => file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -108,8 +110,10 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         let message = "surfaces of equal speeds do not slide over each other".to_owned();
         return Err(root.required_table("friction")?.error(message, Some(hint)));
     }
+    let subsurface =
+        root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     let output = output(root.table("output")?.as_ref())?;
-    Ok(Case { title, lower, upper, contact, friction, history, motion, output, document })
+    Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
 }
 
 /// The stages after the first, which only a static contact with friction has.

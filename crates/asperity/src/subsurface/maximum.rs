@@ -1,0 +1,170 @@
+//! Where the material is stressed the most.
+
+use super::{Plane, Subsurface};
+use crate::units::{Metre, Pascal};
+
+/// The largest value of something, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// The value.
+    pub value: Pascal,
+    /// Its cell.
+    pub cell: [usize; 2],
+    /// Its depth.
+    pub depth: Metre,
+}
+
+/// The largest stresses of some planes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Maximum {
+    /// Von Mises' stress.
+    pub von_mises: Extreme,
+    /// The largest shear stress on any plane, ½(σ₁ − σ₃).
+    pub shear: Extreme,
+}
+
+impl Plane {
+    /// The largest stresses on the plane; of equal ones the first.
+    pub fn maximum(&self) -> Maximum {
+        let none = Extreme { value: 0.0, cell: [0, 0], depth: self.depth };
+        let mut most = Maximum { von_mises: none, shear: none };
+        let von_mises = self.von_mises();
+        for ((i, j), &value) in von_mises.indexed_iter() {
+            let here = |value| Extreme { value, cell: [i, j], depth: self.depth };
+            if value > most.von_mises.value {
+                most.von_mises = here(value);
+            }
+            // The largest shear is at most 1/√3 of von Mises' stress: elsewhere it need not be known.
+            if value > 3f64.sqrt() * most.shear.value {
+                let shear = self.at([i, j]).max_shear();
+                if shear > most.shear.value {
+                    most.shear = here(shear);
+                }
+            }
+        }
+        most
+    }
+}
+
+impl Subsurface {
+    /// The largest stresses on planes at the `depths`, ascending, and on a few more between those beside the most
+    /// stressed point: each at the vertex of a parabola in depth through the von Mises stresses known there, which
+    /// finds the depth to about a hundredth of the distance of the planes. Each value is that of a cell at a depth, never
+    /// one of a parabola.
+    ///
+    /// # Panics
+    /// If there are no depths.
+    pub fn maximum(&self, depths: &[Metre]) -> Maximum {
+        const REFINEMENTS: usize = 4;
+        let all = self.planes(depths, |plane| plane.maximum());
+        let mut most = all.into_iter().reduce(Maximum::or).expect("there are depths");
+        let middle = depths.iter().position(|depth| *depth == most.von_mises.depth);
+        // Three planes, the middle one the most stressed; none at the ends of the depths.
+        let Some(beside) = middle.filter(|k| (1..depths.len() - 1).contains(k)) else { return most };
+        let mut around = [beside - 1, beside, beside + 1].map(|k| self.plane(depths[k]));
+        for _ in 0..REFINEMENTS {
+            let cell = most.von_mises.cell;
+            let Some(depth) = vertex(around.each_ref().map(|p| [p.depth, p.at(cell).von_mises()])) else {
+                break;
+            };
+            let plane = self.plane(depth);
+            let found = plane.maximum();
+            around = narrowed(around, plane, found.von_mises.value > most.von_mises.value);
+            most = most.or(found);
+        }
+        most
+    }
+}
+
+/// Where the parabola through three points [depth, stress], the middle one the highest, is largest, unless there.
+fn vertex([[above, a], [middle, m], [below, b]]: [[f64; 2]; 3]) -> Option<Metre> {
+    let (up, down, rise, fall) = (middle - above, below - middle, m - a, m - b);
+    let shift = 0.5 * (down * down * rise - up * up * fall) / (down * rise + up * fall);
+    (shift.is_finite() && shift != 0.0).then_some(middle + shift)
+}
+
+/// The planes beside the most stressed one, `plane` among them, whether it is the most stressed itself or not.
+fn narrowed([above, middle, below]: [Plane; 3], plane: Plane, most: bool) -> [Plane; 3] {
+    match (plane.depth < middle.depth, most) {
+        (true, true) => [above, plane, middle],
+        (true, false) => [plane, middle, below],
+        (false, true) => [middle, plane, below],
+        (false, false) => [above, middle, plane],
+    }
+}
+
+impl Maximum {
+    /// The larger of each; of equal ones the first.
+    fn or(self, other: Self) -> Self {
+        let larger = |a: Extreme, b: Extreme| if b.value > a.value { b } else { a };
+        Self { von_mises: larger(self.von_mises, other.von_mises), shear: larger(self.shear, other.shear) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Grid;
+    use crate::operator::Boundary;
+    use crate::reference::{HertzSphere, SlidingSphere};
+    use crate::subsurface::Tractions;
+    use std::f64::consts::PI;
+
+    /// a = p₀ = 1, on 24 cells a side of which 16 are in contact.
+    fn sphere(friction: f64) -> (Subsurface, SlidingSphere) {
+        let normal = HertzSphere { radius: 1.0, modulus: PI / 2.0, load: 2.0 * PI / 3.0 };
+        let contact = SlidingSphere { normal, friction, poisson: 0.3 };
+        let grid = Grid::new([25, 25], [0.125; 2]).unwrap();
+        let pressure = crate::Field::from_shape_fn(grid.shape, |(i, j)| {
+            normal.pressure(0.125 * (i as f64 - 12.0).hypot(j as f64 - 12.0))
+        });
+        let tractions = Tractions { shear: [Some(friction * &pressure), None], pressure };
+        (Subsurface::new(grid, Boundary::Free, 0.3, &tractions), contact)
+    }
+
+    #[test]
+    fn the_parabolas_find_the_depth_between_coarse_planes() {
+        let (body, _) = sphere(0.0);
+        let fine: Vec<f64> = (440..520).map(|k| 1e-3 * f64::from(k)).collect();
+        let exact = body.planes(&fine, |plane| plane.maximum()).into_iter().reduce(Maximum::or).unwrap();
+        let most = body.maximum(&[0.0, 0.3, 0.6, 0.9, 1.5]);
+        assert_eq!((most.von_mises.cell, most.shear.cell), ([12, 12], [12, 12]));
+        let [depth, found] = [exact, most].map(|most| most.von_mises.depth);
+        assert!((depth - 0.481).abs() < 0.01 && (found - depth).abs() < 3e-3, "{found}, {depth}");
+        assert!((most.von_mises.value / exact.von_mises.value - 1.0).abs() < 1e-5);
+        assert!((most.shear.value / exact.shear.value - 1.0).abs() < 1e-5);
+        // It is a value that the body has there.
+        assert_eq!(body.plane(found).at([12, 12]).von_mises(), most.von_mises.value);
+    }
+
+    #[test]
+    fn the_vertex_of_a_parabola_is_exact() {
+        let at = |z: f64| [z, 3.0 - 2.0 * (z - 0.3).powi(2)];
+        assert!((vertex([at(-1.0), at(0.1), at(0.8)]).unwrap() - 0.3).abs() < 1e-15);
+        assert_eq!(vertex([[0.0, 1.0], [1.0, 1.0], [2.0, 1.0]]), None);
+    }
+
+    #[test]
+    fn it_is_the_largest_of_all_cells_and_depths() {
+        let (body, _) = sphere(0.3);
+        let depths = [0.1, 0.2, 0.4, 0.8];
+        let most = body.maximum(&depths);
+        for plane in body.planes(&depths, |plane| plane) {
+            for cell in ndarray::indices(body.grid().shape) {
+                let here = plane.at([cell.0, cell.1]);
+                assert!(here.von_mises() <= most.von_mises.value && here.max_shear() <= most.shear.value);
+            }
+        }
+    }
+
+    #[test]
+    fn with_much_friction_it_lies_on_the_surface_where_no_parabola_is_tried() {
+        let (body, contact) = sphere(0.6);
+        let most = body.maximum(&[0.0, 0.2, 0.4]).von_mises;
+        assert_eq!(most.depth, 0.0);
+        let [x, y] = most.cell.map(|i| 0.125 * (i as f64 - 12.0));
+        assert!((most.value / contact.stress([x, y], 0.0).von_mises() - 1.0).abs() < 0.1, "{most:?}");
+        // Deep below, the first plane is the most stressed.
+        assert_eq!(body.maximum(&[2.0, 3.0, 4.0]).von_mises.depth, 2.0);
+    }
+}

@@ -1,0 +1,361 @@
+//! The stress under the surface of a body, plane by plane.
+//!
+//! z points into the body, stress is positive in tension. A [`Subsurface`] knows the tractions on the surface by their
+//! transforms; [`Subsurface::plane`] is the stress at one depth, [`Subsurface::maximum`] the largest over many.
+//!
+//! ```
+//! use asperity::reference::HertzSphere;
+//! use asperity::subsurface::{Subsurface, Tractions};
+//! use asperity::{Field, Grid, operator::Boundary};
+//!
+//! let ball = HertzSphere { radius: 1e-3, modulus: 115e9, load: 1.0 };
+//! let grid = Grid::new([65, 65], [1e-6; 2])?;
+//! let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+//!     ball.pressure((grid.centre(0, i) - 32.5e-6).hypot(grid.centre(1, j) - 32.5e-6))
+//! });
+//! let steel = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions::frictionless(pressure));
+//! let most = steel.maximum(&[0.0, 4e-6, 8e-6, 12e-6]).von_mises;
+//! assert_eq!(most.cell, [32, 32]);
+//! assert!((most.value / ball.peak_pressure() - 0.62).abs() < 0.002);
+//! assert!((most.depth / ball.contact_radius() - 0.48).abs() < 0.02);
+//! # Ok::<(), asperity::Error>(())
+//! ```
+
+mod maximum;
+
+pub use maximum::{Extreme, Maximum};
+
+use ndarray::s;
+use rayon::prelude::*;
+use realfft::num_complex::Complex64;
+
+use crate::grid::{Field, Grid};
+use crate::kernel::{Traction, harmonic_stress, stress_table};
+use crate::math::{RealFft2, fft::angular_frequency, good_size};
+use crate::operator::Boundary;
+use crate::stress::{Component, Stress};
+use crate::units::Metre;
+
+/// What acts on the surface of a body, on the cells of one grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tractions {
+    /// Pressure p ≥ 0, into the body.
+    pub pressure: Field,
+    /// Shear tractions along +x and +y; `None` is zero.
+    pub shear: [Option<Field>; 2],
+}
+
+impl Tractions {
+    /// A pressure alone: contact without friction.
+    pub fn frictionless(pressure: Field) -> Self {
+        Self { pressure, shear: [None, None] }
+    }
+
+    /// What acts on the upper body where these act on the lower one: the same pressure, the shear reversed. The upper
+    /// body's z points into it too, so that its stresses are those of the mirror image.
+    pub fn on_upper(self) -> Self {
+        Self { shear: self.shear.map(|shear| shear.map(|q| -q)), ..self }
+    }
+
+    /// Those that are not zero throughout.
+    fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
+        let [qx, qy] = &self.shear;
+        let all = [
+            (Traction::X, qx.as_ref()),
+            (Traction::Y, qy.as_ref()),
+            (Traction::Pressure, Some(&self.pressure)),
+        ];
+        all.into_iter()
+            .filter_map(|(traction, field)| Some((traction, field?)))
+            .filter(|(_, field)| field.iter().any(|value| *value != 0.0))
+    }
+}
+
+/// A half-space under given tractions.
+///
+/// - [`Boundary::Free`]: uniform in each cell, zero outside the grid. A plane is the convolution of the tractions with
+///   the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
+/// - [`Boundary::Periodic`]: the harmonics of the values at the cells, each with the closed form of
+///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot widen: σzz = −p̄,
+///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
+pub struct Subsurface {
+    grid: Grid,
+    poisson: f64,
+    boundary: Boundary,
+    fft: RealFft2,
+    /// Transforms of the tractions that are not zero.
+    tractions: Vec<(Traction, Spectrum)>,
+}
+
+type Spectrum = ndarray::Array2<Complex64>;
+
+impl Subsurface {
+    /// A body of Poisson's ratio `poisson` under `tractions` on `grid`.
+    ///
+    /// # Panics
+    /// If a traction is not on the grid.
+    pub fn new(grid: Grid, boundary: Boundary, poisson: f64, tractions: &Tractions) -> Self {
+        let fft = RealFft2::new(match boundary {
+            Boundary::Free => grid.shape.map(|n| good_size(2 * n - 1)),
+            Boundary::Periodic => grid.shape,
+        });
+        let transform = |(traction, field): (Traction, &Field)| {
+            assert_eq!(field.shape(), grid.shape, "shape of the tractions");
+            (traction, fft.forward(field))
+        };
+        let tractions = tractions.present().map(transform).collect();
+        Self { grid, poisson, boundary, fft, tractions }
+    }
+
+    /// The grid of every plane.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The stress at `depth` ≥ 0; at 0 its limit from within.
+    pub fn plane(&self, depth: Metre) -> Plane {
+        Plane { depth, stress: Component::ALL.map(|component| self.component(component, depth)) }
+    }
+
+    /// What `look` makes of the plane at each of the `depths`, in their order; in parallel, a plane for each thread.
+    pub fn planes<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane) -> T + Sync) -> Vec<T> {
+        depths.par_iter().map(|&depth| look(self.plane(depth))).collect()
+    }
+
+    fn component(&self, component: Component, depth: Metre) -> Field {
+        let mut sum = Spectrum::zeros([self.fft.shape()[0], self.fft.half()]);
+        let (imaginary, real): (Vec<_>, Vec<_>) =
+            self.tractions.iter().partition(|(traction, _)| is_imaginary(*traction, component));
+        for k in 0..real.len().max(imaginary.len()) {
+            let pair = [real.get(k), imaginary.get(k)].map(|term| term.map(|(traction, _)| *traction));
+            let symbol = self.symbol(component, pair, depth);
+            if let Some((_, traction)) = real.get(k) {
+                ndarray::Zip::from(&mut sum).and(&symbol).and(traction).for_each(|s, g, q| *s += q * g.re);
+            }
+            if let Some((_, traction)) = imaginary.get(k) {
+                ndarray::Zip::from(&mut sum)
+                    .and(&symbol)
+                    .and(traction)
+                    .for_each(|s, g, q| *s += Complex64::new(-q.im * g.im, q.re * g.im));
+            }
+        }
+        self.fft.inverse_leading(&sum, self.grid.shape)
+    }
+
+    /// Transform of the influence of one traction in the real part, of another, whose transform is imaginary, in the
+    /// imaginary part: one of them is even in both directions or odd in both, the other odd in one.
+    fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
+        let shape @ [nx, ny] = self.fft.shape();
+        match self.boundary {
+            Boundary::Free => {
+                let mut influence = Field::zeros(shape);
+                for traction in pair.into_iter().flatten() {
+                    let Grid { shape: offsets, pitch } = self.grid;
+                    let table = stress_table(offsets, depth, pitch, self.poisson, component, traction);
+                    add_folded(&mut influence, &table, traction.odd(component));
+                }
+                self.fft.forward(&influence)
+            }
+            Boundary::Periodic => Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
+                let q = [
+                    angular_frequency(k, nx, self.grid.pitch[0]),
+                    angular_frequency(l, ny, self.grid.pitch[1]),
+                ];
+                // Half of what alternates from cell to cell runs either way: what is odd in it cancels.
+                let alternates = [2 * k == nx, 2 * l == ny];
+                let part = |traction: Option<Traction>| match traction {
+                    Some(traction) if !cancels(alternates, traction.odd(component)) => {
+                        harmonic_stress(q, depth, self.poisson, component, traction)
+                    }
+                    _ => 0.0,
+                };
+                Complex64::new(part(pair[0]), part(pair[1]))
+            }),
+        }
+    }
+}
+
+/// Whether the transform of the influence is imaginary: odd in one direction only.
+fn is_imaginary(traction: Traction, component: Component) -> bool {
+    let [odd_x, odd_y] = traction.odd(component);
+    odd_x != odd_y
+}
+
+fn cancels(alternates: [bool; 2], odd: [bool; 2]) -> bool {
+    (0..2).any(|axis| alternates[axis] && odd[axis])
+}
+
+/// Adds a table of offsets from 0 on, and its mirror images at the negative offsets, which stand at the end.
+fn add_folded(influence: &mut Field, table: &Field, odd: [bool; 2]) {
+    let [sign_x, sign_y] = odd.map(|odd| if odd { -1.0 } else { 1.0 });
+    let (rows, across) = (influence.nrows(), influence.ncols());
+    let mut add = |i: usize, values: ndarray::ArrayView1<f64>, sign: f64| {
+        let mut row = influence.row_mut(i);
+        row.slice_mut(s![..values.len()]).scaled_add(sign, &values);
+        row.slice_mut(s![across + 1 - values.len()..]).scaled_add(sign * sign_y, &values.slice(s![1..;-1]));
+    };
+    for (i, values) in table.outer_iter().enumerate() {
+        add(i, values, 1.0);
+        if i > 0 {
+            add(rows - i, values, sign_x);
+        }
+    }
+}
+
+/// The stress on a plane parallel to the surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plane {
+    /// Distance from the surface.
+    pub depth: Metre,
+    /// The components, in the order of [`Component::ALL`].
+    pub stress: [Field; 6],
+}
+
+impl Plane {
+    /// The stress at a cell.
+    pub fn at(&self, cell: [usize; 2]) -> Stress {
+        Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
+    }
+
+    /// Von Mises' stress of each cell, Pa.
+    pub fn von_mises(&self) -> Field {
+        von_mises(&self.stress)
+    }
+}
+
+/// Von Mises' stress, Pa, where the components, in the order of [`Component::ALL`], are these.
+pub fn von_mises(stress: &[Field; 6]) -> Field {
+    let at = |cell| Stress::from_components(stress.each_ref().map(|component| component[cell]));
+    Field::from_shape_fn(stress[0].raw_dim(), |(i, j)| at([i, j]).von_mises())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::cell_stress;
+    use approx::assert_relative_eq;
+
+    fn patchy(shape: [usize; 2], seed: usize) -> Field {
+        Field::from_shape_fn(shape, |(i, j)| {
+            if (i / 2 + j) % 3 == 1 { 0.0 } else { ((7 * i + 3 * j * j + seed * i * j) % 11) as f64 - 3.0 }
+        })
+    }
+
+    fn all_three(shape: [usize; 2]) -> Tractions {
+        Tractions { pressure: patchy(shape, 0), shear: [Some(patchy(shape, 1)), Some(patchy(shape, 2))] }
+    }
+
+    #[test]
+    fn a_plane_is_the_direct_sum_to_round_off() {
+        for (shape, pitch) in [
+            ([12, 12], [1.0, 1.0]),
+            ([1, 9], [1.0, 0.5]),
+            ([9, 1], [1.0, 2.0]),
+            ([7, 10], [3e-6, 1e-6]),
+            ([1, 1], [1.0, 1.0]),
+        ] {
+            let (grid, tractions) = (Grid::new(shape, pitch).unwrap(), all_three(shape));
+            let body = Subsurface::new(grid, Boundary::Free, 0.3, &tractions);
+            for depth in [0.0, 0.2 * pitch[0], 4.0 * pitch[1]] {
+                let plane = body.plane(depth);
+                let most = plane.stress.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
+                for cell in ndarray::indices(shape) {
+                    let mut exact = Stress::default();
+                    for (traction, field) in tractions.present() {
+                        for (from, value) in field.indexed_iter() {
+                            let x = (cell.0 as f64 - from.0 as f64) * pitch[0];
+                            let y = (cell.1 as f64 - from.1 as f64) * pitch[1];
+                            exact = exact + *value * cell_stress([x, y], depth, pitch, 0.3, traction);
+                        }
+                    }
+                    let found = plane.at([cell.0, cell.1]);
+                    for (a, b) in found.components().iter().zip(exact.components()) {
+                        assert!((a - b).abs() < 1e-13 * most, "{shape:?} at {depth}, {cell:?}: {a} is {b}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wave_decays_with_the_depth_and_a_mean_does_not() {
+        let grid = Grid::new([16, 9], [0.5, 1.0]).unwrap();
+        let (k, poisson, depth) = (std::f64::consts::TAU / 8.0, 0.3, 0.7);
+        let wave =
+            |phase: f64| Field::from_shape_fn(grid.shape, |(i, _)| (k * grid.centre(0, i) + phase).sin());
+        let [sine, cosine] = [wave(0.0), wave(std::f64::consts::FRAC_PI_2)];
+        let decay = (-k * depth).exp();
+        let tractions = Tractions { pressure: 5.0 + &sine, shear: [Some(2.0 + &sine), None] };
+        let plane = Subsurface::new(grid, Boundary::Periodic, poisson, &tractions).plane(depth);
+        // Plane strain: Johnson (1985), section 13.2, and the mean; σyy = ν(σxx + σzz) of the wave.
+        let (s, c) = (&sine * decay, &cosine * decay);
+        let kz = k * depth;
+        let exact = [
+            (Component::Zz, -5.0 - (1.0 + kz) * &s + kz * &c),
+            (Component::Xz, -2.0 + kz * &c - (1.0 - kz) * &s),
+            (Component::Xx, -5.0 * 0.3 / 0.7 - (1.0 - kz) * &s + (2.0 - kz) * &c),
+            (Component::Yy, -5.0 * 0.3 / 0.7 - 0.3 * 2.0 * &s + 0.3 * 2.0 * &c),
+            (Component::Xy, grid.zeros()),
+        ];
+        for (component, exact) in exact {
+            for (a, b) in plane.stress[component as usize].iter().zip(&exact) {
+                assert_relative_eq!(*a, *b, epsilon = 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn what_balances_itself_is_the_same_on_a_free_and_on_a_wide_periodic_body() {
+        let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
+        // No force, and no moment of the first three orders: the other periods are felt as 1/r⁶. Steps in
+        // place of waves differ by (qΔx)²/24.
+        let bell = Field::from_shape_fn(grid.shape, |(i, j)| {
+            let [x, y] = [grid.centre(0, i) - 30.0, grid.centre(1, j) - 33.0].map(|t| t / 5.0);
+            (1.0 - x * x) * (1.0 - y * y) * (-0.5 * (x * x + y * y)).exp()
+        });
+        let zero = grid.zeros();
+        for traction in Traction::ALL {
+            let only = |one| if traction == one { bell.clone() } else { zero.clone() };
+            let tractions = Tractions {
+                pressure: only(Traction::Pressure),
+                shear: [Some(only(Traction::X)), Some(only(Traction::Y))],
+            };
+            let plane = |boundary| Subsurface::new(grid, boundary, 0.3, &tractions).plane(3.0);
+            let (free, periodic) = (plane(Boundary::Free), plane(Boundary::Periodic));
+            for component in Component::ALL {
+                let (free, periodic) =
+                    (&free.stress[component as usize], &periodic.stress[component as usize]);
+                let most = free.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+                let apart = (free - periodic).iter().fold(0.0f64, |m, s| m.max(s.abs()));
+                assert!(most > 0.03 && apart < 0.01, "{traction:?} {component:?}: {apart} of {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn tractions_of_zero_cost_nothing_and_change_nothing() {
+        let grid = Grid::new([8, 6], [1.0, 1.0]).unwrap();
+        let pressure = patchy(grid.shape, 0);
+        let zeros = Tractions { pressure: pressure.clone(), shear: [Some(grid.zeros()), Some(grid.zeros())] };
+        let (with, without) = [zeros, Tractions::frictionless(pressure)]
+            .map(|tractions| Subsurface::new(grid, Boundary::Free, 0.3, &tractions))
+            .into();
+        assert_eq!(with.tractions.len(), 1);
+        assert_eq!(with.plane(0.5), without.plane(0.5));
+        let none = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions::frictionless(grid.zeros()));
+        assert!(none.plane(1.0).von_mises().iter().all(|v| *v == 0.0));
+    }
+
+    #[test]
+    fn the_upper_body_is_drawn_the_other_way() {
+        let grid = Grid::new([9, 8], [1.0, 1.0]).unwrap();
+        let (pressure, shear) = (patchy(grid.shape, 0).mapv(f64::abs), patchy(grid.shape, 1));
+        let tractions = Tractions { pressure: pressure.clone(), shear: [Some(shear.clone()), None] };
+        let plane = |tractions: &Tractions| Subsurface::new(grid, Boundary::Free, 0.3, tractions).plane(0.8);
+        let (lower, upper) = (plane(&tractions), plane(&tractions.clone().on_upper()));
+        let pressed = plane(&Tractions::frictionless(pressure));
+        for ((lower, upper), pressed) in lower.stress.iter().zip(&upper.stress).zip(&pressed.stress) {
+            assert!((lower + upper - 2.0 * pressed).iter().all(|s| s.abs() < 1e-12));
+        }
+    }
+}
