@@ -17,7 +17,7 @@ struct Kit {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-const KITS: [Kit; 4] = [
+const KITS: [Kit; 5] = [
     Kit {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -27,6 +27,11 @@ const KITS: [Kit; 4] = [
         name: "hertz",
         about: "a ball on a plane, at rest: compare with Hertz",
         files: &[("case.toml", include_bytes!("../examples/hertz/case.toml"))],
+    },
+    Kit {
+        name: "friction",
+        about: "a ball pushed to and fro on a plane: stick, slip and the loop of Cattaneo and Mindlin",
+        files: &[("case.toml", include_bytes!("../examples/friction/case.toml"))],
     },
     Kit {
         name: "measured",

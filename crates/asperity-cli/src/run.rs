@@ -183,7 +183,10 @@ fn passes_table(passes: &[PassRecord]) -> String {
         "Sq lower",
         "Sq upper",
     ];
-    let mut text = HEADS.map(|head| format!("{head:>15}")).concat() + "\n";
+    let slides = passes.iter().any(|pass| pass.mean_tangential_force != 0.0);
+    let friction = |text: String| if slides { format!("{text:>17}\n") } else { "\n".to_owned() };
+    let mut text = HEADS.map(|head| format!("{head:>15}")).concat();
+    text.push_str(&friction("friction coeff.".to_owned()));
     for pass in passes {
         let plastic = pass.plastic_volume_lower + pass.plastic_volume_upper;
         let cells = [
@@ -197,7 +200,7 @@ fn passes_table(passes: &[PassRecord]) -> String {
             format(pass.sq_upper, Dimension::Length),
         ];
         text.push_str(&cells.map(|cell| format!("{cell:>15}")).concat());
-        text.push('\n');
+        text.push_str(&friction(format!("{:.6}", pass.friction_coefficient)));
     }
     text
 }
