@@ -214,6 +214,47 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
 }
 
 #[test]
+fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() {
+    let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.2 * h);
+    let (hardness, load) = (0.04, 6.0);
+    for pair in [alike(), dissimilar()] {
+        let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+        let friction = |junction_growth| Friction { junction_growth, ..Friction::coulomb(0.4).unwrap() };
+        let mut solve = |junction_growth, tangential, before: Option<&FrictionalSolution>| {
+            let loading = Loading { normal: Control::Load(load), tangential };
+            let law = friction(junction_growth);
+            solve_frictional(operator.as_mut(), &gap, hardness, &law, loading, before, &PARAMS).unwrap()
+        };
+        let mut area = Vec::new();
+        let mut before: Option<FrictionalSolution> = None;
+        for share in [0.0, 0.3, 0.6, 0.9, 0.99] {
+            let pushed = solve(9.0, Tangential::Force([share * 0.4 * load, 0.0]), before.as_ref());
+            assert!((pushed.normal.load(1.0) / load - 1.0).abs() < 1e-9);
+            let mut plastic = 0;
+            for (cell, p) in pushed.normal.pressure.iter().enumerate() {
+                let q = [0, 1].map(|axis| pushed.shear[axis].as_slice().unwrap()[cell]);
+                let combined = (p * p + 9.0 * (q[0] * q[0] + q[1] * q[1])).sqrt();
+                assert!(combined <= hardness * (1.0 + 1e-7), "{combined}");
+                plastic += usize::from(combined >= hardness * (1.0 - 1e-7));
+            }
+            assert_eq!(plastic, pushed.plastic_cells());
+            assert!(plastic > 0);
+            area.push(pushed.normal.contact_cells());
+            before = Some(pushed);
+        }
+        assert!(area.windows(2).all(|pair| pair[1] as f64 > 0.98 * pair[0] as f64), "{area:?}");
+        assert!(area[4] as f64 > 1.05 * area[0] as f64, "{area:?}");
+        // At last all slides, and bears H/√(1 + αμ²).
+        let sliding = solve(9.0, Tangential::Sliding([1.0, 0.0]), None);
+        let cap = hardness / (1.0 + 9.0 * 0.16f64).sqrt();
+        assert!((sliding.normal.max_pressure() / cap - 1.0).abs() < 1e-12);
+        assert!(area[4] <= sliding.normal.contact_cells());
+        assert!(sliding.normal.contact_cells() as f64 - (area[4] as f64) < 0.1 * area[4] as f64);
+    }
+}
+
+#[test]
 fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape);
@@ -250,7 +291,8 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
                 (0.2, f64::INFINITY, 0.08),
                 (f64::INFINITY, f64::INFINITY, f64::INFINITY),
             ] {
-                let friction = Friction { coefficient, shear_strength, coupling };
+                let friction =
+                    Friction { shear_strength, coupling, ..Friction::coulomb(coefficient).unwrap() };
                 let mut operator = CoupledSum::new(grid, pair);
                 let reference = CellByCell::new(&mut operator, coupling);
                 let what = format!("{name}, {friction:?}, H = {hardness}");

@@ -188,7 +188,8 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
-        static_fields(pair, solution).write(&self.directory.join("fields.h5"))
+        let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower), pair.hardness());
+        static_fields(pair, solution, &plastic).write(&self.directory.join("fields.h5"))
     }
 
     /// Writes the fields of a static contact with friction, and the increments of its loading.
@@ -197,7 +198,8 @@ impl Results {
     /// [`Error::File`].
     pub fn write_frictional(&self, pair: &Pair, contact: &FrictionalContact) -> Result<()> {
         let solution = &contact.solution;
-        let mut file = static_fields(pair, &solution.normal);
+        let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower));
+        let mut file = static_fields(pair, &solution.normal, &plastic);
         for (name, unit, field) in [
             ("traction_x", "Pa", &solution.shear[0]),
             ("traction_y", "Pa", &solution.shear[1]),
@@ -412,21 +414,20 @@ pub fn traction_name(step: usize) -> String {
 }
 
 /// What every static contact leaves.
-fn static_fields(pair: &Pair, solution: &Solution) -> FieldFile {
+fn static_fields(pair: &Pair, solution: &Solution, plastic: &Field) -> FieldFile {
     let grid = pair.lower_grid();
     let gap = &pair.upper - &pair.lower;
     let mut file = FieldFile::new();
     file.set("version", env!("CARGO_PKG_VERSION"))
         .set("approach", solution.approach)
         .set("hardness", pair.hardness());
-    let plastic = solution.plastic_interference(&gap, pair.hardness());
     for (name, unit, field) in [
         ("pressure", "Pa", &solution.pressure),
         ("displacement", "m", &solution.displacement),
         ("gap", "m", &solution.gap(&gap)),
         ("lower", "m", &pair.lower),
         ("upper", "m", &pair.upper),
-        ("plastic", "m", &plastic),
+        ("plastic", "m", plastic),
     ] {
         file.add_field(name, unit, &grid, [0.0, 0.0], field);
     }

@@ -84,10 +84,9 @@ pub fn load_in_stages(
     }
     let solution = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
     let dissipation = increments.iter().map(|increment| increment.dissipation).sum();
-    let mut record = StaticRecord::new(pair, &solution.normal);
+    let mut record = normal_record(pair, &gap, &solution);
     record.iterations = increments.iter().map(|increment| increment.iterations).sum();
     record.convolutions = increments.iter().map(|increment| increment.convolutions).sum();
-    record.elastic_energy = solution.elastic_energy(area);
     record.shear = Some(shear_record(&solution, dissipation, None, area));
     Ok(FrictionalContact { record, increments, solution, slip })
 }
@@ -111,8 +110,7 @@ pub fn roll(
     let area = pair.cell_area();
     let (solution, creepage) =
         solve_rolling(operator.as_mut(), &gap, pair.hardness(), friction, control, rolling, params)?;
-    let mut record = StaticRecord::new(pair, &solution.normal);
-    record.elastic_energy = solution.elastic_energy(area);
+    let mut record = normal_record(pair, &gap, &solution);
     let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
     record.shear = Some(shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area));
     let slip = solution.slip.clone();
@@ -196,6 +194,17 @@ fn record(
         iterations: normal.stats.iterations,
         convolutions: normal.stats.convolutions,
         residual: normal.residual,
+    }
+}
+
+/// What a contact without friction has in numbers too.
+fn normal_record(pair: &Pair, gap: &Field, solution: &FrictionalSolution) -> StaticRecord {
+    let area = pair.cell_area();
+    StaticRecord {
+        elastic_energy: solution.elastic_energy(area),
+        plastic_cells: solution.plastic_cells(),
+        plastic_volume: area * solution.plastic_interference(gap).sum(),
+        ..StaticRecord::new(pair, &solution.normal)
     }
 }
 

@@ -65,6 +65,11 @@ impl Pair {
         Self { share, ..self }
     }
 
+    /// The same pair, whose cells bear at most `hardness`, > 0.
+    pub fn with_hardness(self, hardness: Pascal) -> Self {
+        Self { hardness, ..self }
+    }
+
     /// Size of a cell.
     pub fn pitch(&self) -> [Metre; 2] {
         self.pitch

@@ -39,6 +39,9 @@ impl Simulation {
     /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
+        // What slides bears less pressure where it is plastic.
+        let hardness = pair.hardness();
+        let pair = pair.with_hardness(motion.friction.map_or(hardness, |f| f.sliding_cap(hardness)));
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
         motion.control.check_limit(limit)?;

@@ -40,6 +40,16 @@ pub enum Control {
     Approach(Metre),
 }
 
+impl Control {
+    /// The approach, where it is prescribed.
+    fn approach(self) -> Option<Metre> {
+        match self {
+            Self::Approach(approach) => Some(approach),
+            Self::Load(_) => None,
+        }
+    }
+}
+
 /// How the problem is solved. All methods solve the same problem to the same residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -1,7 +1,7 @@
 //! The measure by which every answer is judged.
 
 use crate::grid::Field;
-use crate::solver::{Control, Problem, Terms};
+use crate::solver::{Problem, Terms};
 use crate::units::{Metre, Pascal};
 
 /// How far a pressure is from equilibrium.
@@ -32,21 +32,43 @@ pub fn residual(
     self_influence: f64,
     approach: Option<Metre>,
 ) -> Residual {
-    let cells = || pressure.iter().zip(displacement).zip(initial_gap).map(|((p, u), h)| (*p, *u, h + u));
-    let approach = approach
-        .unwrap_or_else(|| Multiplier::of(cells().map(|(p, _, touch)| (p, touch)), hardness).approach());
-    Tally::of(cells(), approach, hardness, self_influence).residual(approach, self_influence)
+    let caps = || std::iter::repeat(hardness);
+    residual_under(caps, pressure, displacement, initial_gap, self_influence, approach)
+}
+
+/// The [`residual`] where each cell has its own cap.
+pub(super) fn residual_under<I: Iterator<Item = Pascal>>(
+    caps: impl Fn() -> I,
+    pressure: &Field,
+    displacement: &Field,
+    initial_gap: &Field,
+    self_influence: f64,
+    approach: Option<Metre>,
+) -> Residual {
+    let cells = || {
+        let cells = pressure.iter().zip(displacement).zip(initial_gap).zip(caps());
+        cells.map(|(((p, u), h), cap)| Cell { pressure: *p, displacement: *u, touch: h + u, cap })
+    };
+    let approach = approach.unwrap_or_else(|| Multiplier::of(cells()).approach());
+    Tally::of(cells(), approach, self_influence).residual(approach, self_influence)
+}
+
+/// What the residual asks of a cell.
+#[derive(Clone, Copy)]
+pub(super) struct Cell {
+    pub(super) pressure: Pascal,
+    pub(super) displacement: Metre,
+    /// h + u: the approach at which it touches.
+    pub(super) touch: Metre,
+    /// The most pressure that it bears.
+    pub(super) cap: Pascal,
 }
 
 impl Problem<'_> {
     /// The [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
         let Terms { hardness, self_influence, control, .. } = self.terms;
-        let approach = match control {
-            Control::Approach(approach) => Some(approach),
-            Control::Load(_) => None,
-        };
-        residual(pressure, displacement, self.initial_gap, hardness, self_influence, approach)
+        residual(pressure, displacement, self.initial_gap, hardness, self_influence, control.approach())
     }
 }
 
@@ -59,14 +81,13 @@ pub(super) struct Multiplier {
 }
 
 impl Multiplier {
-    /// Of the cells' pressures and h + u.
-    pub(super) fn of(cells: impl Iterator<Item = (Pascal, Metre)>, hardness: Pascal) -> Self {
+    pub(super) fn of(cells: impl Iterator<Item = Cell>) -> Self {
         let mut this = Self { weight: 0.0, moment: 0.0, deepest: f64::NEG_INFINITY };
-        for (p, touch) in cells {
-            if 0.0 < p && p < hardness {
+        for Cell { pressure: p, touch, cap, .. } in cells {
+            if 0.0 < p && p < cap {
                 this.weight += p;
                 this.moment += p * touch;
-            } else if p >= hardness {
+            } else if p >= cap {
                 this.deepest = this.deepest.max(touch);
             }
         }
@@ -101,19 +122,14 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Of the cells' p, u and h + u at an approach.
-    pub(super) fn of(
-        cells: impl Iterator<Item = (Pascal, Metre, Metre)>,
-        approach: Metre,
-        hardness: Pascal,
-        self_influence: f64,
-    ) -> Self {
+    /// At an approach.
+    pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
         let mut this = Self { largest: 0.0, max_pressure: 0.0, cells: 0.0, mean: 0.0, squares: 0.0 };
         // Deviations from some displacement rather than from zero: nothing cancels.
         let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
-        for (p, u, touch) in cells {
+        for Cell { pressure: p, displacement: u, touch, cap } in cells {
             let w = approach - touch;
-            let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, hardness));
+            let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, cap));
             this.largest = this.largest.max(phi.abs());
             this.max_pressure = this.max_pressure.max(p.abs());
             this.cells += 1.0;

@@ -104,7 +104,7 @@ const IN_PLANE: [&str; 5] = ["force", "displacement", "sliding", "creepage", "ro
 const STAGE: [&str; 7] =
     ["load", "mean_pressure", "approach", "force", "displacement", "sliding", "increments"];
 
-pub(super) fn friction(table: &Table<'_>, moves: bool) -> Result<FrictionSpec> {
+pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<FrictionSpec> {
     known_in(table)?;
     let coefficient = table
         .required("coefficient", "0.3")?
@@ -114,6 +114,16 @@ pub(super) fn friction(table: &Table<'_>, moves: bool) -> Result<FrictionSpec> {
         Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
         None => f64::INFINITY,
     };
+    let weight = |entry: Entry<'_>| {
+        let alpha =
+            entry.number(|value| value >= 0.0 && value.is_finite(), "a number of at least 0 such as 9")?;
+        if alpha > 0.0 && !yields {
+            let hint = "give the softer body a `hardness`".to_owned();
+            return Err(entry.error("'junction_growth' needs bodies that yield".to_owned(), Some(hint)));
+        }
+        Ok(alpha)
+    };
+    let junction_growth = table.get("junction_growth").map_or(Ok(0.0), weight)?;
     if moves && let Some(entry) = IN_PLANE.iter().chain(&["increments"]).find_map(|key| table.get(key)) {
         let hint = "in a [motion] the upper body slides over the lower one".to_owned();
         return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
@@ -123,6 +133,7 @@ pub(super) fn friction(table: &Table<'_>, moves: bool) -> Result<FrictionSpec> {
             coefficient,
             shear_strength,
             coupling: choice_or(table, "coupling", &couplings, Coupling::Full)?,
+            junction_growth,
         },
         prescribed: in_plane(table, &IN_PLANE)?,
         increments: increments(table)?,
@@ -193,8 +204,9 @@ fn with_infinities<S: Serializer>(law: &Friction, serializer: S) -> std::result:
         coefficient: Number,
         shear_strength: Number,
         coupling: Coupling,
+        junction_growth: f64,
     }
-    let Friction { coefficient, shear_strength, coupling } = *law;
-    Keys { coefficient: coefficient.into(), shear_strength: shear_strength.into(), coupling }
-        .serialize(serializer)
+    let Friction { coefficient, shear_strength, coupling, junction_growth } = *law;
+    let (coefficient, shear_strength) = (coefficient.into(), shear_strength.into());
+    Keys { coefficient, shear_strength, coupling, junction_growth }.serialize(serializer)
 }

@@ -40,6 +40,7 @@ const TABLES: [(&str, &[&str]); 7] = [
             "coefficient",
             "coupling",
             "shear_strength",
+            "junction_growth",
             "force",
             "displacement",
             "sliding",
@@ -101,7 +102,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
     let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
-    let friction = root.table("friction")?.map(|table| friction(&table, motion.is_some())).transpose()?;
+    let yields = material::composite_hardness(&lower.material, &upper.material).is_finite();
+    let friction =
+        root.table("friction")?.map(|table| friction(&table, yields, motion.is_some())).transpose()?;
     let history = history(root.get("history").as_ref(), motion.is_some(), friction.as_ref())?;
     if let (Some(_), Some(motion)) = (friction, motion)
         && motion.strategy.direction() == 0.0

@@ -7,7 +7,7 @@ use crate::math::sum::sums;
 use crate::solver::Terms;
 use crate::solver::bounds::{Range, in_bounds};
 use crate::solver::preconditioner::Preconditioner;
-use crate::solver::residual::{Multiplier, Tally};
+use crate::solver::residual::{Cell, Multiplier, Tally};
 use crate::solver::sets::{Set, Sets};
 use crate::solver::site::Site;
 use crate::units::{Metre, Pascal};
@@ -179,15 +179,26 @@ impl<'a> Block<'a> {
 
     /// The approach that this contact asks for under load control.
     pub(super) fn multiplier(&self, hardness: Pascal) -> Multiplier {
-        Multiplier::of(self.pressure.iter().copied().zip(self.touch.iter().copied()), hardness)
+        let cells = self.pressure.iter().zip(&self.touch);
+        Multiplier::of(cells.map(|(p, touch)| Cell {
+            pressure: *p,
+            displacement: 0.0,
+            touch: *touch,
+            cap: hardness,
+        }))
     }
 
     /// How far this contact is from equilibrium.
     pub(super) fn tally(&self, approach: Metre, terms: &Terms) -> Tally {
         let gap = self.site.initial_gap();
         let cells = self.pressure.iter().zip(&self.touch).zip(&*gap);
-        let cells = cells.map(|((p, touch), h)| (*p, touch - h, *touch));
-        Tally::of(cells, approach, terms.hardness, terms.self_influence)
+        let cells = cells.map(|((p, touch), h)| Cell {
+            pressure: *p,
+            displacement: touch - h,
+            touch: *touch,
+            cap: terms.hardness,
+        });
+        Tally::of(cells, approach, terms.self_influence)
     }
 
     /// One step along the gap.

@@ -41,6 +41,10 @@ pub struct Friction {
     pub shear_strength: Pascal,
     /// The coupling of normal and tangential displacements.
     pub coupling: Coupling,
+    /// Weight α ≥ 0 of the shear in what a plastic cell bears, p² + αq² ≤ H²: under shear it bears less pressure, and the
+    /// contact grows. 0: the hardness limits the pressure alone. Tabor, Proc. R. Soc. A 251, 378 (1959), found α near 9
+    /// for metals; a criterion after von Mises or Tresca has 27 or 36, where H is three times the yield stress.
+    pub junction_growth: f64,
 }
 
 impl Friction {
@@ -49,18 +53,64 @@ impl Friction {
     /// # Errors
     /// [`crate::Error::OutOfRange`] for a negative coefficient.
     pub fn coulomb(coefficient: f64) -> Result<Self> {
-        Self { coefficient, shear_strength: Pascal::INFINITY, coupling: Coupling::Full }.checked()
+        let (shear_strength, coupling) = (Pascal::INFINITY, Coupling::Full);
+        Self { coefficient, shear_strength, coupling, junction_growth: 0.0 }.checked()
     }
 
     /// The same, if its numbers have a meaning.
     pub(crate) fn checked(self) -> Result<Self> {
         check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
         check("shear strength", self.shear_strength, self.shear_strength > 0.0, "a stress above 0")?;
+        let alpha = self.junction_growth;
+        check(
+            "junction growth",
+            alpha,
+            (0.0..f64::INFINITY).contains(&alpha),
+            "a finite weight of at least 0",
+        )?;
         Ok(self)
     }
 
     /// The most shear that a cell under `pressure` bears.
     pub fn bound(&self, pressure: Pascal) -> Pascal {
         if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
+    }
+
+    /// Whether shear makes plastic cells bear less pressure.
+    pub(super) fn softens(&self, hardness: Pascal) -> bool {
+        self.junction_growth > 0.0 && self.coefficient > 0.0 && hardness.is_finite()
+    }
+
+    /// The same friction of bodies whose cells bear no more shear than they do without pressure, H/√α.
+    pub(super) fn within(self, hardness: Pascal) -> Self {
+        let shear_strength = self.shear_strength.min(hardness / self.junction_growth.sqrt());
+        Self { shear_strength, ..self }
+    }
+
+    /// The most pressure that a cell bears beside its `shear`, where p² + αq² = H²: from a `pressure` that does not meet
+    /// this yet, halfway between the answer of a cell whose shear stays and that of one whose shear changes in proportion.
+    /// No less than a cell bears that slides.
+    pub(super) fn cap(&self, hardness: Pascal, pressure: Pascal, shear: Pascal) -> Pascal {
+        let square = self.junction_growth * shear * shear;
+        if pressure <= 0.0 || square == 0.0 {
+            return hardness;
+        }
+        let stays = (hardness * hardness - square).max(0.0).sqrt();
+        let changes = hardness / (1.0 + square / (pressure * pressure)).sqrt();
+        (0.5 * (stays + changes)).max(self.sliding_cap(hardness))
+    }
+
+    /// The most pressure that a cell bears that slides.
+    pub fn sliding_cap(&self, hardness: Pascal) -> Pascal {
+        if !self.softens(hardness) {
+            return hardness;
+        }
+        let coulomb = hardness / (1.0 + self.junction_growth * self.coefficient.powi(2)).sqrt();
+        let film = self.shear_strength;
+        if self.coefficient * coulomb <= film {
+            coulomb
+        } else {
+            (hardness * hardness - self.junction_growth * film * film).sqrt()
+        }
     }
 }

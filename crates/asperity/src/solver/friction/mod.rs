@@ -4,6 +4,7 @@ mod disc;
 mod law;
 mod rolling;
 mod shear;
+mod yielding;
 
 pub use law::{Coupling, Friction};
 pub use rolling::{Rolling, solve_rolling};
@@ -12,10 +13,12 @@ use crate::error::{Result, check};
 use crate::grid::Field;
 use crate::material::Compliances;
 use crate::operator::CoupledOperator;
-use crate::solver::{Control, Params, Solution, Stats, residual, solve_normal};
+use crate::solver::residual::residual_under;
+use crate::solver::{Control, Params, Solution, Stats, solve_normal};
 use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
 
 use shear::{Answer, Rigid, ShearSolver, Task};
+use yielding::{AtCaps, caps, solve_capped};
 
 /// What is prescribed in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +67,8 @@ pub struct FrictionalSolution {
     /// Pressure, approach, and the normal displacement under pressure and shear together; the residual is the larger of
     /// the normal and the tangential one.
     pub normal: Solution,
+    /// Most pressure that each cell bears beside its shear, Pa.
+    pub cap: Field,
     /// Shear tractions q along x and y on the lower body, Pa.
     pub shear: [Field; 2],
     /// Most shear that each cell bears, Pa.
@@ -83,6 +88,21 @@ impl FrictionalSolution {
     /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
     pub fn force(&self, cell_area: SquareMetre) -> [Newton; 2] {
         self.shear.each_ref().map(|q| cell_area * q.sum())
+    }
+
+    /// Plastic interference w = δ − h − u ≥ 0 at the cells at their cap, 0 elsewhere.
+    pub fn plastic_interference(&self, initial_gap: &Field) -> Field {
+        let mut interference = -self.normal.gap(initial_gap);
+        ndarray::Zip::from(&mut interference)
+            .and(&self.normal.pressure)
+            .and(&self.cap)
+            .for_each(|w, p, cap| *w = if p >= cap { w.max(0.0) } else { 0.0 });
+        interference
+    }
+
+    /// Number of cells at their cap.
+    pub fn plastic_cells(&self) -> usize {
+        self.normal.pressure.iter().zip(&self.cap).filter(|(p, cap)| p >= cap).count()
     }
 
     /// Largest shear traction |q|.
@@ -129,7 +149,8 @@ const MOST_ROUNDS: usize = 200;
 ///
 /// s₀ belongs to the solution `before`, of which there is none for bodies that have not touched yet. Normal and tangential
 /// problems are solved in turn, each for the tractions of the other (Panagiotopoulos 1975), until both are met: at once
-/// where shear does not displace the surface normally. Residuals are η of [`residual()`], and its like
+/// where shear neither displaces the surface normally nor softens it. Residuals are η of [`crate::solver::residual()`],
+/// with the cap of each cell for the hardness, and its like
 ///
 /// ```text
 /// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
@@ -152,10 +173,15 @@ pub fn solve_frictional(
     let start = match before {
         Some(before) => Start {
             pressure: Some(before.normal.pressure.clone()),
+            cap: Some(before.cap.clone()),
             shear: Some(before.shear.clone()),
             slip: Some([0, 1].map(|axis| before.displacement[axis].mapv(|u| before.shift[axis] - u))),
         },
         None => Start::default(),
+    };
+    let hardness = match loading.tangential {
+        Tangential::Sliding(_) => friction.sliding_cap(hardness),
+        _ => hardness,
     };
     alternate(operator, initial_gap, hardness, friction, loading, start, params)
 }
@@ -165,13 +191,14 @@ pub fn solve_frictional(
 struct Start {
     /// Near the answer.
     pressure: Option<Field>,
+    cap: Option<Field>,
     shear: Option<[Field; 2]>,
     /// s₀.
     slip: Option<[Field; 2]>,
 }
 
 /// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
-/// near the answer.
+/// near the answer; `hardness` is what the shear leaves of it, [`Friction::sliding_cap`].
 pub(crate) fn solve_sliding(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
@@ -200,24 +227,31 @@ fn alternate(
     validate(&loading.tangential)?;
     let mut bodies = Bodies { operator, coupling: friction.coupling, convolutions: 0.0 };
     let grid = *bodies.operator.grid();
-    let Start { mut pressure, shear, slip: slip_before } = start;
+    let Start { mut pressure, cap, shear, slip: slip_before } = start;
     let mut lift = shear.as_ref().and_then(|shear| bodies.lift(shear));
     let mut shear = shear.unwrap_or_else(|| [grid.zeros(), grid.zeros()]);
-    let alternates = bodies.shear_lifts();
+    let slides = matches!(loading.tangential, Tangential::Sliding(_));
+    let softens = friction.softens(hardness) && !slides;
+    let friction = if softens { friction.within(hardness) } else { friction };
+    let mut cap = cap.unwrap_or_else(|| Field::from_elem(grid.shape, hardness));
+    let alternates = bodies.shear_lifts() || softens;
     let mut solver = None;
     let mut stats = Stats::default();
     let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
     for _ in 0..MOST_ROUNDS {
         let gap = lift.as_ref().map(|lift| initial_gap + lift);
         let params_now = Params { tolerance, ..*params };
-        let mut normal = solve_normal(
-            bodies.operator.normal(),
-            gap.as_ref().unwrap_or(initial_gap),
-            hardness,
-            loading.normal,
-            pressure.as_ref(),
-            &params_now,
-        )?;
+        let gap = gap.as_ref().unwrap_or(initial_gap);
+        let operator = bodies.operator.normal();
+        let mut normal = match &pressure {
+            Some(pressure) if softens => {
+                let softer = caps(&friction, hardness, pressure, &shear);
+                let start = AtCaps::of(pressure, &cap, &softer);
+                cap = softer;
+                solve_capped(operator, gap, &cap, loading.normal, start, &params_now)?
+            }
+            start => solve_normal(operator, gap, hardness, loading.normal, start.as_ref(), &params_now)?,
+        };
         stats = stats.and(&normal.stats);
         let bound = normal.pressure.mapv(|p| friction.bound(p));
         let scale = shear_scale(&normal, &bound, bodies.operator);
@@ -238,12 +272,25 @@ fn alternate(
         lift = bodies.lift(&shear);
         if let Some(lift) = &lift {
             normal.displacement += lift;
-            let approach = match loading.normal {
-                Control::Approach(approach) => Some(approach),
-                Control::Load(_) => None,
+        }
+        if alternates {
+            let approach = match softens {
+                // Of cells that come off their caps by a little the multiplier of the load knows nothing.
+                true => Some(normal.approach),
+                false => loading.normal.approach(),
             };
-            let c0 = bodies.operator.self_influence().zz;
-            let state = residual(&normal.pressure, &normal.displacement, initial_gap, hardness, c0, approach);
+            let caps = match softens {
+                true => &caps(&friction, hardness, &normal.pressure, &shear),
+                false => &cap,
+            };
+            let state = residual_under(
+                || caps.iter().copied(),
+                &normal.pressure,
+                &normal.displacement,
+                initial_gap,
+                bodies.operator.self_influence().zz,
+                approach,
+            );
             (normal.residual, normal.approach) = (state.eta, state.approach);
         }
         let reached = normal.residual.max(answer.residual);
@@ -258,11 +305,11 @@ fn alternate(
             let slip =
                 slip(loading.tangential, &normal.pressure, answer.shift, &displacement, slip_before.as_ref());
             let shift = answer.shift;
-            let stick = match loading.tangential {
-                Tangential::Sliding(_) => grid.zeros(),
-                _ => stick(&shear, &slip, &bound, self_compliance(bodies.operator)),
+            let stick = match slides {
+                true => grid.zeros(),
+                false => stick(&shear, &slip, &bound, self_compliance(bodies.operator)),
             };
-            return Ok(FrictionalSolution { normal, shear, bound, displacement, shift, slip, stick });
+            return Ok(FrictionalSolution { normal, cap, shear, bound, displacement, shift, slip, stick });
         }
         tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
         pressure = Some(normal.pressure);
