@@ -162,17 +162,32 @@ impl TensorKernel {
     fn multiply(&self, ky: usize, [x, y, z]: [&mut [Complex64]; 3]) {
         let rows = self.spectra.each_ref().map(|spectrum| spectrum.row(ky));
         let spectra = rows.each_ref().map(|row| row.as_slice().expect("rows are contiguous"));
-        let [xx, xy, yy, zx, zy, zz] = spectra;
-        let mx = x.len();
-        let mut at = |k: usize, bin: usize, sign: f64| {
-            let (a, b, c) = (x[k], y[k], z[k]);
-            let (xy, zx, zy) = (sign * xy[bin], sign * zx[bin], zy[bin]);
-            x[k] = a.scale(xx[bin]) + b.scale(xy) - times_i(c).scale(zx);
-            y[k] = a.scale(xy) + b.scale(yy[bin]) - times_i(c).scale(zy);
-            z[k] = times_i(a.scale(zx) + b.scale(zy)) + c.scale(zz[bin]);
-        };
-        (0..=mx / 2).for_each(|k| at(k, k, 1.0));
-        (mx / 2 + 1..mx).for_each(|k| at(k, mx - k, -1.0));
+        let half = self.plans.shape[0] / 2 + 1;
+        let ((x, x_back), (y, y_back), (z, z_back)) =
+            (x.split_at_mut(half), y.split_at_mut(half), z.split_at_mut(half));
+        multiply(x.iter_mut(), y.iter_mut(), z.iter_mut(), spectra, 1.0);
+        // The bins of negative kx, of which those of opposite sign are known: what is odd in x changes its sign.
+        let opposite = spectra.map(|spectrum| &spectrum[1..]);
+        multiply(x_back.iter_mut().rev(), y_back.iter_mut().rev(), z_back.iter_mut().rev(), opposite, -1.0);
+    }
+}
+
+/// Multiplies the bins of the three fields by the tensor, whose parts that are odd in x have this `sign`.
+fn multiply<'a>(
+    x: impl Iterator<Item = &'a mut Complex64>,
+    y: impl Iterator<Item = &'a mut Complex64>,
+    z: impl Iterator<Item = &'a mut Complex64>,
+    [xx, xy, yy, zx, zy, zz]: [&[f64]; 6],
+    sign: f64,
+) {
+    let fields = x.zip(y).zip(z);
+    let tensor = xx.iter().zip(xy).zip(yy).zip(zx).zip(zy).zip(zz);
+    for (((x, y), z), (((((xx, xy), yy), zx), zy), zz)) in fields.zip(tensor) {
+        let (a, b, c) = (*x, *y, times_i(*z));
+        let (xy, zx) = (sign * xy, sign * zx);
+        *z = times_i(a.scale(zx) + b.scale(*zy)) + z.scale(*zz);
+        *x = a.scale(*xx) + b.scale(xy) - c.scale(zx);
+        *y = a.scale(xy) + b.scale(*yy) - c.scale(*zy);
     }
 }
 
