@@ -16,8 +16,10 @@ pub enum Rolling {
     Force([Newton; 2]),
 }
 
-/// Change of the shear in one cell's rolling, as a residual, below which the state is steady: so many tolerances.
-const STEADY: f64 = 1.0;
+/// Residual of the first steps.
+const FIRST: f64 = 1e-3;
+/// Each step is solved to so much of the change of the last one.
+const SHARPER: f64 = 0.1;
 
 /// Solves the steady state of bodies that roll along x under friction, and gives it with its creepage ξ: the bodies' gap
 /// stays, and their material passes through it.
@@ -28,8 +30,8 @@ const STEADY: f64 = 1.0;
 /// Δs = ξ Δx − u(x) + u₀(x + Δx)
 /// ```
 ///
-/// with u₀ the displacement before. From the state without creepage this is repeated until nothing changes any more, which
-/// takes a few lengths of the contact. The traction grows from the leading edge, where the bodies stick.
+/// with u₀ the displacement before. From the state without creepage this is repeated until the shear changes by less than
+/// the tolerance, as a share of the largest, which takes a few lengths of the contact. The traction grows from the leading edge, where the bodies stick.
 /// Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
@@ -57,11 +59,13 @@ pub fn solve_rolling(
         }
         Rolling::Force(force) => Tangential::Force(force),
     };
-    let mut solve = |tangential, before: Option<&FrictionalSolution>| {
+    let mut solve = |tangential, before: Option<&FrictionalSolution>, tolerance| {
         let loading = Loading { normal, tangential };
-        solve_frictional(operator, initial_gap, hardness, friction, loading, before, params)
+        let params = Params { tolerance, ..*params };
+        solve_frictional(operator, initial_gap, hardness, friction, loading, before, &params)
     };
-    let mut state = solve(Tangential::Force([0.0; 2]), None)?;
+    let mut tolerance = FIRST.max(params.tolerance);
+    let mut state = solve(Tangential::Force([0.0; 2]), None, tolerance)?;
     let mut stats = state.normal.stats;
     let most = MOST_LENGTHS * initial_gap.nrows();
     for _ in 0..most {
@@ -70,9 +74,11 @@ pub fn solve_rolling(
             shift: [0.0; 2],
             ..state.clone()
         };
-        let next = solve(tangential, Some(&arrived))?;
+        let next = solve(tangential, Some(&arrived), tolerance)?;
         stats = stats.and(&next.normal.stats);
-        let steady = change(&next, &state) < STEADY * params.tolerance;
+        let change = change(&next, &state);
+        let steady = change < params.tolerance && tolerance <= params.tolerance;
+        tolerance = (SHARPER * change).clamp(params.tolerance, FIRST.max(params.tolerance));
         state = next;
         if steady {
             state.normal.stats = stats;
@@ -101,10 +107,9 @@ fn a_cell_ahead(field: &Field, periodic: bool) -> Field {
     Field::from_shape_fn(field.raw_dim(), |(i, j)| field[[ahead(i), j]])
 }
 
-/// Largest change of the shear, as a share of the largest bound.
+/// Largest change of the shear, as a share of the largest.
 fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
-    let bound = next.shear.iter().flatten().fold(0.0f64, |m, q| m.max(q.abs()));
     let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
     let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-    if most == 0.0 { 0.0 } else { most / bound }
+    if most == 0.0 { 0.0 } else { most / next.max_shear() }
 }
