@@ -2,7 +2,7 @@
 
 use crate::material::Material;
 use crate::reference::HertzSphere;
-use crate::units::{Metre, Newton, Pascal};
+use crate::units::{Joule, Metre, Newton, Pascal};
 
 /// Partial slip of a sphere under a constant normal load and a tangential one that has grown from 0.
 ///
@@ -47,6 +47,60 @@ impl CattaneoMindlin {
         let full_slip = 0.75 * self.friction * self.normal.load
             / (self.normal.contact_radius() * self.tangential_modulus);
         full_slip * (1.0 - self.reserve().cbrt().powi(2))
+    }
+
+    /// Energy that friction takes in a closed cycle of the tangential load between Q and −Q.
+    ///
+    /// (18μ²W²/5aGₜ) {1 − s⁵ − ⅚ (Q/μW)(1 + s²)},  s = c/a;  Q³/9aGₜμW for small Q, where about 3 log₁₀(μW/Q)
+    /// digits are lost. Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4.
+    pub fn cycle_loss(&self) -> Joule {
+        let (reserve, limit) = (self.reserve(), self.friction * self.normal.load);
+        let square = reserve.cbrt().powi(2);
+        let shape = 1.0 - reserve * square - 5.0 / 6.0 * (1.0 - reserve) * (1.0 + square);
+        3.6 * limit * limit / (self.normal.contact_radius() * self.tangential_modulus) * shape
+    }
+}
+
+/// The push is taken back: partial slip under a tangential load that has grown to Q* and come down to Q.
+///
+/// Twice the answer to half the change is taken off the answer at Q*, since slip has to start anew, backwards, against
+/// twice the friction:
+///
+/// ```text
+/// c = a (1 − (Q* − Q)/2μW)^{1/3}                              radius of what has not slipped back
+/// q = q*(r) − 2 q(r; (Q* − Q)/2)                              shear traction: −μp for r > c
+/// δₜ = (3μW/4aGₜ) [2 (1 − (Q* − Q)/2μW)^{2/3} − (1 − Q*/μW)^{2/3} − 1]
+/// ```
+/// At Q = −Q* all is as after a first push to −Q*. The way up from there is this one with the signs of Q, q and δₜ
+/// changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MindlinDeresiewicz {
+    /// The contact where the tangential load turned, at Q*.
+    pub turn: CattaneoMindlin,
+    /// Tangential load Q, −Q* ≤ Q ≤ Q*.
+    pub tangential_load: Newton,
+}
+
+impl MindlinDeresiewicz {
+    /// The contact under half of what has been taken back.
+    fn half_back(&self) -> CattaneoMindlin {
+        let tangential_load = 0.5 * (self.turn.tangential_load - self.tangential_load);
+        CattaneoMindlin { tangential_load, ..self.turn }
+    }
+
+    /// Radius c of the circle that has not slipped back.
+    pub fn stick_radius(&self) -> Metre {
+        self.half_back().stick_radius()
+    }
+
+    /// Shear traction q at distance `r` from the axis, positive along Q*.
+    pub fn shear(&self, r: Metre) -> Pascal {
+        self.turn.shear(r) - 2.0 * self.half_back().shear(r)
+    }
+
+    /// Tangential displacement δₜ of the bodies against each other, positive along Q*.
+    pub fn displacement(&self) -> Metre {
+        self.turn.displacement() - 2.0 * self.half_back().displacement()
     }
 }
 
@@ -113,6 +167,71 @@ mod tests {
         });
         assert_relative_eq!(travel, to.displacement(), max_relative = 1e-10);
         assert_eq!(pushed(1.0).stick_radius(), 0.0);
+    }
+
+    fn taken_back(share: f64, to: f64) -> MindlinDeresiewicz {
+        let turn = pushed(share);
+        MindlinDeresiewicz { turn, tangential_load: to * turn.tangential_load }
+    }
+
+    #[test]
+    fn the_shear_carries_what_is_left_of_the_load() {
+        for to in [0.7, 0.0, -0.5] {
+            let back = taken_back(0.8, to);
+            let (a, c, inner) =
+                (back.turn.normal.contact_radius(), back.stick_radius(), back.turn.stick_radius());
+            let slip = |r| back.turn.friction * back.turn.normal.pressure(r);
+            // Taken apart at the two radii where the shear has a kink: −μp, 2μp, −μp from the outside.
+            let whole = axisymmetric_load(a, slip);
+            let ring = axisymmetric_load(c, |r| back.half_back().shear(r) - slip(r));
+            let core = axisymmetric_load(inner, |r| back.turn.shear(r) - slip(r));
+            assert_relative_eq!(-whole - 2.0 * ring + core, back.tangential_load, epsilon = 1e-11);
+        }
+    }
+
+    #[test]
+    fn the_edge_slips_back_at_once() {
+        let back = taken_back(0.8, 0.9);
+        let (a, c) = (back.turn.normal.contact_radius(), back.stick_radius());
+        let friction = |r| back.turn.friction * back.turn.normal.pressure(r);
+        assert_relative_eq!(back.shear(0.5 * (a + c)), -friction(0.5 * (a + c)), max_relative = 1e-15);
+        assert!(back.turn.stick_radius() < c);
+        assert!(back.shear(0.99 * c).abs() < friction(0.99 * c));
+    }
+
+    #[test]
+    fn the_way_back_starts_at_the_turn_with_the_stiffness_of_full_stick() {
+        let turn = pushed(0.8);
+        assert_eq!(taken_back(0.8, 1.0).displacement(), turn.displacement());
+        for change in [1e-3, 1e-5] {
+            let travel = turn.displacement() - taken_back(0.8, 1.0 - change).displacement();
+            let stiffness = 2.0 * turn.normal.contact_radius() * turn.tangential_modulus;
+            assert_relative_eq!(change * turn.tangential_load / travel, stiffness, max_relative = change);
+        }
+    }
+
+    #[test]
+    fn the_full_way_back_is_a_push_the_other_way() {
+        let (turn, back) = (pushed(0.8), taken_back(0.8, -1.0));
+        assert_relative_eq!(back.displacement(), -turn.displacement(), max_relative = 1e-15);
+        for r in [0.0, 0.5, 1.0, 1.5] {
+            assert_relative_eq!(back.shear(r), -turn.shear(r), max_relative = 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_cycle_costs_the_area_of_its_loop() {
+        for share in [0.1, 0.8, 1.0] {
+            // Up is down with the signs changed, so the loop is ∫ [δ(Q) + δ(−Q)] dQ over −Q* … Q*.
+            let width =
+                |to: f64| taken_back(share, to).displacement() + taken_back(share, -to).displacement();
+            let area = pushed(share).tangential_load * 2.0 * integrate(0.0, 1.0, width);
+            assert_relative_eq!(pushed(share).cycle_loss(), area, max_relative = 1e-6);
+        }
+        let small = pushed(1e-2);
+        let cube = small.tangential_load.powi(3) / (0.3 * 7.0);
+        let stiffness = 9.0 * small.normal.contact_radius() * small.tangential_modulus;
+        assert_relative_eq!(small.cycle_loss(), cube / stiffness, max_relative = 2e-2);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! moduli and loads are positive where nothing else is said; a value without meaning gives a NaN or an infinity,
 //! never a panic. Displacements u are the composite ones, positive where they open the gap, u = 0 far away.
 
+pub mod carter;
 pub mod cattaneo;
 pub mod cell;
 pub mod cone;
@@ -12,14 +13,18 @@ pub mod hertz;
 pub mod line;
 pub mod punch;
 pub mod rough;
+pub mod spence;
+pub mod sticking;
 pub mod westergaard;
 
-pub use cattaneo::CattaneoMindlin;
+pub use carter::Carter;
+pub use cattaneo::{CattaneoMindlin, MindlinDeresiewicz};
 pub use cone::Cone;
 pub use elliptic::HertzEllipse;
 pub use hertz::HertzSphere;
 pub use line::HertzLine;
 pub use punch::FlatPunch;
+pub use sticking::{StickingPunch, StickingSphere};
 pub use westergaard::Westergaard;
 
 #[cfg(test)]
