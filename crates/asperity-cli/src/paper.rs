@@ -287,7 +287,7 @@ impl Cost {
         // The approach at which all over all bears a mean pressure of 1 % of the composite modulus: much contact.
         let gap = &pair.upper - &pair.lower;
         let load = solver::Control::Load(0.01 * pair.modulus() * pair.lower_grid().area());
-        let mut operator = Operators::new(pair.pitch(), pair.modulus(), Boundary::Free).on([n, n]);
+        let mut operator = Operators::new(pair.pitch(), *pair.compliances(), Boundary::Free).on([n, n]);
         let hardness = f64::INFINITY;
         let approach = solve_normal(operator.as_mut(), &gap, hardness, load, None, &params)?.approach;
         let time = |strategy| -> asperity::Result<f64> {
