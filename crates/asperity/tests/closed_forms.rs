@@ -29,6 +29,12 @@ cases! {
     what_flows_everywhere_bears_its_hardness: "fully plastic: W = 0.2 H A₀",
     the_bodies_store_the_work_of_the_load: "rough contact: work of the load",
     the_contact_does_not_depend_on_how_it_is_found: "rough contact: three methods",
+    nine_coefficients_spread_the_point_loads_over_a_cell: "nine coefficients: quadrature",
+    zero_padding_frees_the_surface_in_all_directions: "coupled free FFT: the direct sum",
+    a_wave_of_shear_displaces_along_and_across_its_crests: "coupled periodic FFT: oblique sinusoids",
+    a_sphere_pushed_aside_slips_in_a_ring: "Cattaneo–Mindlin: Q = 0.6 μW",
+    a_punch_that_sticks_is_softer_sideways: "Mindlin: no slip, ν = 0.3",
+    what_is_pushed_to_and_fro_loses_the_area_of_its_loop: "hysteresis: Q = ±0.9 μW",
 }
 
 fn holds(name: &str) {

@@ -16,7 +16,9 @@
 //! ```
 
 mod operators;
+mod partial_slip;
 mod rough;
+mod shear;
 mod sinusoid;
 mod smooth;
 
@@ -24,8 +26,10 @@ use std::ops::RangeInclusive;
 
 use crate::error::Result;
 use crate::grid::Field;
-use crate::operator::Operator;
-use crate::solver::{Control, Method, Params, Solution, solve_normal};
+use crate::operator::{CoupledOperator, Operator};
+use crate::solver::{
+    Control, Friction, FrictionalSolution, Loading, Method, Params, Solution, solve_frictional, solve_normal,
+};
 use crate::units::Pascal;
 
 /// A closed form, or an identity of the theory, that the program is held against.
@@ -113,6 +117,12 @@ pub const CASES: &[Case] = &[
     rough::PLASTIC_LIMIT,
     rough::WORK,
     rough::METHODS,
+    shear::COEFFICIENTS,
+    shear::FREE_TRANSFORM,
+    shear::PERIODIC_TRANSFORM,
+    partial_slip::CATTANEO,
+    partial_slip::MINDLIN,
+    partial_slip::HYSTERESIS,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.
@@ -158,6 +168,16 @@ const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, metho
 
 fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {
     solve_normal(operator, gap, hardness, control, None, &PARAMS)
+}
+
+fn hold(
+    operator: &mut dyn CoupledOperator,
+    gap: &Field,
+    friction: &Friction,
+    loading: Loading,
+    before: Option<&FrictionalSolution>,
+) -> Result<FrictionalSolution> {
+    solve_frictional(operator, gap, Pascal::INFINITY, friction, loading, before, &PARAMS)
 }
 
 #[cfg(test)]

@@ -11,8 +11,9 @@ use crate::solver::Control;
 use crate::surface::{Axis, Form};
 
 const ELASTIC: f64 = f64::INFINITY;
-const RADIUS: f64 = 4.0;
+pub(super) const RADIUS: f64 = 4.0;
 const MODULUS: f64 = 5.0;
+pub(super) const PUNCH_RADIUS: f64 = 1.0;
 
 /// The apex stands where four cells meet, and the peak pressure is that of a cell beside it: of its error, about
 /// (Δx/2a)² is the distance to the apex. In the energy, under a given load, the orders 2 and 3 are alike in size.
@@ -32,7 +33,7 @@ fn sphere() -> Result<Vec<Check>> {
     ];
     study("a/Δx", &[8, 16, 32, 64], checks, |n| {
         let grid = Grid::new([3 * n; 2], [a / n as f64; 2])?;
-        let gap = -Form::Sphere { radius: RADIUS }.on(&grid)?.into_heights();
+        let gap = sphere_gap(&grid)?;
         let solution = press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Load(hertz.load))?;
         let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
         let area = solution.contact_cells() as f64 * grid.cell_area();
@@ -44,6 +45,11 @@ fn sphere() -> Result<Vec<Check>> {
             relative(area, PI * a * a),
         ])
     })
+}
+
+/// Gap under a sphere of [`RADIUS`] in the middle of the grid.
+pub(super) fn sphere_gap(grid: &Grid) -> Result<Field> {
+    Ok(-Form::Sphere { radius: RADIUS }.on(grid)?.into_heights())
 }
 
 /// A cylinder on a periodic grid one cell wide, because a free line of contact has an end and an unbounded approach.
@@ -86,16 +92,11 @@ pub(super) const PUNCH: Case =
     Case { name: "flat punch", source: "Boussinesq (1885); Johnson (1985), eqs. 3.34–3.37", checks: punch };
 
 fn punch() -> Result<Vec<Check>> {
-    let punch = FlatPunch::from_approach(1.0, MODULUS, 1e-3);
+    let punch = FlatPunch::from_approach(PUNCH_RADIUS, MODULUS, 1e-3);
     let first = |finest| Expected::Order { order: 0.8..=1.3, finest };
     let checks = [("load", first(1e-2)), ("pressure on the axis", first(1e-2))];
     study("a/Δx", &[8, 16, 32, 64], checks, |n| {
-        let grid = Grid::new([2 * n + 1; 2], [punch.radius / n as f64; 2])?;
-        let inside = |i: usize, j: usize| {
-            let [x, y] = [i, j].map(|k| k as f64 - n as f64);
-            x * x + y * y <= (n * n) as f64
-        };
-        let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 1.0 });
+        let (grid, gap) = flat_end(n)?;
         let solution =
             press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Approach(punch.approach()))?;
         Ok([
@@ -103,4 +104,15 @@ fn punch() -> Result<Vec<Check>> {
             relative(solution.pressure[[n, n]], punch.pressure(0.0)),
         ])
     })
+}
+
+/// Grid and gap of a flat punch of [`PUNCH_RADIUS`], `n` cells along it and one in its middle.
+pub(super) fn flat_end(n: usize) -> Result<(Grid, Field)> {
+    let grid = Grid::new([2 * n + 1; 2], [PUNCH_RADIUS / n as f64; 2])?;
+    let inside = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|k| k as f64 - n as f64);
+        x * x + y * y <= (n * n) as f64
+    };
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 1.0 });
+    Ok((grid, gap))
 }
