@@ -35,6 +35,13 @@ cases! {
     a_sphere_pushed_aside_slips_in_a_ring: "Cattaneo–Mindlin: Q = 0.6 μW",
     a_punch_that_sticks_is_softer_sideways: "Mindlin: no slip, ν = 0.3",
     what_is_pushed_to_and_fro_loses_the_area_of_its_loop: "hysteresis: Q = ±0.9 μW",
+    identical_bodies_press_as_without_friction: "identical bodies: uncoupled",
+    a_little_difference_changes_the_pressure_by_its_square: "almost identical bodies: W alone",
+    a_punch_that_sticks_bears_more: "punch without slip: β = 0.3",
+    a_punch_on_another_material_slips_at_its_edge: "Spence's punch after Goodman: β = 0.3",
+    less_sticks_where_shear_lifts: "Spence's punch: β = 0.5",
+    a_sphere_sticks_over_the_same_share_as_a_punch: "Spence's sphere, in increments: β = 0.3",
+    a_driven_wheel_creeps: "Carter: cylinder, period 32 a, c = 5/8 a",
 }
 
 fn holds(name: &str) {

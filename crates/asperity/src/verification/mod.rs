@@ -15,8 +15,10 @@
 //!     order 1   a cell at each edge is in or out
 //! ```
 
+mod dissimilar;
 mod operators;
 mod partial_slip;
+mod rolling;
 mod rough;
 mod shear;
 mod sinusoid;
@@ -123,6 +125,13 @@ pub const CASES: &[Case] = &[
     partial_slip::CATTANEO,
     partial_slip::MINDLIN,
     partial_slip::HYSTERESIS,
+    dissimilar::IDENTICAL,
+    dissimilar::ALMOST_IDENTICAL,
+    dissimilar::NO_SLIP,
+    dissimilar::GOODMAN,
+    dissimilar::SPENCE,
+    dissimilar::SPHERE,
+    rolling::CARTER,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.
