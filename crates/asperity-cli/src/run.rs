@@ -154,8 +154,11 @@ fn static_table(record: &StaticRecord) -> String {
         ("convolutions", format!("{:.1}", record.convolutions)),
     ];
     if let Some(shear) = &record.shear {
-        let both =
-            |[x, y]: [f64; 2], dimension| format!("{}, {}", format(x, dimension), format(y, dimension));
+        let both = |[x, y]: [f64; 2], dimension| {
+            // What rounding leaves of a component that is not there is not worth reading.
+            let shown = |value: f64| if value.abs() < 1e-8 * x.hypot(y) { 0.0 } else { value };
+            format!("{}, {}", format(shown(x), dimension), format(shown(y), dimension))
+        };
         let stick = 100.0 * shear.stick_area / record.contact_area;
         rows.extend([
             ("tangential force", both(shear.tangential_force, Dimension::Force)),

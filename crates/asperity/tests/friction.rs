@@ -255,6 +255,28 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
 }
 
 #[test]
+fn bodies_apart_bear_nothing_and_touch_later() {
+    let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape);
+    let mut operator = Operators::new(grid.pitch, dissimilar(), Boundary::Free).coupled_on(grid.shape);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut to = |approach, tangential, before: Option<&FrictionalSolution>| {
+        let loading = Loading { normal: Control::Approach(approach), tangential };
+        solve_frictional(operator.as_mut(), &gap, f64::INFINITY, &friction, loading, before, &PARAMS).unwrap()
+    };
+    for tangential in [Tangential::Force([0.0; 2]), Tangential::Displacement([0.1, 0.0])] {
+        let apart = to(lowest - 0.01, tangential, None);
+        assert_eq!(
+            (apart.normal.contact_cells(), apart.force(1.0), apart.normal.residual),
+            (0, [0.0; 2], 0.0)
+        );
+        let touching = to(lowest + 0.1, tangential, Some(&apart));
+        assert!(touching.normal.contact_cells() > 0 && touching.stick.sum() > 0.0);
+    }
+}
+
+#[test]
 fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape);

@@ -15,8 +15,12 @@
 //!     order 1   a cell at each edge is in or out
 //! ```
 
+mod dissimilar;
 mod operators;
+mod partial_slip;
+mod rolling;
 mod rough;
+mod shear;
 mod sinusoid;
 mod smooth;
 mod subsurface;
@@ -25,8 +29,10 @@ use std::ops::RangeInclusive;
 
 use crate::error::Result;
 use crate::grid::Field;
-use crate::operator::Operator;
-use crate::solver::{Control, Method, Params, Solution, solve_normal};
+use crate::operator::{CoupledOperator, Operator};
+use crate::solver::{
+    Control, Friction, FrictionalSolution, Loading, Method, Params, Solution, solve_frictional, solve_normal,
+};
 use crate::units::Pascal;
 
 /// A closed form, or an identity of the theory, that the program is held against.
@@ -114,6 +120,19 @@ pub const CASES: &[Case] = &[
     rough::PLASTIC_LIMIT,
     rough::WORK,
     rough::METHODS,
+    shear::COEFFICIENTS,
+    shear::FREE_TRANSFORM,
+    shear::PERIODIC_TRANSFORM,
+    partial_slip::CATTANEO,
+    partial_slip::MINDLIN,
+    partial_slip::HYSTERESIS,
+    dissimilar::IDENTICAL,
+    dissimilar::ALMOST_IDENTICAL,
+    dissimilar::NO_SLIP,
+    dissimilar::GOODMAN,
+    dissimilar::SPENCE,
+    dissimilar::SPHERE,
+    rolling::CARTER,
     subsurface::LOADED_RECTANGLE,
     subsurface::SPHERE,
     subsurface::SLIDING_SPHERE,
@@ -162,6 +181,16 @@ const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, metho
 
 fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {
     solve_normal(operator, gap, hardness, control, None, &PARAMS)
+}
+
+fn hold(
+    operator: &mut dyn CoupledOperator,
+    gap: &Field,
+    friction: &Friction,
+    loading: Loading,
+    before: Option<&FrictionalSolution>,
+) -> Result<FrictionalSolution> {
+    solve_frictional(operator, gap, Pascal::INFINITY, friction, loading, before, &PARAMS)
 }
 
 #[cfg(test)]

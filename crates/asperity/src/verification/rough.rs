@@ -9,11 +9,11 @@ use crate::solver::{Control, Method, Params, solve_normal};
 use crate::surface::{Amplitude, SelfAffine};
 use crate::units::Pascal;
 
-const MODULUS: f64 = 1.0;
-const SLOPE: f64 = 0.1;
+pub(super) const MODULUS: f64 = 1.0;
+pub(super) const SLOPE: f64 = 0.1;
 
 /// Gap between a rough surface of rms slope [`SLOPE`] and a plane; the highest summit at 0.
-fn rough_gap(grid: &Grid) -> Result<Field> {
+pub(super) fn rough_gap(grid: &Grid) -> Result<Field> {
     let surface = SelfAffine {
         hurst: 0.8,
         rolloff: None,

@@ -9,10 +9,15 @@ use crate::operator::{FreeFft, PeriodicFft};
 use crate::reference::{FlatPunch, HertzLine, HertzSphere};
 use crate::solver::Control;
 use crate::surface::{Axis, Form};
+use crate::units::Metre;
 
 const ELASTIC: f64 = f64::INFINITY;
-const RADIUS: f64 = 4.0;
-const MODULUS: f64 = 5.0;
+pub(super) const RADIUS: Metre = 4.0;
+pub(super) const MODULUS: f64 = 5.0;
+pub(super) const PUNCH_RADIUS: Metre = 1.0;
+pub(super) const LINE_HALF_WIDTH: Metre = 0.5;
+/// Of the cylinders, in [`LINE_HALF_WIDTH`].
+const PERIOD: usize = 32;
 
 /// The apex stands where four cells meet, and the peak pressure is that of a cell beside it: of its error, about
 /// (Δx/2a)² is the distance to the apex. In the energy, under a given load, the orders 2 and 3 are alike in size.
@@ -32,7 +37,7 @@ fn sphere() -> Result<Vec<Check>> {
     ];
     study("a/Δx", &[8, 16, 32, 64], checks, |n| {
         let grid = Grid::new([3 * n; 2], [a / n as f64; 2])?;
-        let gap = -Form::Sphere { radius: RADIUS }.on(&grid)?.into_heights();
+        let gap = sphere_gap(&grid)?;
         let solution = press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Load(hertz.load))?;
         let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
         let area = solution.contact_cells() as f64 * grid.cell_area();
@@ -46,6 +51,11 @@ fn sphere() -> Result<Vec<Check>> {
     })
 }
 
+/// Gap under a sphere of [`RADIUS`] in the middle of the grid.
+pub(super) fn sphere_gap(grid: &Grid) -> Result<Field> {
+    Ok(-Form::Sphere { radius: RADIUS }.on(grid)?.into_heights())
+}
+
 /// A cylinder on a periodic grid one cell wide, because a free line of contact has an end and an unbounded approach.
 ///
 /// The other lines of contact, a period L away, are felt as a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, and
@@ -55,30 +65,36 @@ pub(super) const LINE: Case =
     Case { name: "Hertz: cylinder, period 32 a", source: "Johnson (1985), eqs. 4.43–4.45", checks: line };
 
 fn line() -> Result<Vec<Check>> {
-    const PERIOD: usize = 32;
-    let a = 0.5;
-    let radius = RADIUS * (1.0 - (PI / PERIOD as f64).powi(2) / 6.0);
-    let hertz =
-        HertzLine { radius, modulus: MODULUS, load_per_length: PI * MODULUS * a * a / (4.0 * radius) };
+    let hertz = line_of(LINE_HALF_WIDTH);
     let checks = [
         ("peak pressure", Expected::Order { order: 1.8..=2.2, finest: 1e-4 }),
         ("pressure, rms", Expected::Order { order: 0.8..=1.2, finest: 1e-2 }),
         ("contact width", Expected::Counted(1.0)),
     ];
     study("a/Δx", &[16, 32, 64, 128], checks, |n| {
-        let pitch = a / n as f64;
-        let grid = Grid::new([PERIOD * n, 1], [pitch, pitch])?;
-        let gap = -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights();
-        let load = Control::Load(hertz.load_per_length * pitch);
+        let (grid, gap) = line_gap(n)?;
+        let load = Control::Load(hertz.load_per_length * grid.pitch[1]);
         let solution = press(&mut PeriodicFft::new(grid, MODULUS), &gap, ELASTIC, load)?;
         let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
-        let width = solution.contact_cells() as f64 * pitch;
+        let width = solution.contact_cells() as f64 * grid.pitch[0];
         Ok([
             relative(solution.max_pressure(), hertz.peak_pressure()),
             relative_rms(&solution.pressure, &exact),
-            relative(width, 2.0 * a),
+            relative(width, 2.0 * LINE_HALF_WIDTH),
         ])
     })
+}
+
+/// The contact of that cylinder, of the half width `a`, which its images curve.
+pub(super) fn line_of(a: Metre) -> HertzLine {
+    let radius = RADIUS * (1.0 - (PI * a / (PERIOD as f64 * LINE_HALF_WIDTH)).powi(2) / 6.0);
+    HertzLine { radius, modulus: MODULUS, load_per_length: PI * MODULUS * a * a / (4.0 * radius) }
+}
+
+/// Its grid and gap, `n` cells along [`LINE_HALF_WIDTH`].
+pub(super) fn line_gap(n: usize) -> Result<(Grid, Field)> {
+    let grid = Grid::new([PERIOD * n, 1], [LINE_HALF_WIDTH / n as f64; 2])?;
+    Ok((grid, -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights()))
 }
 
 /// The pressure is infinite at the edge, and the edge a staircase: order 1.
@@ -86,16 +102,11 @@ pub(super) const PUNCH: Case =
     Case { name: "flat punch", source: "Boussinesq (1885); Johnson (1985), eqs. 3.34–3.37", checks: punch };
 
 fn punch() -> Result<Vec<Check>> {
-    let punch = FlatPunch::from_approach(1.0, MODULUS, 1e-3);
+    let punch = FlatPunch::from_approach(PUNCH_RADIUS, MODULUS, 1e-3);
     let first = |finest| Expected::Order { order: 0.8..=1.3, finest };
     let checks = [("load", first(1e-2)), ("pressure on the axis", first(1e-2))];
     study("a/Δx", &[8, 16, 32, 64], checks, |n| {
-        let grid = Grid::new([2 * n + 1; 2], [punch.radius / n as f64; 2])?;
-        let inside = |i: usize, j: usize| {
-            let [x, y] = [i, j].map(|k| k as f64 - n as f64);
-            x * x + y * y <= (n * n) as f64
-        };
-        let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 1.0 });
+        let (grid, gap) = flat_end(n)?;
         let solution =
             press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Approach(punch.approach()))?;
         Ok([
@@ -103,4 +114,15 @@ fn punch() -> Result<Vec<Check>> {
             relative(solution.pressure[[n, n]], punch.pressure(0.0)),
         ])
     })
+}
+
+/// Grid and gap of a flat punch of [`PUNCH_RADIUS`], `n` cells along it and one in its middle.
+pub(super) fn flat_end(n: usize) -> Result<(Grid, Field)> {
+    let grid = Grid::new([2 * n + 1; 2], [PUNCH_RADIUS / n as f64; 2])?;
+    let inside = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|k| k as f64 - n as f64);
+        x * x + y * y <= (n * n) as f64
+    };
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 1.0 });
+    Ok((grid, gap))
 }

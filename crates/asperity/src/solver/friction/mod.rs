@@ -340,9 +340,10 @@ fn validate(tangential: &Tangential) -> Result<()> {
 fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator) -> Metre {
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
-    let scale = if deviation <= 1e-12 * local { local } else { deviation };
     let share = (bound.sum() / normal.pressure.sum()).min(1.0);
-    if share > 0.0 { share * scale } else { 1.0 }
+    let scale = share * if deviation <= 1e-12 * local { local } else { deviation };
+    // Without contact, or without friction, nothing is left to be a share of.
+    if scale > 0.0 { scale } else { 1.0 }
 }
 
 fn slip(
