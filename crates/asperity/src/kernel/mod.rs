@@ -6,6 +6,6 @@ pub mod normal;
 pub mod spectral;
 pub mod subsurface;
 
-pub use coupled::{Coefficients, coupled_displacement};
+pub use coupled::{Coefficients, CoupledTable, coupled_displacement, coupled_matrix};
 pub use normal::{influence_matrix, influence_table, normal_displacement};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

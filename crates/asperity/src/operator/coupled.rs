@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid};
-use crate::kernel::{Coefficients, coupled_displacement, spectral::harmonic_displacements};
+use crate::kernel::{Coefficients, CoupledTable, coupled_displacement, spectral::harmonic_displacements};
 use crate::material::Compliances;
 use crate::math::fft::angular_frequency;
 use crate::math::{TensorConvolution, TensorKernel};
@@ -33,12 +33,14 @@ pub trait CoupledOperator: Send {
 pub struct CoupledSum {
     normal: DirectSum,
     compliances: Compliances,
+    table: CoupledTable,
 }
 
 impl CoupledSum {
     /// The operator on `grid`.
     pub fn new(grid: Grid, compliances: Compliances) -> Self {
-        Self { normal: DirectSum::new(grid, compliances.modulus()), compliances }
+        let table = CoupledTable::new(grid.shape, grid.pitch, &compliances);
+        Self { normal: DirectSum::new(grid, compliances.modulus()), compliances, table }
     }
 }
 
@@ -52,7 +54,7 @@ impl CoupledOperator for CoupledSum {
     }
 
     fn self_influence(&self) -> Coefficients {
-        coupled_displacement(0.0, 0.0, self.grid().pitch, &self.compliances)
+        self.table.at([0, 0], [0, 0])
     }
 
     fn normal(&mut self) -> &mut dyn Operator {
@@ -60,21 +62,18 @@ impl CoupledOperator for CoupledSum {
     }
 
     fn apply(&mut self, traction: [Option<&Field>; 3], mut displacement: [Option<&mut Field>; 3]) {
-        let Grid { shape: [nx, ny], pitch } = *self.grid();
         displacement.iter_mut().flatten().for_each(|field| field.fill(0.0));
-        for i in 0..2 * nx - 1 {
-            for j in 0..2 * ny - 1 {
-                // Cells [k + i, l + j] − [nx − 1, ny − 1] under the traction on [k, l].
-                let (x, y) = (i as f64 - (nx - 1) as f64, j as f64 - (ny - 1) as f64);
-                let at = coupled_displacement(x * pitch[0], y * pitch[1], pitch, &self.compliances).matrix();
-                for (u, at) in displacement.iter_mut().zip(at) {
-                    let Some(u) = u else { continue };
-                    for (t, at) in traction.iter().zip(at).filter_map(|(t, at)| t.map(|t| (t, at))) {
-                        for k in (nx - 1).saturating_sub(i)..nx.min(2 * nx - 1 - i) {
-                            for l in (ny - 1).saturating_sub(j)..ny.min(2 * ny - 1 - j) {
-                                u[[k + i + 1 - nx, l + j + 1 - ny]] += at * t[[k, l]];
-                            }
-                        }
+        let shape = self.grid().shape;
+        for from in ndarray::indices(shape) {
+            let loads = traction.map(|field| field.map_or(0.0, |field| field[from]));
+            if loads == [0.0; 3] {
+                continue;
+            }
+            for to in ndarray::indices(shape) {
+                let matrix = self.table.at(to.into(), from.into()).matrix();
+                for (field, row) in displacement.iter_mut().zip(matrix) {
+                    if let Some(field) = field {
+                        field[to] += row[0] * loads[0] + row[1] * loads[1] + row[2] * loads[2];
                     }
                 }
             }
