@@ -276,6 +276,39 @@ fn bodies_apart_bear_nothing_and_touch_later() {
     }
 }
 
+/// New cells bear more shear than pressure, and shear lifts those at the edge that have just come to bear any.
+#[test]
+fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
+    let (cells, steps) = (16, 16);
+    let grid = Grid::new([2 * cells + 8; 2], [1.0; 2]).unwrap();
+    let middle = 0.5 * (grid.shape[0] - 1) as f64;
+    let gap =
+        Field::from_shape_fn(grid.shape, |(i, j)| (i as f64 - middle).powi(2) + (j as f64 - middle).powi(2));
+    let pair = pair([0.0, 0.3], [1.0, f64::INFINITY]);
+    let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+    let friction = Friction::coulomb(100.0).unwrap();
+    let mut state: Option<FrictionalSolution> = None;
+    for step in 1..=steps {
+        let radius = (cells * step) as f64 / steps as f64;
+        let loading = Loading {
+            normal: Control::Approach(2.0 * radius * radius),
+            tangential: Tangential::Force([0.0; 2]),
+        };
+        let next = solve_frictional(
+            operator.as_mut(),
+            &gap,
+            f64::INFINITY,
+            &friction,
+            loading,
+            state.as_ref(),
+            &Params { tolerance: 1e-9, ..PARAMS },
+        );
+        state = Some(next.unwrap());
+    }
+    let state = state.unwrap();
+    assert_eq!(state.stick.sum(), state.normal.contact_cells() as f64);
+}
+
 #[test]
 fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();

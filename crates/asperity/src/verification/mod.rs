@@ -14,6 +14,9 @@
 //! contact, counted by cells
 //!     order 1   a cell at each edge is in or out
 //! ```
+//!
+//! Shear and tangential displacement, and what sticks, do as pressure, approach and contact do. Increments in which the
+//! contact grows, and steps of rolling, are of order 1.
 
 mod dissimilar;
 mod operators;
@@ -105,7 +108,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then what is solved with them.
+/// All cases: operators first, then what is solved with them; without friction, then with it.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,

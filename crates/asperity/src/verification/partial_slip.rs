@@ -68,7 +68,8 @@ fn travel(solution: &FrictionalSolution) -> f64 {
     DIRECTION[0] * solution.shift[0] + DIRECTION[1] * solution.shift[1]
 }
 
-/// With ν = 0 the slip is along the push, and the closed form exact; whatever the steps, as nothing slips back.
+/// With ν = 0 the slip is along the push, and the closed form exact. With ν = 0.3 the displacement would be 5e-4 less, and
+/// shear across the push come to a twentieth of the largest.
 pub(super) const CATTANEO: Case = Case {
     name: "Cattaneo–Mindlin: Q = 0.6 μW",
     source: "Cattaneo (1938); Mindlin (1949); Johnson (1985), eqs. 7.39–7.42",
@@ -117,8 +118,8 @@ pub(super) const MINDLIN: Case = Case {
 };
 
 /// The push is taken back and given again, in `a/Δx` increments. The states do not depend on them; in the closed cycle
-/// friction takes what the force has done. Chords cut the loop short by the square of the increments. In the displacement the order 3, of the
-/// edges of stick and slip, is still the larger.
+/// friction takes what the force has done. Chords cut the loop short by the square of the increments. In the
+/// displacement the order 3, of the edges of stick and slip, is still the larger.
 pub(super) const HYSTERESIS: Case = Case {
     name: "hysteresis: Q = ±0.9 μW",
     source: "Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4",

@@ -137,6 +137,10 @@ const FIRST: f64 = 3e-2;
 const SHARPER: f64 = 0.1;
 /// The last round is solved to so much of the tolerance.
 const LAST: f64 = 0.5;
+/// After a round that has not lowered the residual the next one takes up half as much of the change of the normal
+/// displacement under shear, but no less than this; after one that has, [`RISE`] times as much.
+const LEAST: f64 = 0.2;
+const RISE: f64 = 1.2;
 /// Rounds after which the iteration is given up.
 const MOST_ROUNDS: usize = 200;
 
@@ -238,6 +242,7 @@ fn alternate(
     let mut solver = None;
     let mut stats = Stats::default();
     let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
+    let (mut last, mut share) = (f64::INFINITY, 1.0);
     for _ in 0..MOST_ROUNDS {
         let gap = lift.as_ref().map(|lift| initial_gap + lift);
         let params_now = Params { tolerance, ..*params };
@@ -269,6 +274,7 @@ fn alternate(
             }
         };
         shear = answer.shear;
+        let supposed = lift;
         lift = bodies.lift(&shear);
         if let Some(lift) = &lift {
             normal.displacement += lift;
@@ -310,6 +316,11 @@ fn alternate(
                 false => stick(&shear, &slip, &bound, self_compliance(bodies.operator)),
             };
             return Ok(FrictionalSolution { normal, cap, shear, bound, displacement, shift, slip, stick });
+        }
+        share = if reached < last { f64::min(RISE * share, 1.0) } else { f64::max(0.5 * share, LEAST) };
+        last = reached;
+        if let (Some(lift), Some(supposed)) = (&mut lift, supposed) {
+            *lift = &supposed + share * (&*lift - &supposed);
         }
         tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
         pressure = Some(normal.pressure);
