@@ -1,5 +1,7 @@
 //! The contact with friction: normal and tangential tractions, and where the bodies stick.
 
+mod alternate;
+mod bodies;
 mod disc;
 mod law;
 mod rolling;
@@ -13,12 +15,10 @@ use crate::error::{Result, check};
 use crate::grid::Field;
 use crate::material::Compliances;
 use crate::operator::CoupledOperator;
-use crate::solver::residual::residual_under;
-use crate::solver::{Control, Params, Solution, Stats, solve_normal};
+use crate::solver::{Control, Params, Solution};
 use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
 
-use shear::{Answer, Rigid, ShearSolver, Task};
-use yielding::{AtCaps, caps, solve_capped};
+use alternate::{Start, alternate};
 
 /// What is prescribed in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,20 +131,7 @@ impl FrictionalSolution {
     }
 }
 
-/// Residual of the first round where pressure and shear influence each other.
-const FIRST: f64 = 3e-2;
-/// Each round is solved to so much of the residual that the last one left.
-const SHARPER: f64 = 0.1;
-/// The last round is solved to so much of the tolerance.
-const LAST: f64 = 0.5;
-/// After a round that has not lowered the residual the next one takes up half as much of the change of the normal
-/// displacement under shear, but no less than this; after one that has, [`RISE`] times as much.
-const LEAST: f64 = 0.2;
-const RISE: f64 = 1.2;
-/// Rounds after which the iteration is given up.
-const MOST_ROUNDS: usize = 200;
-
-/// Solves one increment of a contact with friction, implicitly: the normal contact of [`solve_normal`] together with
+/// Solves one increment of a contact with friction, implicitly: the normal contact of [`crate::solver::solve_normal`] together with
 ///
 /// ```text
 /// |q| ≤ g = min(μp, τ);   |q| < g ⇒ Δs = 0;   |q| = g ⇒ Δs = λ q, λ ≥ 0
@@ -161,7 +148,7 @@ const MOST_ROUNDS: usize = 200;
 /// ```
 ///
 /// # Errors
-/// Those of [`solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
+/// Those of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -174,6 +161,8 @@ pub fn solve_frictional(
     before: Option<&FrictionalSolution>,
     params: &Params,
 ) -> Result<FrictionalSolution> {
+    let friction = friction.checked()?;
+    validate(&loading.tangential)?;
     let start = match before {
         Some(before) => Start {
             pressure: Some(before.normal.pressure.clone()),
@@ -190,17 +179,6 @@ pub fn solve_frictional(
     alternate(operator, initial_gap, hardness, friction, loading, start, params)
 }
 
-/// Where an increment begins.
-#[derive(Default)]
-struct Start {
-    /// Near the answer.
-    pressure: Option<Field>,
-    cap: Option<Field>,
-    shear: Option<[Field; 2]>,
-    /// s₀.
-    slip: Option<[Field; 2]>,
-}
-
 /// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
 /// near the answer; `hardness` is what the shear leaves of it, [`Friction::sliding_cap`].
 pub(crate) fn solve_sliding(
@@ -214,122 +192,7 @@ pub(crate) fn solve_sliding(
 ) -> Result<FrictionalSolution> {
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
-    alternate(operator, initial_gap, hardness, &sliding.friction, loading, start, params)
-}
-
-/// Normal and tangential problems in turn.
-fn alternate(
-    operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    hardness: Pascal,
-    friction: &Friction,
-    loading: Loading,
-    start: Start,
-    params: &Params,
-) -> Result<FrictionalSolution> {
-    let friction = friction.checked()?;
-    validate(&loading.tangential)?;
-    let mut bodies = Bodies { operator, coupling: friction.coupling, convolutions: 0.0 };
-    let grid = *bodies.operator.grid();
-    let Start { mut pressure, cap, shear, slip: slip_before } = start;
-    let mut lift = shear.as_ref().and_then(|shear| bodies.lift(shear));
-    let mut shear = shear.unwrap_or_else(|| [grid.zeros(), grid.zeros()]);
-    let slides = matches!(loading.tangential, Tangential::Sliding(_));
-    let softens = friction.softens(hardness) && !slides;
-    let friction = if softens { friction.within(hardness) } else { friction };
-    let mut cap = cap.unwrap_or_else(|| Field::from_elem(grid.shape, hardness));
-    let alternates = bodies.shear_lifts() || softens;
-    let mut solver = None;
-    let mut stats = Stats::default();
-    let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
-    let (mut last, mut share) = (f64::INFINITY, 1.0);
-    for _ in 0..MOST_ROUNDS {
-        let gap = lift.as_ref().map(|lift| initial_gap + lift);
-        let params_now = Params { tolerance, ..*params };
-        let gap = gap.as_ref().unwrap_or(initial_gap);
-        let operator = bodies.operator.normal();
-        let mut normal = match &pressure {
-            Some(pressure) if softens => {
-                let softer = caps(&friction, hardness, pressure, &shear);
-                let start = AtCaps::of(pressure, &cap, &softer);
-                cap = softer;
-                solve_capped(operator, gap, &cap, loading.normal, start, &params_now)?
-            }
-            start => solve_normal(operator, gap, hardness, loading.normal, start.as_ref(), &params_now)?,
-        };
-        stats = stats.and(&normal.stats);
-        let bound = normal.pressure.mapv(|p| friction.bound(p));
-        let scale = shear_scale(&normal, &bound, bodies.operator);
-        let mut hold = |control| {
-            let free_slip = bodies.free_slip(&normal.pressure, slip_before.as_ref());
-            let solver = solver.get_or_insert_with(|| ShearSolver::new(bodies.operator));
-            let task = Task { bound: &bound, free_slip: &free_slip, control, scale, tolerance };
-            solver.solve(bodies.operator, &task, &shear, params.max_convolutions)
-        };
-        let answer = match loading.tangential {
-            Tangential::Displacement(shift) => hold(Rigid::Shift(shift))?,
-            Tangential::Force(force) => hold(Rigid::Force(force))?,
-            Tangential::Sliding(direction) => {
-                Answer { shear: direction.map(|n| &bound * n), shift: [0.0; 2], residual: 0.0 }
-            }
-        };
-        shear = answer.shear;
-        let supposed = lift;
-        lift = bodies.lift(&shear);
-        if let Some(lift) = &lift {
-            normal.displacement += lift;
-        }
-        if alternates {
-            let approach = match softens {
-                // Of cells that come off their caps by a little the multiplier of the load knows nothing.
-                true => Some(normal.approach),
-                false => loading.normal.approach(),
-            };
-            let caps = match softens {
-                true => &caps(&friction, hardness, &normal.pressure, &shear),
-                false => &cap,
-            };
-            let state = residual_under(
-                || caps.iter().copied(),
-                &normal.pressure,
-                &normal.displacement,
-                initial_gap,
-                bodies.operator.self_influence().zz,
-                approach,
-            );
-            (normal.residual, normal.approach) = (state.eta, state.approach);
-        }
-        let reached = normal.residual.max(answer.residual);
-        if reached <= params.tolerance {
-            if let Some(solver) = &solver {
-                stats = stats.and(&solver.stats);
-            }
-            let displacement = bodies.displacement(&shear, &normal.pressure);
-            stats.convolutions += bodies.convolutions;
-            normal.residual = reached;
-            normal.stats = stats;
-            let slip =
-                slip(loading.tangential, &normal.pressure, answer.shift, &displacement, slip_before.as_ref());
-            let shift = answer.shift;
-            let stick = match slides {
-                true => grid.zeros(),
-                false => stick(&shear, &slip, &bound, self_compliance(bodies.operator)),
-            };
-            return Ok(FrictionalSolution { normal, cap, shear, bound, displacement, shift, slip, stick });
-        }
-        share = if reached < last { f64::min(RISE * share, 1.0) } else { f64::max(0.5 * share, LEAST) };
-        last = reached;
-        if let (Some(lift), Some(supposed)) = (&mut lift, supposed) {
-            *lift = &supposed + share * (&*lift - &supposed);
-        }
-        tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
-        pressure = Some(normal.pressure);
-    }
-    Err(crate::Error::NotConverged {
-        iterations: stats.iterations,
-        residual: tolerance / SHARPER,
-        tolerance: params.tolerance,
-    })
+    alternate(operator, initial_gap, hardness, sliding.friction, loading, start, params)
 }
 
 fn validate(tangential: &Tangential) -> Result<()> {
@@ -347,104 +210,8 @@ fn validate(tangential: &Tangential) -> Result<()> {
     }
 }
 
-/// What a residual of the tangential problem is a share of.
-fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator) -> Metre {
-    let local = operator.self_influence().zz * normal.max_pressure();
-    let deviation = normal.displacement.std(0.0);
-    let share = (bound.sum() / normal.pressure.sum()).min(1.0);
-    let scale = share * if deviation <= 1e-12 * local { local } else { deviation };
-    // Without contact, or without friction, nothing is left to be a share of.
-    if scale > 0.0 { scale } else { 1.0 }
-}
-
-fn slip(
-    tangential: Tangential,
-    pressure: &Field,
-    shift: [Metre; 2],
-    displacement: &[Field; 2],
-    before: Option<&[Field; 2]>,
-) -> [Field; 2] {
-    [0, 1].map(|axis| {
-        let mut slip = displacement[axis].mapv(|u| shift[axis] - u);
-        if let Some(before) = before {
-            slip -= &before[axis];
-        }
-        let bounded = !matches!(tangential, Tangential::Sliding(_));
-        slip.zip_mut_with(pressure, |s, p| *s = if bounded && *p > 0.0 { *s } else { 0.0 });
-        slip
-    })
-}
-
-/// 1 where |q + Δs/c| ≤ g > 0.
-fn stick(shear: &[Field; 2], slip: &[Field; 2], bound: &Field, compliance: f64) -> Field {
-    let mut stick = bound.clone();
-    let predicted = |axis: usize| &shear[axis] + &slip[axis] / compliance;
-    ndarray::Zip::from(&mut stick).and(&predicted(0)).and(&predicted(1)).for_each(|g, x, y| {
-        *g = if *g > 0.0 && x.hypot(*y) <= *g { 1.0 } else { 0.0 };
-    });
-    stick
-}
-
 /// c, displacement of a cell per unit shear on itself, in the mean of the directions.
 fn self_compliance(operator: &dyn CoupledOperator) -> f64 {
     let influence = operator.self_influence();
     0.5 * (influence.xx + influence.yy)
-}
-
-/// The two bodies, coupled as is asked for.
-struct Bodies<'a> {
-    operator: &'a mut dyn CoupledOperator,
-    coupling: Coupling,
-    /// Of coupling terms and whole displacements.
-    convolutions: f64,
-}
-
-impl Bodies<'_> {
-    fn shear_lifts(&self) -> bool {
-        self.coupling.lifts(self.operator.compliances())
-    }
-
-    fn pressure_slips(&self) -> bool {
-        self.coupling.slips(self.operator.compliances())
-    }
-
-    /// Normal displacement under shear.
-    fn lift(&mut self, shear: &[Field; 2]) -> Option<Field> {
-        if !self.shear_lifts() {
-            return None;
-        }
-        let mut lift = self.operator.grid().zeros();
-        self.operator.apply([Some(&shear[0]), Some(&shear[1]), None], [None, None, Some(&mut lift)]);
-        self.convolutions += 1.0;
-        Some(lift)
-    }
-
-    /// The slip that there would be without shear, but for the rigid displacement: −u(0, p) − s₀.
-    fn free_slip(&mut self, pressure: &Field, before: Option<&[Field; 2]>) -> [Field; 2] {
-        let grid = *self.operator.grid();
-        let mut slip = [grid.zeros(), grid.zeros()];
-        if self.pressure_slips() {
-            let [x, y] = slip.each_mut();
-            self.operator.apply([None, None, Some(pressure)], [Some(x), Some(y), None]);
-            self.convolutions += 1.0;
-        }
-        for (axis, slip) in slip.iter_mut().enumerate() {
-            match before {
-                Some(before) => slip.zip_mut_with(&before[axis], |u, s| *u = -*u - s),
-                None => slip.mapv_inplace(|u| -u),
-            }
-        }
-        slip
-    }
-
-    /// Tangential displacement under both tractions.
-    fn displacement(&mut self, shear: &[Field; 2], pressure: &Field) -> [Field; 2] {
-        let grid = *self.operator.grid();
-        let mut u = [grid.zeros(), grid.zeros()];
-        let pressure = self.pressure_slips().then_some(pressure);
-        let [x, y] = u.each_mut();
-        self.operator.apply([Some(&shear[0]), Some(&shear[1]), pressure], [Some(x), Some(y), None]);
-        self.convolutions += 1.0;
-        u
-    }
 }

@@ -1,16 +1,18 @@
 //! The tangential problem: shear tractions that hold the surfaces where they stick, under given pressures.
 
+mod state;
+
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::Stats;
-use crate::solver::friction::disc::{
-    Symmetric, Vector, add, dot, length, minus, onto_disc, shift_for_sum, times,
-};
+use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::self_compliance;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
 use crate::units::{Metre, SquareMetre};
+
+use state::{Freedom, State};
 
 /// Conjugate gradient steps on one division into stick and slip, at the most.
 const MOST_INNER: usize = 60;
@@ -20,6 +22,10 @@ const LEAVE: f64 = 3.0;
 const REDUCTION: f64 = 2e-2;
 /// The equations are met when they are below so much of what is asked of the answer.
 const NEARLY: f64 = 0.5;
+/// Held so many times as strongly as by its own compliance, a cell hardly turns: it is left to itself.
+const FIRM: f64 = 3.0;
+/// Steps along the projected gradient at a time.
+const DESCENTS: usize = 5;
 
 /// What is asked: |q| ≤ g in each cell, and where it is less the slip s = D + b − T q is zero; where it is not, s points
 /// along q. It minimises ½ qᵀTq − qᵀ(D + b) over the discs.
@@ -51,44 +57,6 @@ pub(super) struct Answer {
     pub(super) shift: Vector,
     /// max|φ| as a share of the scale, φ = c (q − P(q + s/c)) with P the projection onto the discs.
     pub(super) residual: f64,
-}
-
-/// How a cell may move.
-#[derive(Clone, Copy)]
-enum Freedom {
-    /// In both directions.
-    Stick,
-    /// Along the rim of its disc.
-    Slip {
-        /// Direction of the rim.
-        rim: Vector,
-        /// |s|/g > 0, m/Pa: how strongly the slip holds the direction of the shear.
-        hold: f64,
-    },
-}
-
-impl Freedom {
-    /// The part of a vector along which the cell may move.
-    fn part(&self, a: Vector) -> Vector {
-        match self {
-            Self::Stick => a,
-            Self::Slip { rim, .. } => times(dot(*rim, a), *rim),
-        }
-    }
-
-    fn projector(&self) -> Symmetric {
-        match self {
-            Self::Stick => Symmetric::identity(1.0),
-            Self::Slip { rim, .. } => Symmetric::square(1.0, *rim),
-        }
-    }
-
-    fn hold(&self) -> f64 {
-        match self {
-            Self::Stick => 0.0,
-            Self::Slip { hold, .. } => *hold,
-        }
-    }
 }
 
 /// Solves tangential problems on one grid, by a semismooth Newton iteration: a division of the contact into cells that
@@ -316,189 +284,5 @@ impl ShearSolver {
             }
             state.advance((slope / curvature).min(1.0), &direction, &response);
         }
-    }
-}
-
-/// Held so many times as strongly as by its own compliance, a cell hardly turns: it is left to itself.
-const FIRM: f64 = 3.0;
-/// Shear below this share of its bound is not on the rim.
-const INSIDE: f64 = 1.0 - 1e-12;
-/// Steps along the projected gradient at a time.
-const DESCENTS: usize = 5;
-
-/// The cells in contact, by number.
-struct State {
-    cells: Vec<usize>,
-    bound: Vec<f64>,
-    free_slip: Vec<Vector>,
-    /// Σ q under force control.
-    wanted: Option<Vector>,
-    shift: Vector,
-    shear: Vec<Vector>,
-    /// T q.
-    response: Vec<Vector>,
-    freedom: Vec<Freedom>,
-}
-
-impl State {
-    fn new(task: &Task, start: &[Field; 2], cells: Vec<usize>, area: SquareMetre) -> Result<Self> {
-        let values = |field: &Field| -> Vec<f64> {
-            let field = field.as_slice().expect("standard layout");
-            cells.iter().map(|cell| field[*cell]).collect()
-        };
-        let vectors = |fields: &[Field; 2]| -> Vec<Vector> {
-            values(&fields[0]).into_iter().zip(values(&fields[1])).map(|(x, y)| [x, y]).collect()
-        };
-        let bound = values(task.bound);
-        let (wanted, shift) = match task.control {
-            Rigid::Shift(shift) => (None, shift),
-            Rigid::Force(force) => (Some(force.map(|f| f / area)), [0.0; 2]),
-        };
-        if let Rigid::Force(force) = task.control {
-            let limit = area * bound.iter().sum::<f64>();
-            if length(force) >= limit && force != [0.0; 2] {
-                return Err(Error::BeyondFriction { force: length(force), limit });
-            }
-        }
-        let shear = vectors(start).into_iter().zip(&bound).map(|(q, g)| onto_disc(q, *g)).collect();
-        Ok(Self {
-            free_slip: vectors(task.free_slip),
-            response: vec![[0.0; 2]; bound.len()],
-            freedom: vec![Freedom::Stick; bound.len()],
-            cells,
-            bound,
-            wanted,
-            shift,
-            shear,
-        })
-    }
-
-    fn cells(&self) -> impl Iterator<Item = (&Freedom, Vector, f64)> {
-        self.freedom.iter().zip(&self.shear).zip(&self.bound).map(|((f, q), g)| (f, *q, *g))
-    }
-
-    /// s = D + b − T q.
-    fn slip(&self, k: usize) -> Vector {
-        minus(add(self.shift, self.free_slip[k]), self.response[k])
-    }
-
-    /// q + s/c.
-    fn predicted(&self, k: usize, compliance: f64) -> Vector {
-        add(self.shear[k], times(1.0 / compliance, self.slip(k)))
-    }
-
-    fn projected(&self, k: usize, compliance: f64) -> Vector {
-        onto_disc(self.predicted(k, compliance), self.bound[k])
-    }
-
-    /// Under force control: the D at which the projections bear the force.
-    fn find_shift(&mut self, compliance: f64) {
-        let Some(wanted) = self.wanted else { return };
-        let start = times(1.0 / compliance, self.shift);
-        self.shift = [0.0; 2];
-        let cells = || (0..self.cells.len()).map(|k| (self.predicted(k, compliance), self.bound[k]));
-        let shift = shift_for_sum(cells, wanted, start);
-        self.shift = times(compliance, shift);
-    }
-
-    /// max|φ|.
-    fn residual(&self, compliance: f64) -> Metre {
-        let phi = |k| compliance * length(minus(self.shear[k], self.projected(k, compliance)));
-        // What is not a number is no answer, though a maximum would pass over it.
-        (0..self.cells.len()).map(phi).fold(0.0, |m, phi| if phi > m || phi.is_nan() { phi } else { m })
-    }
-
-    /// Brings the tractions into their discs; whether any had to move.
-    fn project(&mut self) -> bool {
-        let mut moved = false;
-        for (q, bound) in self.shear.iter_mut().zip(&self.bound) {
-            let inside = onto_disc(*q, *bound);
-            moved |= inside != *q;
-            *q = inside;
-        }
-        if let Some(wanted) = self.wanted {
-            // What the rims have taken away the cells within bear: those on them stay there.
-            let within: Vec<usize> =
-                (0..self.shear.len()).filter(|k| length(self.shear[*k]) < INSIDE * self.bound[*k]).collect();
-            let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
-            let missing = minus(wanted, sum);
-            let size = self.shear.iter().map(|q| length(*q)).sum::<f64>();
-            if length(missing) > 1e-12 * size {
-                let theirs = within.iter().fold(missing, |sum, k| add(sum, self.shear[*k]));
-                let cells = || within.iter().map(|k| (self.shear[*k], self.bound[*k]));
-                let shift = shift_for_sum(cells, theirs, [0.0; 2]);
-                for k in within {
-                    self.shear[k] = onto_disc(add(self.shear[k], shift), self.bound[k]);
-                }
-                moved = true;
-            }
-        }
-        moved
-    }
-
-    /// Which cells stick and which slip, as one step of the diagonal tells.
-    fn divide(&mut self, compliance: f64) {
-        for k in 0..self.cells.len() {
-            let y = self.predicted(k, compliance);
-            let (length, bound) = (length(y), self.bound[k]);
-            self.freedom[k] = if length <= bound {
-                Freedom::Stick
-            } else {
-                Freedom::Slip {
-                    rim: [-y[1] / length, y[0] / length],
-                    hold: compliance * (length / bound - 1.0),
-                }
-            };
-        }
-    }
-
-    /// What is left of the equations of the freedoms, but for the rigid displacement under force control.
-    fn equations(&self) -> Vec<Vector> {
-        let mut left: Vec<Vector> = (0..self.cells.len())
-            .map(|k| {
-                let freedom = &self.freedom[k];
-                let held = times(freedom.hold(), self.shear[k]);
-                freedom.part(minus(self.slip(k), held))
-            })
-            .collect();
-        self.balance(&mut left);
-        left
-    }
-
-    /// Σ of the freedoms' projectors.
-    fn mobility(&self) -> Symmetric {
-        self.freedom.iter().fold(Symmetric::default(), |sum, f| sum.and(f.projector()))
-    }
-
-    /// Under force control: takes out of `values`, which obey the freedoms, what would change the force.
-    fn balance(&self, values: &mut [Vector]) {
-        if self.wanted.is_some() {
-            let sum = values.iter().fold([0.0; 2], |sum, v| add(sum, *v));
-            let each = self.mobility().solve(sum);
-            values.iter_mut().zip(&self.freedom).for_each(|(v, f)| *v = minus(*v, f.part(each)));
-        }
-    }
-
-    /// Root of the sum of squares of what sticking cells bear beyond their bound, as a displacement.
-    fn violation(&self, compliance: f64) -> Metre {
-        let beyond = self.cells().map(|(freedom, q, bound)| match freedom {
-            Freedom::Stick => (length(q) - bound).max(0.0),
-            Freedom::Slip { .. } => 0.0,
-        });
-        compliance * beyond.map(|b| b * b).sum::<f64>().sqrt()
-    }
-
-    fn advance(&mut self, step: f64, direction: &[Vector], response: &[Vector]) {
-        self.shear.iter_mut().zip(direction).for_each(|(q, d)| *q = add(*q, times(step, *d)));
-        self.response.iter_mut().zip(response).for_each(|(t, r)| *t = add(*t, times(step, *r)));
-    }
-
-    fn into_answer(self, shape: ndarray::Ix2, residual: f64) -> Answer {
-        let mut shear = [Field::zeros(shape), Field::zeros(shape)];
-        for (axis, field) in shear.iter_mut().enumerate() {
-            let field = field.as_slice_mut().expect("standard layout");
-            self.cells.iter().zip(&self.shear).for_each(|(cell, q)| field[*cell] = q[axis]);
-        }
-        Answer { shear, shift: self.shift, residual }
     }
 }
