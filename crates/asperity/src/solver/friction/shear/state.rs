@@ -34,7 +34,7 @@ impl Freedom {
         }
     }
 
-    pub(super) fn projector(&self) -> Symmetric {
+    fn projector(&self) -> Symmetric {
         match self {
             Self::Stick => Symmetric::identity(1.0),
             Self::Slip { rim, .. } => Symmetric::square(1.0, *rim),
@@ -52,11 +52,11 @@ impl Freedom {
 /// The cells in contact, by number.
 pub(super) struct State {
     pub(super) cells: Vec<usize>,
-    pub(super) bound: Vec<f64>,
-    pub(super) free_slip: Vec<Vector>,
+    bound: Vec<f64>,
+    free_slip: Vec<Vector>,
     /// Σ q under force control.
     pub(super) wanted: Option<Vector>,
-    pub(super) shift: Vector,
+    shift: Vector,
     pub(super) shear: Vec<Vector>,
     /// T q.
     pub(super) response: Vec<Vector>,
@@ -106,7 +106,7 @@ impl State {
     }
 
     /// q + s/c.
-    pub(super) fn predicted(&self, k: usize, compliance: f64) -> Vector {
+    fn predicted(&self, k: usize, compliance: f64) -> Vector {
         add(self.shear[k], times(1.0 / compliance, self.slip(k)))
     }
 
