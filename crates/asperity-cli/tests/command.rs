@@ -123,7 +123,7 @@ fn every_example_is_accepted_by_check_without_a_warning() {
     let folder = folder();
     let list = ok(&run(folder.path(), "example"));
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["quickstart", "hertz", "measured", "paper"]);
+    assert_eq!(names, ["quickstart", "hertz", "friction", "measured", "paper"]);
     for name in names {
         ok(&run(folder.path(), &format!("example {name}")));
         let output = run(folder.path(), &format!("check {name}/case.toml"));
