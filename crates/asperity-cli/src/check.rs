@@ -157,9 +157,9 @@ fn course(stages: &[Stage]) -> String {
     let increments = stages.iter().map(|stage| stage.increments).sum();
     let slides = |stage: &Stage| matches!(stage.loading.tangential, Tangential::Sliding(_));
     format!(
-        "{} of {}{}",
-        plural(stages.len(), "stage", "stages"),
+        "{} in {}{}",
         plural(increments, "increment", "increments"),
+        plural(stages.len(), "stage", "stages"),
         if stages.iter().any(slides) { ", sliding" } else { "" }
     )
 }

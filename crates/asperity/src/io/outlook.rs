@@ -144,8 +144,8 @@ fn memory(
     let transforms = 1.5 * padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded);
     let normal = 8.0 * nx * ny + transforms;
     // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
-    // iteration some fifty numbers for each cell.
-    let coupled = 1.5 * padded * nx * (padded * ny + 2.0) + 3.0 * nx * (padded * ny + 2.0) + 50.0 * nx * ny;
+    // iteration some thirty numbers for each cell.
+    let coupled = 1.5 * padded * nx * (padded * ny + 2.0) + 3.0 * nx * (padded * ny + 2.0) + 32.0 * nx * ny;
     let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
     let is_coupled = case
         .friction
@@ -251,7 +251,7 @@ fn frictional(friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>
     });
     if unloads && friction.bound(1.0).is_infinite() {
         warnings.push(
-            "an infinite coefficient has no answer in unloading: cells that bear any shear open; give a large one"
+            "under an infinite coefficient unloading may have no answer: cells that bear any shear open; give a large one"
                 .to_owned(),
         );
     }
