@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use asperity::io::case::{Boundary, Case, Method, Side};
+use asperity::io::case::{Boundary, Case, Course, Method, Side};
 use asperity::io::outlook::{Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
-use asperity::motion::{Control, PlasticUpdate, Strategy};
+use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
+use asperity::solver::{Coupling, Friction, Rolling, Tangential};
 use asperity::units::{self, Dimension};
 
 use crate::args::Check;
@@ -32,9 +33,10 @@ fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
         ("motion", motion(case, outlook)),
         ("memory", memory(outlook)),
     ];
+    let friction = case.friction.map(|spec| ("friction", friction(&spec.law, outlook)));
     let stress = outlook.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
-    for (name, value) in rows.into_iter().chain(stress) {
+    for (name, value) in rows.into_iter().chain(friction).chain(stress) {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page
@@ -116,8 +118,6 @@ fn motion(case: &Case, outlook: &Outlook) -> String {
         PlasticUpdate::Pass => "after each pass",
         PlasticUpdate::Step => "at each position",
     };
-    let plural =
-        |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
     let mut text = format!(
         "{strategy}, {} of {}, stride {}",
         plural(outlook.passes, "pass", "passes"),
@@ -128,6 +128,47 @@ fn motion(case: &Case, outlook: &Outlook) -> String {
         let _ = write!(text, ", plastic deformation {update}");
     }
     text
+}
+
+fn friction(friction: &Friction, outlook: &Outlook) -> String {
+    let mut text = format!("coefficient {}", friction.coefficient);
+    if friction.shear_strength.is_finite() {
+        let strength = units::format(friction.shear_strength, Dimension::Pressure);
+        let _ = write!(text, ", shear up to {strength}");
+    }
+    if friction.junction_growth > 0.0 {
+        let _ = write!(text, ", junction growth {}", friction.junction_growth);
+    }
+    let coupling = match friction.coupling {
+        Coupling::Full => "full",
+        Coupling::Goodman => "goodman",
+        Coupling::None => "none",
+    };
+    let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", outlook.dundurs);
+    let force = |[x, y]: [f64; 2]| {
+        format!("{}, {}", units::format(x, Dimension::Force), units::format(y, Dimension::Force))
+    };
+    text + &match &outlook.course {
+        None => "sliding at each position".to_owned(),
+        Some(Course::Rolling(Rolling::Creepage([x, y]))) => format!("rolling at the creepage {x}, {y}"),
+        Some(Course::Rolling(Rolling::Force(f))) => format!("rolling under the force {}", force(*f)),
+        Some(Course::Stages(stages)) => course(stages),
+    }
+}
+
+fn course(stages: &[Stage]) -> String {
+    let increments = stages.iter().map(|stage| stage.increments).sum();
+    let slides = |stage: &Stage| matches!(stage.loading.tangential, Tangential::Sliding(_));
+    format!(
+        "{} in {}{}",
+        plural(increments, "increment", "increments"),
+        plural(stages.len(), "stage", "stages"),
+        if stages.iter().any(slides) { ", sliding" } else { "" }
+    )
+}
+
+fn plural(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 fn memory(outlook: &Outlook) -> String {

@@ -77,6 +77,7 @@ pub(crate) fn exit_code(failure: &Failure) -> u8 {
 fn code(error: &Error) -> u8 {
     match error {
         Error::BeyondPlasticLimit { .. }
+        | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
         | Error::LoadNotReached { .. }
         | Error::PeriodicFullContact { .. } => 1,
@@ -143,6 +144,10 @@ fn hint(error: &Error) -> Option<String> {
         }
         Error::BeyondPlasticLimit { limit, .. } => Some(format!(
             "give a load below {}, a greater hardness or larger surfaces",
+            units::format(*limit, Dimension::Force)
+        )),
+        Error::BeyondFriction { limit, .. } => Some(format!(
+            "give a force below {}, a displacement, or `sliding = [1, 0]` for bodies that slide",
             units::format(*limit, Dimension::Force)
         )),
         Error::NotConverged { .. } => {

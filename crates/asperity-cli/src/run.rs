@@ -63,6 +63,7 @@ fn beside(file: &Path) -> PathBuf {
 struct Display {
     bar: ProgressBar,
     began: Instant,
+    passes: bool,
     stop: Arc<AtomicBool>,
 }
 
@@ -86,18 +87,18 @@ impl Display {
         );
         let style = ProgressStyle::with_template("{bar:32.cyan/dim} {msg}").expect("a valid template");
         bar.set_style(style);
-        Self { bar, began: Instant::now(), stop }
+        Self { bar, began: Instant::now(), passes, stop }
     }
 
     fn clear(&self) {
         self.bar.finish_and_clear();
     }
 
-    /// Time left, by the passes done so far; a first pass is taken to need four approaches.
+    /// Time left, by the passes done so far; a first pass is taken to need four approaches, a loading has one.
     fn time_left(&self, progress: &Progress) -> Duration {
         let done = (progress.pass - 1) as f64;
         let in_pass = progress.solved as f64 / progress.positions as f64;
-        let trials = 4.0f64.max(progress.trial as f64);
+        let trials = if self.passes { 4.0f64.max(progress.trial as f64) } else { 1.0 };
         let part = done + (progress.trial as f64 - 1.0 + in_pass) / trials;
         self.began.elapsed().mul_f64((progress.passes as f64 / part.max(1e-3) - 1.0).max(0.0))
     }
@@ -109,12 +110,12 @@ impl Watch for Display {
         self.bar.set_length((passes * positions) as u64);
         self.bar.set_position(((pass - 1) * positions + solved) as u64);
         let seconds = self.time_left(progress).as_secs();
-        self.bar.set_message(format!(
-            "pass {pass}/{passes}, approach {trial}, position {solved}/{positions}, load {}, {}:{:02} left",
-            format(load, Dimension::Force),
-            seconds / 60,
-            seconds % 60,
-        ));
+        let place = match self.passes {
+            true => format!("pass {pass}/{passes}, approach {trial}, position {solved}/{positions}"),
+            false => format!("increment {solved}/{positions}"),
+        };
+        let load = format(load, Dimension::Force);
+        self.bar.set_message(format!("{place}, load {load}, {}:{:02} left", seconds / 60, seconds % 60));
     }
 
     fn stop(&self) -> bool {

@@ -123,7 +123,7 @@ fn every_example_is_accepted_by_check_without_a_warning() {
     let folder = folder();
     let list = ok(&run(folder.path(), "example"));
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["quickstart", "hertz", "measured", "paper"]);
+    assert_eq!(names, ["quickstart", "hertz", "friction", "measured", "paper"]);
     for name in names {
         ok(&run(folder.path(), &format!("example {name}")));
         let output = run(folder.path(), &format!("check {name}/case.toml"));
@@ -163,6 +163,54 @@ fn check_warns_of_a_coarse_mesh_of_steep_and_of_soft_surfaces() {
     {
         assert!(stderr(&output).contains(part), "{part}: {}", stderr(&output));
     }
+}
+
+#[test]
+fn check_tells_what_friction_will_take_and_what_it_cannot_hold() {
+    let folder = folder();
+    ok(&run(folder.path(), "example friction --out f"));
+    let check = |from: &str, to: &str| {
+        change(folder.path(), "f/case.toml", from, to);
+        run(folder.path(), "check f/case.toml")
+    };
+    let said = |output: &Output, parts: &[&str]| {
+        let page = ok(output) + &stderr(output);
+        parts.iter().for_each(|part| assert!(page.contains(part), "{part}: {page}"));
+    };
+    let alike = check("steel ball pushed", "ball pushed");
+    said(&alike, &["friction coefficient 0.3, coupling full, Dundurs' β 0.000; 61 increments in 4 stages"]);
+    assert_eq!(stderr(&alike), "");
+
+    // A softer plane: the two shear against each other while they are pressed together.
+    let unlike =
+        check("young = \"210 GPa\"\npoisson = 0.3\n[lower", "young = \"70 GPa\"\npoisson = 0.3\n[lower");
+    said(
+        &unlike,
+        &["Dundurs' β 0.143", "warning: dissimilar bodies (Dundurs' β is 0.14)", "give `increments`"],
+    );
+    let gradual = check("coupling = \"full\"", "increments = 10\ncoupling = \"full\"");
+    said(&gradual, &["70 increments in 4 stages"]);
+    assert_eq!(stderr(&gradual), "");
+    let half = check("coupling = \"full\"", "shear_strength = \"0.4 GPa\"\ncoupling = \"goodman\"");
+    said(&half, &["shear up to 400 MPa, coupling goodman", "warning: the bodies are dissimilar", "is exact"]);
+
+    let beyond = check("force = [\"-0.18 N\", 0]", "force = [\"-0.18 N\", \"0.25 N\"]");
+    assert_eq!(beyond.status.code(), Some(1));
+    assert!(
+        stderr(&beyond).starts_with("error: tangential force 3.080584e-1 N is not below"),
+        "{}",
+        stderr(&beyond)
+    );
+    assert!(
+        stderr(&beyond).contains("hint: give a force below 300 mN, a displacement"),
+        "{}",
+        stderr(&beyond)
+    );
+    let stuck = check("coefficient = 0.3", "coefficient = inf");
+    said(&stuck, &["coefficient inf, shear up to"]);
+    check("shear_strength = \"0.4 GPa\"\n", "");
+    let unloaded = check("force = [\"-0.18 N\", \"0.25 N\"]", "load = \"0.5 N\"");
+    said(&unloaded, &["warning: under an infinite coefficient unloading may have no answer"]);
 }
 
 #[test]

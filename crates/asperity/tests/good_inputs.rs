@@ -2,8 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::case::{Boundary, Case, ControlKind, Method, Mount, Prescribed, Side, Source};
-use asperity::motion::{Control, PlasticUpdate, Strategy};
+use asperity::io::case::{
+    Boundary, Case, ControlKind, Course, InPlane, Method, Mount, Prescribed, Side, Source,
+};
+use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
+use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine,
 };
@@ -92,6 +95,47 @@ fn what_is_wanted_of_the_stress_is_read_in_si() {
     assert_eq!((wanted.planes, wanted.section, wanted.step), (vec![0.5e-6, 0.0], Some(10e-6), Some(8)));
     assert_eq!(wanted.columns, [[5e-6, 10e-6], [0.0, 20e-6]]);
     assert_eq!(load("smallest").subsurface, None);
+}
+
+#[test]
+fn what_a_stage_does_not_name_stays() {
+    let case = load("pushed");
+    let friction = case.friction.unwrap();
+    let coupling = Coupling::Goodman;
+    let law = Friction { coefficient: 0.3, shear_strength: 20e6, coupling, junction_growth: 9.0 };
+    assert_eq!((friction.law, friction.prescribed), (law, None));
+    let stage = |load, tangential, increments| Stage {
+        loading: Loading { normal: solver::Control::Load(load), tangential },
+        increments,
+    };
+    let expected = [
+        stage(2.0, Tangential::Force([0.0, 0.0]), 4),
+        stage(2.0, Tangential::Force([0.1, -20e-3]), 12),
+        stage(1.0, Tangential::Displacement([0.1e-6, 0.0]), 1),
+        stage(1.0, Tangential::Sliding([0.6, 0.8]), 1),
+    ];
+    let course = friction.course(case.contact.prescribed, &case.history, 1.0);
+    assert_eq!(course, Course::Stages(expected.to_vec()));
+}
+
+#[test]
+fn what_rolls_has_a_creepage_or_a_force() {
+    let rolling = |name| {
+        let case = load(name);
+        case.friction.unwrap().course(case.contact.prescribed, &case.history, 1.0)
+    };
+    assert_eq!(rolling("rolled"), Course::Rolling(Rolling::Creepage([1e-3, -5e-4])));
+    assert_eq!(rolling("driven"), Course::Rolling(Rolling::Force([0.2, 0.0])));
+}
+
+#[test]
+fn friction_without_more_is_coulombs_and_a_motion_has_it_too() {
+    let friction = |name| load(name).friction.unwrap().law;
+    assert_eq!(friction("stuck"), Friction::coulomb(f64::INFINITY).unwrap());
+    assert_eq!(load("stuck").friction.unwrap().prescribed, None::<InPlane>);
+    let rubbing = load("rubbing").motion(1.0).unwrap();
+    assert_eq!(rubbing.friction, Some(Friction::coulomb(0.12).unwrap()));
+    assert_eq!(load("forms").motion(1.0).unwrap().friction, None);
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! What a case will take, and what to be wary of, told before anything is solved.
 
-use super::case::{Body, Boundary, Case, Source};
+use super::case::{Body, Boundary, Case, Course, Source};
 use super::prepare::{Bodies, Prepared};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::subsurface::Plan;
-use crate::material::{composite_hardness, composite_modulus, plastic_share};
-use crate::motion::{Control, Position, Strategy, memory_together};
-use crate::solver;
+use crate::material::{Compliances, composite_hardness, plastic_share};
+use crate::motion::{Control, Position, Stage, Strategy, memory_together};
+use crate::solver::{self, Coupling, Friction, Rolling, Sliding, Tangential};
 use crate::surface::{Level, Topography};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
@@ -16,6 +16,10 @@ use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 pub struct Outlook {
     /// Composite modulus E* of the pair.
     pub modulus: Pascal,
+    /// Dundurs' β of the pair.
+    pub dundurs: f64,
+    /// How a static contact with friction is computed.
+    pub course: Option<Course>,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair.
     pub hardness: Pascal,
     /// The lower body's share of the plastic deformation, 0 to 1.
@@ -44,7 +48,8 @@ pub struct Outlook {
 /// What `case` will take on its `bodies`.
 ///
 /// # Errors
-/// [`crate::Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
+/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load, [`Error::BeyondFriction`] if no
+/// shear within the friction can carry the tangential force.
 pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
@@ -61,9 +66,18 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     let hardness = composite_hardness(lower, upper);
     let plastic_limit = control.plastic_limit(&overlaps, column, hardness);
     control.check_limit(plastic_limit)?;
+    let compliances = Compliances::new(lower, upper)?;
+    let friction = case.friction.filter(|_| case.motion.is_none());
+    let course =
+        friction.map(|friction| friction.course(case.contact.prescribed, &case.history, apparent_area));
+    if let (Some(friction), Some(course)) = (friction, &course) {
+        holds(&friction.law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
+    }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.parameters().sdq);
     let mut outlook = Outlook {
-        modulus: composite_modulus(lower, upper)?,
+        modulus: compliances.modulus(),
+        dundurs: compliances.dundurs(),
+        course,
         hardness,
         lower_share: plastic_share(lower, upper),
         control,
@@ -72,7 +86,7 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         apparent_area,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
-        memory: memory(case, bodies, &overlaps, hardness),
+        memory: memory(case, bodies, &overlaps, hardness, &compliances),
         subsurface: Plan::new(case, &lower_grid, &positions)?,
         warnings: Vec::new(),
     };
@@ -88,7 +102,39 @@ fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
     }
 }
 
-fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize], hardness: Pascal) -> [f64; 3] {
+/// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
+fn holds(
+    friction: &Friction,
+    course: &Course,
+    control: solver::Control,
+    apparent_area: SquareMetre,
+) -> Result<()> {
+    let ends = match course {
+        Course::Stages(stages) => {
+            stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
+        }
+        Course::Rolling(Rolling::Force(force)) => vec![(control, Tangential::Force(*force))],
+        Course::Rolling(Rolling::Creepage(_)) => Vec::new(),
+    };
+    for end in ends {
+        if let (solver::Control::Load(load), Tangential::Force([x, y])) = end {
+            let limit = (friction.coefficient * load).min(friction.shear_strength * apparent_area);
+            let force = x.hypot(y);
+            if force > 0.0 && force >= limit {
+                return Err(Error::BeyondFriction { force, limit });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn memory(
+    case: &Case,
+    bodies: &Bodies,
+    overlaps: &[usize],
+    hardness: Pascal,
+    compliances: &Compliances,
+) -> [f64; 3] {
     const NUMBER: f64 = 8.0;
     let [lower, upper] = [&bodies.lower, &bodies.upper].map(|body| body.topography.grid());
     let [nx, ny] = [lower.shape[0].min(upper.shape[0]), lower.shape[1]].map(|n| n as f64);
@@ -96,18 +142,28 @@ fn memory(case: &Case, bodies: &Bodies, overlaps: &[usize], hardness: Pascal) ->
     // and in single precision.
     let padded = if case.contact.boundary == Boundary::Free { 2.0 } else { 1.0 };
     let transforms = 1.5 * padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded);
-    let solver = NUMBER * (8.0 * nx * ny + transforms);
+    let normal = 8.0 * nx * ny + transforms;
+    // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
+    // iteration some thirty numbers for each cell.
+    let coupled = 1.5 * padded * nx * (padded * ny + 2.0) + 3.0 * nx * (padded * ny + 2.0) + 32.0 * nx * ny;
+    let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
+    let is_coupled = case
+        .friction
+        .is_some_and(|friction| case.motion.is_none() || sliding(friction.law).lifts(compliances));
+    let solver = NUMBER * if is_coupled { normal + coupled } else { normal };
     let motion = case.motion(nx * ny * lower.cell_area());
     let together = motion
         .and_then(|motion| memory_together(&motion, case.contact.method, hardness, overlaps, lower.shape[1]));
     let together = together.unwrap_or(0.0);
     let cells = (lower.cells() + upper.cells()) as f64;
-    let results = case.motion.map_or(6.0 * nx * ny, |motion| {
+    let statics = if case.friction.is_some() { 13.0 } else { 6.0 };
+    let results = case.motion.map_or(statics * nx * ny, |motion| {
         let passes = motion.passes as f64;
         let kept = match case.output.pressure_every {
             0 => 0.0,
             every => overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
         };
+        let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
         (passes + 1.0) * cells + passes * (cells + kept)
     });
     [solver, together, NUMBER * results]
@@ -156,7 +212,49 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
             units::format(outlook.plastic_limit, Dimension::Force)
         ));
     }
+    if let Some(friction) = &case.friction {
+        frictional(&friction.law, outlook, &mut warnings);
+    }
     warnings
+}
+
+/// Friction whose answer is not the one that is looked for.
+fn frictional(friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>) {
+    /// Shear under pressure alone is some β p: below this it is not seen.
+    const ALIKE: f64 = 0.01;
+    /// From here on the coupling changes pressures and stick by more than some per cent.
+    const UNLIKE: f64 = 0.1;
+    let beta = outlook.dundurs;
+    if friction.coupling != Coupling::Full && beta.abs() > UNLIKE {
+        warnings.push(format!(
+            "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
+        ));
+    }
+    let Some(Course::Stages(stages)) = &outlook.course else { return };
+    let first = &stages[0];
+    let slips = !matches!(first.loading.tangential, Tangential::Sliding(_)) && friction.coefficient > 0.0;
+    if first.increments == 1
+        && slips
+        && friction.coupling != Coupling::None
+        && beta.abs() > ALIKE
+        && outlook.gap_slope > 0.0
+    {
+        warnings.push(format!(
+            "dissimilar bodies (Dundurs' β is {beta:.2}) shear while their contact grows: loaded in one step they \
+             stick where they first touch; give `increments` in [friction]"
+        ));
+    }
+    let unloads = stages.windows(2).any(|pair| match (pair[0].loading.normal, pair[1].loading.normal) {
+        (solver::Control::Load(before), solver::Control::Load(after))
+        | (solver::Control::Approach(before), solver::Control::Approach(after)) => after < before,
+        _ => false,
+    });
+    if unloads && friction.bound(1.0).is_infinite() {
+        warnings.push(
+            "under an infinite coefficient unloading may have no answer: cells that bear any shear open; give a large one"
+                .to_owned(),
+        );
+    }
 }
 
 /// A mesh on which the waves that make the slope have too few cells.

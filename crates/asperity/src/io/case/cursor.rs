@@ -185,8 +185,16 @@ impl<'a> Entry<'a> {
 
     /// A number without a unit.
     pub(super) fn number(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
-        let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?;
-        if value.is_finite() && good(value) { Ok(value) } else { Err(self.unexpected(expected, None)) }
+        self.number_or_infinite(|value| value.is_finite() && good(value), expected)
+    }
+
+    /// A number without a unit, or infinity.
+    pub(super) fn number_or_infinite(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
+        let value = match self.value.as_str() {
+            Some("inf") => f64::INFINITY,
+            _ => self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?,
+        };
+        if good(value) { Ok(value) } else { Err(self.unexpected(expected, None)) }
     }
 
     /// A quantity, SI: a number or a string with a unit. Infinities are left to the caller.

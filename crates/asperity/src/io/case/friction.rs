@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
-use super::parse::{choice_or, known_in, prescribed};
+use super::parse::{belongs, choice_or, known_in, prescribed};
 use super::{Number, Prescribed};
 use crate::error::Result;
 use crate::motion::Stage;
@@ -19,7 +19,8 @@ pub struct FrictionSpec {
     /// What is prescribed in the plane of a static contact; no force where there is nothing.
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
-    /// Equal steps in which a static contact is loaded, ≥ 1.
+    /// Equal steps in which a static contact is loaded, ≥ 1; of a rolling contact and of a motion 1.
+    #[serde(skip_serializing_if = "is_one")]
     pub increments: usize,
 }
 
@@ -106,9 +107,10 @@ const STAGE: [&str; 7] =
 
 pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<FrictionSpec> {
     known_in(table)?;
-    let coefficient = table
-        .required("coefficient", "0.3")?
-        .number(|value| value >= 0.0, "a number of at least 0 such as 0.3, or inf where nothing slips")?;
+    let coefficient = table.required("coefficient", "0.3")?.number_or_infinite(
+        |value| value >= 0.0,
+        "a number of at least 0 such as 0.3, or inf: nothing slips",
+    )?;
     let couplings = [("full", Coupling::Full), ("goodman", Coupling::Goodman), ("none", Coupling::None)];
     let shear_strength = match table.get("shear_strength") {
         Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
@@ -128,31 +130,54 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         let hint = "in a [motion] the upper body slides over the lower one".to_owned();
         return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
     }
-    Ok(FrictionSpec {
-        law: Friction {
-            coefficient,
-            shear_strength,
-            coupling: choice_or(table, "coupling", &couplings, Coupling::Full)?,
-            junction_growth,
-        },
-        prescribed: in_plane(table, &IN_PLANE)?,
-        increments: increments(table)?,
-    })
+    let coupling = choice_or(table, "coupling", &couplings, Coupling::Full)?;
+    let law = Friction { coefficient, shear_strength, coupling, junction_growth };
+    if moves {
+        slides(&law, &table.required("coefficient", "0.3")?)?;
+    }
+    let prescribed = in_plane(table, &IN_PLANE, &law)?;
+    if rolls(prescribed)
+        && let Some(entry) = table.get("increments")
+    {
+        let message = "'increments' has no meaning in rolling".to_owned();
+        return Err(entry.error(message, Some(STEADY.to_owned())));
+    }
+    Ok(FrictionSpec { law, prescribed, increments: increments(table)? })
+}
+
+/// An error at `entry`, which makes the bodies slide, if they cannot.
+fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
+    if law.bound(1.0).is_finite() {
+        return Ok(());
+    }
+    let hint = "give a finite 'coefficient', or the 'shear_strength' of a film".to_owned();
+    Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
+}
+
+fn rolls(prescribed: Option<InPlane>) -> bool {
+    matches!(prescribed, Some(InPlane::Creepage(_) | InPlane::RollingForce(_)))
 }
 
 pub(super) fn history(tables: &[Table<'_>], friction: &FrictionSpec) -> Result<Vec<StageSpec>> {
-    let rolls = matches!(friction.prescribed, Some(InPlane::Creepage(_) | InPlane::RollingForce(_)));
     tables
         .iter()
         .map(|table| {
-            if rolls {
-                let hint = "its steady state does not depend on how it was reached".to_owned();
-                return Err(table.error("a rolling contact has no [[history]]".to_owned(), Some(hint)));
+            if rolls(friction.prescribed) {
+                let message = "a rolling contact has no [[history]]".to_owned();
+                return Err(table.error(message, Some(STEADY.to_owned())));
             }
-            table.known(&STAGE, |_| None)?;
+            table.known(&STAGE, |key| belongs(key, table.path()))?;
             let given = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
+            if !given(&STAGE[..6]) {
+                let hint = "give 'load', 'force' or another; what a stage does not name stays".to_owned();
+                return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
+            }
             let normal = given(&STAGE[..3]).then(|| prescribed(table)).transpose()?;
-            Ok(StageSpec { normal, in_plane: in_plane(table, &STAGE[3..6])?, increments: increments(table)? })
+            Ok(StageSpec {
+                normal,
+                in_plane: in_plane(table, &STAGE[3..6], &friction.law)?,
+                increments: increments(table)?,
+            })
         })
         .collect()
 }
@@ -161,7 +186,7 @@ fn increments(table: &Table<'_>) -> Result<usize> {
     table.get("increments").map_or(Ok(1), |entry| entry.count(1))
 }
 
-fn in_plane(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<InPlane>> {
+fn in_plane(table: &Table<'_>, keys: &[&'static str], law: &Friction) -> Result<Option<InPlane>> {
     if keys.iter().all(|key| table.get(key).is_none()) {
         return Ok(None);
     }
@@ -179,6 +204,7 @@ fn in_plane(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<InPlane>>
         }
         "creepage" => InPlane::Creepage(number("a number along x, or two along x and y")?),
         _ => {
+            slides(law, &entry)?;
             let [x, y] = number("a direction such as [1, 0]")?;
             let length = x.hypot(y);
             if length == 0.0 {
@@ -189,6 +215,9 @@ fn in_plane(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<InPlane>>
     }))
 }
 
+/// Why a rolling contact has neither stages nor increments.
+const STEADY: &str = "its steady state does not depend on how it was reached";
+
 /// A component along x, or an array of two along x and y.
 fn vector<'a>(
     entry: &Entry<'a>,
@@ -196,6 +225,10 @@ fn vector<'a>(
     read: impl Fn(&Entry<'a>) -> Result<f64>,
 ) -> Result<[f64; 2]> {
     if entry.is_array() { entry.array(expected, read) } else { read(entry).map(|x| [x, 0.0]) }
+}
+
+fn is_one(count: &usize) -> bool {
+    *count == 1
 }
 
 fn with_infinities<S: Serializer>(law: &Friction, serializer: S) -> std::result::Result<S::Ok, S::Error> {

@@ -127,12 +127,16 @@ fn history(
 ) -> Result<Vec<StageSpec>> {
     let Some(entry) = entry else { return Ok(Vec::new()) };
     let tables = entry.tables()?;
+    let refused = |message: &str, hint: &str| {
+        let table = tables.first().map(|table| table.error(message.to_owned(), Some(hint.to_owned())));
+        Err(table.unwrap_or_else(|| entry.error(message.to_owned(), Some(hint.to_owned()))))
+    };
     match friction {
-        Some(friction) if !moves => super::friction::history(&tables, friction),
-        Some(_) => Err(entry.error("a [motion] has no [[history]]".to_owned(), None)),
+        _ if moves => refused("a [motion] has no [[history]]", "a history is that of a static contact"),
+        Some(friction) => super::friction::history(&tables, friction),
         None => {
-            let hint = "without friction a contact does not depend on its history".to_owned();
-            Err(entry.error("[[history]] needs [friction]".to_owned(), Some(hint)))
+            let hint = "without friction a contact does not depend on its history";
+            refused("[[history]] needs [friction]", hint)
         }
     }
 }
@@ -437,7 +441,7 @@ pub(super) fn known_in(table: &Table<'_>) -> Result<()> {
 }
 
 /// A key that is known in another table.
-fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
+pub(super) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
     let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
     let topography = || {
         let known = PREPARATION.contains(&key) || SOURCES.iter().any(|(_, keys)| keys.contains(&key));
