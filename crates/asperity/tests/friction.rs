@@ -386,3 +386,28 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
         }
     }
 }
+
+/// A smooth contact on a fine grid, all the way to its edges.
+#[test]
+fn a_large_contact_takes_no_more_steps_than_a_small_one() {
+    let mut cost = Vec::new();
+    for n in [64, 192] {
+        let pitch = 1.0 / n as f64;
+        let grid = Grid::new([n, n], [pitch; 2]).unwrap();
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+            let [x, y] = [grid.centre(0, i) - 0.5, grid.centre(1, j) - 0.5];
+            0.5 * (x * x + y * y)
+        });
+        let pair = dissimilar();
+        let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+        let loading =
+            Loading { normal: Control::Load(0.6 * pair.modulus()), tangential: Tangential::Force([0.0; 2]) };
+        let (friction, params) = (Friction::coulomb(0.3).unwrap(), Params::default());
+        let solution =
+            solve_frictional(operator.as_mut(), &gap, f64::INFINITY, &friction, loading, None, &params)
+                .unwrap();
+        assert!(solution.normal.contact_cells() > 9 * n * n / 10);
+        cost.push(solution.normal.stats.convolutions);
+    }
+    assert!(cost.iter().all(|convolutions| *convolutions < 180.0), "{cost:?}");
+}

@@ -14,6 +14,9 @@ use crate::units::{Metre, SquareMetre};
 
 use state::{Freedom, State};
 
+/// How much softer than a cell alone the contact is taken to be when it is divided: what slips far moves its neighbours
+/// too. With 1 nearly all of a smooth contact on a fine grid is at first taken to slip, and the division swings.
+const CAUTION: f64 = 8.0;
 /// Conjugate gradient steps on one division into stick and slip, at the most.
 const MOST_INNER: usize = 60;
 /// They are left when the equations are below so many times the violation of the bounds.
@@ -106,7 +109,7 @@ impl ShearSolver {
         self.loaded.iter_mut().for_each(|field| field.fill(0.0));
         state.response = self.respond(operator, &state.cells, &state.shear);
         let (mut best, mut strikes, mut caution, mut sharpen): (f64, usize, f64, f64) =
-            (f64::INFINITY, 0, 1.0, 1.0);
+            (f64::INFINITY, 0, CAUTION, 1.0);
         loop {
             state.find_shift(self.compliance);
             let mut residual = state.residual(self.compliance) / task.scale;
@@ -126,13 +129,13 @@ impl ShearSolver {
                 return Err(Error::NotConverged { iterations, residual, tolerance });
             }
             if residual < 0.7 * best {
-                (best, strikes, caution) = (residual, 0, (0.5 * caution).max(1.0));
+                (best, strikes, caution) = (residual, 0, (0.5 * caution).max(CAUTION));
             } else {
                 (strikes, caution) = (strikes + 1, 2.0 * caution);
             }
             if strikes > 4 {
                 self.descend(operator, &mut state);
-                (best, strikes, caution) = (2.0 * best, 0, 1.0);
+                (best, strikes, caution) = (2.0 * best, 0, CAUTION);
                 self.stats.restarts += 1;
                 continue;
             }
