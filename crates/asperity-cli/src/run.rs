@@ -155,15 +155,15 @@ fn static_table(record: &StaticRecord) -> String {
         ("convolutions", format!("{:.1}", record.convolutions)),
     ];
     if let Some(shear) = &record.shear {
-        let both = |[x, y]: [f64; 2], dimension| {
+        let both = |[x, y]: [f64; 2], scale: f64, dimension| {
             // What rounding leaves of a component that is not there is not worth reading.
-            let shown = |value: f64| if value.abs() < 1e-8 * x.hypot(y) { 0.0 } else { value };
+            let shown = |value: f64| if value.abs() < 1e-8 * scale.max(x.hypot(y)) { 0.0 } else { value };
             format!("{}, {}", format(shown(x), dimension), format(shown(y), dimension))
         };
         let stick = 100.0 * shear.stick_area / record.contact_area;
         rows.extend([
-            ("tangential force", both(shear.tangential_force, Dimension::Force)),
-            ("displacement", both(shear.tangential_displacement, Dimension::Length)),
+            ("tangential force", both(shear.tangential_force, record.load, Dimension::Force)),
+            ("displacement", both(shear.tangential_displacement, 0.0, Dimension::Length)),
             ("friction coeff.", format!("{:.6}", shear.friction_coefficient)),
             ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
             ("largest shear", format(shear.max_shear, Dimension::Pressure)),
