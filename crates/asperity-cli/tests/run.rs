@@ -283,7 +283,7 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     let summary = summary(&out);
     assert_eq!(
         keys(&summary["case"]["friction"]),
-        set(["coefficient", "coupling", "increments", "shear_strength"])
+        set(["coefficient", "coupling", "increments", "junction_growth", "shear_strength"])
     );
     let record = &summary["static"];
     let rows = table_of(&out.join("increments.csv"), &INCREMENT_COLUMNS);
