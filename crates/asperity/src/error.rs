@@ -207,8 +207,8 @@ impl Error {
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
             Self::NotATopography { .. } => Some(
-                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, npy and text matrices (also \
-                     gzipped) are read; export as one of these"
+                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, bcr, npy, text and tables \
+                     (also gzipped) are read; export as one of these"
                     .into(),
             ),
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(

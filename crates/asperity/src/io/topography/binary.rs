@@ -214,7 +214,7 @@ pub(super) fn unit_of_length(unit: &str) -> Result<crate::units::Metre, Defect> 
         "Å" | "A" => Ok(1e-10),
         "in" => Ok(25.4e-3),
         _ => {
-            let found = unit.chars().take(40).collect();
+            let found = super::header::excerpt(unit);
             Err(Defect::Value { what: "a unit", found, expected: "one of length" })
         }
     }

@@ -4,10 +4,13 @@
 //! the data that are there before it makes room for them, and decompresses no more than the header calls for.
 
 mod binary;
+mod header;
 
 pub mod al3d;
+pub mod bcr;
 pub mod frt;
 pub mod gwy;
+pub mod headed;
 pub mod metropro;
 pub mod npy;
 pub mod opd;
@@ -32,7 +35,8 @@ use crate::units::Metre;
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
-    /// The name of its module here, such as `x3p`; of text `text` (a matrix) or `xyz` (a table of x, y, height).
+    /// The name of its module here, such as `x3p`; of text `text` (a matrix), `xyz` (a table of x, y, height) or the
+    /// program that wrote its header.
     pub format: &'static str,
     /// The channel read.
     pub channel: String,
@@ -93,12 +97,13 @@ fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[&[u8]], Decode); 10] = [
+    const READ: [(&[&[u8]], Decode); 11] = [
         (&[b"PK\x03\x04"], x3p::decode),
         (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
         (&[b"\x93NUMPY"], npy::decode),
         (&sdf::MAGICS, sdf::decode),
         (&[gwy::MAGIC], gwy::decode),
+        (&bcr::MAGICS, bcr::decode),
         (&[opd::MAGIC], opd::decode),
         (&metropro::MAGICS, metropro::decode),
         (&[al3d::MAGIC], al3d::decode),
@@ -135,7 +140,7 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if bytes.iter().take(1 << 16).any(binary) {
         return Err(Fault::NotATopography("it is binary, of no known format"));
     }
-    text::decode(bytes, channel)
+    headed::decode(bytes, channel).unwrap_or_else(|| text::decode(bytes, channel))
 }
 
 type Decoded = std::result::Result<Scan, Fault>;

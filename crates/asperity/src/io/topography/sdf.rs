@@ -18,6 +18,7 @@
 use std::path::Path;
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
+use super::header::{Header, excerpt};
 use super::{Decoded, Fault, Scan, only_channel, usable_pitch, x_fastest};
 use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
@@ -103,28 +104,14 @@ fn in_binary(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
 
 fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
     let mut parts = bytes.split(|byte| *byte == b'*');
-    let header = String::from_utf8_lossy(parts.next().unwrap_or_default());
-    let record = |name: &'static str| {
-        let mut lines = header.lines().filter_map(|line| line.split_once('='));
-        let (_, value) = lines.find(|(key, _)| key.trim().eq_ignore_ascii_case(name))?;
-        Some(value.split(';').next().unwrap_or_default().trim())
-    };
-    let decimal = |name| {
-        let found = record(name).ok_or(Defect::Missing(name))?;
-        let unusable = || Defect::Value { what: name, found: found.to_owned(), expected: "a number" };
-        found.parse::<f64>().map_err(|_| unusable())
-    };
-    let size = |name| {
-        let found = record(name).ok_or(Defect::Missing(name))?;
-        let unusable = || Defect::Value { what: name, found: found.to_owned(), expected: "at least 1" };
-        found.parse::<u32>().map_err(|_| unusable())
-    };
-    let shape = shape([size("NumPoints")?, size("NumProfiles")?])?;
-    let dz = decimal("Zscale")?;
-    vet(record("Compression").unwrap_or("0"), record("DataType").unwrap_or("7"), dz)?;
+    let text = String::from_utf8_lossy(parts.next().unwrap_or_default());
+    let header = Header::of(&text, '=');
+    let shape = shape([header.size("NumPoints")?, header.size("NumProfiles")?])?;
+    let dz = header.number("Zscale")?;
+    vet(header.get("Compression").unwrap_or("0"), header.get("DataType").unwrap_or("7"), dz)?;
 
     let data = parts.next().ok_or(Defect::Missing("asterisk that ends the header"))?;
-    let first_line = 1 + header.matches('\n').count();
+    let first_line = 1 + text.matches('\n').count();
     let mut heights = Vec::new();
     for (index, line) in data.split(|byte| *byte == b'\n').enumerate() {
         for token in line.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()) {
@@ -134,7 +121,7 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
             });
             let unreadable = || Defect::NotANumber {
                 line: first_line + index,
-                token: String::from_utf8_lossy(token).chars().take(40).collect(),
+                token: excerpt(&String::from_utf8_lossy(token)),
             };
             heights.push(number.ok_or_else(unreadable)? * dz);
         }
@@ -145,7 +132,7 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
         return Err(Defect::Value { what: "the number of heights", found, expected });
     }
     let height = |cell: usize| if heights[cell].is_finite() { heights[cell] } else { f64::NAN };
-    Ok(([decimal("Xscale")?, decimal("Yscale")?], x_fastest(shape, height)))
+    Ok(([header.number("Xscale")?, header.number("Yscale")?], x_fastest(shape, height)))
 }
 
 /// The kind of number, if heights can be read with these entries of the header.

@@ -8,6 +8,7 @@ use super::*;
 use crate::grid::Grid;
 
 mod gwy;
+mod headed;
 mod instruments;
 mod sdf;
 
@@ -87,18 +88,11 @@ fn a_table_of_points_is_read_as_others_read_it() {
 
 #[test]
 fn what_is_not_read_is_named() {
-    for (name, message) in [
-        ("opdx-3.opdx", "is not a topography: it is a Wyko OPDx file"),
-        ("matrix-4.txt.gz", ": text: line 1: `h=305` is not a height"),
-    ] {
-        let Some(path) = measured(name) else { continue };
-        let error = read(&path, None).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            [path.to_str().unwrap(), message].join(if message.starts_with(':') { "" } else { " " })
-        );
-        assert!(error.hint().is_some());
-    }
+    let Some(path) = measured("opdx-3.opdx") else { return };
+    let error = read(&path, None).unwrap_err();
+    let message = format!("{} is not a topography: it is a Wyko OPDx file", path.display());
+    assert_eq!(error.to_string(), message);
+    assert!(error.hint().is_some());
 }
 
 #[test]
@@ -567,6 +561,7 @@ fn samples() -> Vec<Vec<u8>> {
     samples.extend(sdf::samples());
     samples.extend(instruments::samples());
     samples.push(gwy::sample());
+    samples.extend(headed::samples());
     samples
 }
 
