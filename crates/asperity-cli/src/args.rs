@@ -273,7 +273,7 @@ pub(crate) struct Target {
 
 #[derive(Debug, Args)]
 pub(crate) struct Out {
-    /// File to write; its name ends in .npy, .x3p, .vtk or .png
+    /// File to write; its name ends in .npy, .x3p, .sdf, .gwy, .vtk or .png
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: PathBuf,
     /// Replace the file if it exists
@@ -283,8 +283,8 @@ pub(crate) struct Out {
 
 /// Print what a topography file holds, and its roughness
 ///
-/// Reads x3p, npy, sur and text matrices, also gzipped; the content tells the format. Roughness is that of the heights
-/// as they are: --level plane removes a tilt first.
+/// Reads x3p, sdf, gwy, npy, text and the files of many instruments; the content tells the format. Roughness is that
+/// of the heights as they are: --level plane removes a tilt first.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
@@ -310,7 +310,7 @@ pub(crate) struct Reading {
     pub(crate) pitch: Option<Pair>,
 }
 
-/// Read any topography, prepare it, and write it as npy, x3p, vtk or png
+/// Read any topography, prepare it, and write it as npy, x3p, sdf, gwy, vtk or png
 ///
 /// The steps act in this order: --window, --fill, --level, --resample. Missing heights stay missing without --fill.
 #[derive(Debug, Args)]
@@ -322,7 +322,7 @@ pub(crate) struct Convert {
     /// Topography to read
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
-    /// File to write; its name ends in .npy, .x3p, .vtk or .png
+    /// File to write; its name ends in .npy, .x3p, .sdf, .gwy, .vtk or .png
     #[arg(value_name = "OUT")]
     pub(crate) output: PathBuf,
     #[command(flatten)]

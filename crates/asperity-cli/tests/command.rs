@@ -53,7 +53,9 @@ fn a_surface_survives_every_format_that_holds_it() {
     let make = "surface generate low-pass --shape 64x48 --pitch 0.5um,1um --sq 0.2um --cutoff 8um --seed 7";
     assert!(ok(&at(&format!("{make} --out z.npy"))).is_empty());
     ok(&at("surface convert z.npy z.x3p --pitch 0.5um,1um"));
-    ok(&at("surface convert z.x3p again.npy"));
+    ok(&at("surface convert z.x3p z.sdf"));
+    ok(&at("surface convert z.sdf z.gwy"));
+    ok(&at("surface convert z.gwy again.npy"));
     let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert_eq!(bytes("z.npy"), bytes("again.npy"));
     ok(&at("surface convert z.x3p z.vtk"));
@@ -106,7 +108,7 @@ fn an_existing_file_is_replaced_only_on_request() {
     assert!(error.contains("`z.npy` exists") && error.contains("hint: --overwrite"), "{error}");
     ok(&run(folder.path(), &format!("{make} --overwrite")));
     let error = refused(&run(folder.path(), "surface convert z.npy z.jpg"));
-    assert!(error.contains(".npy, .x3p, .vtk or .png"), "{error}");
+    assert!(error.contains(".npy, .x3p, .sdf, .gwy, .vtk or .png"), "{error}");
 }
 
 #[test]

@@ -206,9 +206,11 @@ impl Error {
                 Some(format!("it holds {}; choose one with --channel", quoted(available)))
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
-            Self::NotATopography { .. } => {
-                Some("x3p, npy, sur and text matrices (also gzipped) are read; export as one of these".into())
-            }
+            Self::NotATopography { .. } => Some(
+                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, bcr, npy, text and tables \
+                     (also gzipped) are read; export as one of these"
+                    .into(),
+            ),
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
                 "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
             ),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::topography::{npy, vtk, x3p};
+use asperity::io::topography::{gwy, npy, sdf, vtk, x3p};
 use asperity::surface::Topography;
 use asperity::units::Metre;
 
@@ -19,6 +19,8 @@ pub(super) struct Output {
 enum Format {
     Npy,
     X3p,
+    Sdf,
+    Gwy,
     Vtk,
     Png,
 }
@@ -30,10 +32,12 @@ impl Output {
         let format = match extension.as_deref() {
             Some("npy") => Format::Npy,
             Some("x3p") => Format::X3p,
+            Some("sdf") => Format::Sdf,
+            Some("gwy") => Format::Gwy,
             Some("vtk") => Format::Vtk,
             Some("png") => Format::Png,
             _ => {
-                let hint = "the end of its name tells the format: .npy, .x3p, .vtk or .png";
+                let hint = "the end of its name tells the format: .npy, .x3p, .sdf, .gwy, .vtk or .png";
                 return Err(Failure::usage(
                     format!("no format to write `{}` in", path.display()),
                     Some(hint),
@@ -57,6 +61,8 @@ impl Output {
         match self.format {
             Format::Npy => npy::write(&self.path, heights)?,
             Format::X3p => x3p::write(&self.path, grid, heights)?,
+            Format::Sdf => sdf::write(&self.path, grid, heights)?,
+            Format::Gwy => gwy::write(&self.path, grid, heights)?,
             Format::Vtk => vtk::write(&self.path, grid, &[("height", heights)])?,
             Format::Png => draw::map(
                 &self.path,

@@ -3,14 +3,30 @@
 //! A reader answers any content with a [`Scan`] or an error: it compares the sizes that a header announces with
 //! the data that are there before it makes room for them, and decompresses no more than the header calls for.
 
+mod binary;
+mod header;
+
+pub mod al3d;
+pub mod bcr;
+pub mod frt;
+pub mod gwy;
+pub mod headed;
+pub mod metropro;
 pub mod npy;
+pub mod opd;
+pub mod plu;
+pub mod sdf;
 pub mod sur;
 pub mod text;
+pub mod tmd;
 pub mod vtk;
 pub mod x3p;
 
+use std::collections::HashSet;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
+
+use ndarray::Axis;
 
 use crate::error::{Defect, Error, Result};
 use crate::grid::Field;
@@ -19,7 +35,8 @@ use crate::units::Metre;
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
-    /// `x3p`, `npy`, `sur`, `text` (a matrix) or `xyz` (a table of x, y, height).
+    /// The name of its module here, such as `x3p`; of text `text` (a matrix), `xyz` (a table of x, y, height) or the
+    /// program that wrote its header.
     pub format: &'static str,
     /// The channel read.
     pub channel: String,
@@ -33,8 +50,7 @@ pub struct Scan {
 
 /// Reads the heights of the topography file at `path`.
 ///
-/// The content tells the format, never the name: x3p (ISO 25178-72, ISO 5436-2), Digital Surf `.sur`, NumPy
-/// `.npy`, text matrices and tables (see [`text`] for what they may look like). Any of them may be gzipped.
+/// The content tells the format, never the name: a module here for each. Any of them may be gzipped.
 /// Without `channel` the first one is read; files of one unnamed channel call it `height`.
 ///
 /// # Errors
@@ -81,44 +97,50 @@ fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[u8], Decode); 4] = [
-        (b"PK\x03\x04", x3p::decode),
-        (b"DIGITAL SURF", sur::decode),
-        (b"DSCOMPRESSED", sur::decode),
-        (b"\x93NUMPY", npy::decode),
+    const READ: [(&[&[u8]], Decode); 11] = [
+        (&[b"PK\x03\x04"], x3p::decode),
+        (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
+        (&[b"\x93NUMPY"], npy::decode),
+        (&sdf::MAGICS, sdf::decode),
+        (&[gwy::MAGIC], gwy::decode),
+        (&bcr::MAGICS, bcr::decode),
+        (&[opd::MAGIC], opd::decode),
+        (&metropro::MAGICS, metropro::decode),
+        (&[al3d::MAGIC], al3d::decode),
+        (&[frt::MAGIC], frt::decode),
+        (&[tmd::MAGIC], tmd::decode),
     ];
-    const NOT_READ: [(&[u8], &str); 16] = [
-        (b"AliconaImaging", "it is an Alicona AL3D file"),
-        (b"FRTM_GLIDER", "it is an FRT MicroProf file"),
-        (b"\x88\x1b\x03", "it is a Zygo MetroPro file"),
-        (b"\x01\0Directory", "it is a Wyko OPD file"),
+    const NOT_READ: [(&[u8], &str); 11] = [
         (b"VCA DATA", "it is a Wyko OPDx file"),
-        (b"Binary TrueMap Data File", "it is a TrueMap file"),
-        (b"aISO-1.0", "it is a surface data file (SDF, ISO 25178-71)"),
-        (b"bISO-1.0", "it is a surface data file (SDF, ISO 25178-71)"),
+        (b"FRTM_GLIDER", "it is an FRT file of another version than 1.00"),
+        (b"Binary TrueMap Data File", "it is a TrueMap file of another version than 2.0"),
         (b"\x89HDF\r\n\x1a\n", "it is an HDF5 file"),
         (b"\x89PNG", "it is a picture (PNG)"),
         (b"\xff\xd8\xff", "it is a picture (JPEG)"),
         (b"BM", "it is a picture (BMP)"),
         (b"II*\0", "it is a picture (TIFF)"),
-        (b"GWYP", "it is a Gwyddion file"),
+        (b"GWYO", "it is a file of Gwyddion 1"),
         (b"\xff\xfe", "it is UTF-16 text, expected UTF-8"),
         (b"PK\x05\x06", "it is an empty zip archive"),
     ];
     if bytes.is_empty() {
         return Err(Fault::NotATopography("it is empty"));
     }
-    if let Some((_, decode)) = READ.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+    let starts_with = |magics: &[&[u8]]| magics.iter().any(|magic| bytes.starts_with(magic));
+    if let Some((_, decode)) = READ.iter().find(|(magics, _)| starts_with(magics)) {
         return decode(bytes, channel);
     }
     if let Some((_, reason)) = NOT_READ.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Err(Fault::NotATopography(reason));
     }
+    if plu::is_one(bytes) {
+        return plu::decode(bytes, channel);
+    }
     let binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
     if bytes.iter().take(1 << 16).any(binary) {
         return Err(Fault::NotATopography("it is binary, of no known format"));
     }
-    text::decode(bytes, channel)
+    headed::decode(bytes, channel).unwrap_or_else(|| text::decode(bytes, channel))
 }
 
 type Decoded = std::result::Result<Scan, Fault>;
@@ -159,6 +181,17 @@ fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<us
     }
 }
 
+/// The names, of which those that stood before get their place as a number.
+fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = HashSet::new();
+    let number = |(index, name): (usize, String)| {
+        let name = if seen.contains(&name) { format!("{name} {}", index + 1) } else { name };
+        seen.insert(name.clone());
+        name
+    };
+    names.enumerate().map(number).collect()
+}
+
 /// The name of the only channel of a file that does not name it.
 const ONLY_CHANNEL: &str = "height";
 
@@ -184,10 +217,14 @@ fn usable_pitch(pitch: [Metre; 2]) -> Option<[Metre; 2]> {
 
 /// Heights stored with x fastest, as almost every instrument does.
 fn x_fastest(shape: [usize; 2], height: impl Fn(usize) -> f64) -> Field {
+    // A strip of y at a time, so that the lines of memory that are written are full before they are left.
+    const STRIP: usize = 32;
     let mut heights = Field::zeros(shape);
-    for (iy, mut row) in heights.columns_mut().into_iter().enumerate() {
-        for (ix, cell) in row.iter_mut().enumerate() {
-            *cell = height(ix + shape[0] * iy);
+    for (strip, mut cells) in heights.axis_chunks_iter_mut(Axis(1), STRIP).enumerate() {
+        for (ix, mut column) in cells.rows_mut().into_iter().enumerate() {
+            for (iy, cell) in column.iter_mut().enumerate() {
+                *cell = height(ix + shape[0] * (STRIP * strip + iy));
+            }
         }
     }
     heights

@@ -17,7 +17,8 @@
 
 use std::io::Read;
 
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, usable_pitch, x_fastest};
+use super::binary::{text, unit_of_length};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, distinct, usable_pitch, x_fastest};
 use crate::error::Defect;
 use crate::grid::Field;
 use crate::units::Metre;
@@ -25,10 +26,11 @@ use crate::units::Metre;
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let fault = |defect| Fault::defect("sur", defect);
     let objects = objects(bytes).map_err(fault)?;
-    let channels: Vec<_> = objects.iter().map(|object| object.name.clone()).collect();
-    let object = &objects[choose(&channels, channel)?];
+    let channels = distinct(objects.iter().map(|object| object.name.clone()));
+    let chosen = choose(&channels, channel)?;
+    let object = &objects[chosen];
     let heights = object.heights().map_err(fault)?;
-    let channel = object.name.clone();
+    let channel = channels[chosen].clone();
     Ok(Scan { format: "sur", channel, channels, pitch: usable_pitch(object.pitch), heights })
 }
 
@@ -39,11 +41,7 @@ fn objects(bytes: &[u8]) -> Result<Vec<Object<'_>>, Defect> {
     let mut objects: Vec<Object<'_>> = Vec::new();
     let mut rest = bytes;
     loop {
-        let (mut object, behind) = Object::read(rest)?;
-        let same = objects.iter().filter(|other| other.name == object.name).count();
-        if same > 0 {
-            object.name = format!("{} {}", object.name, objects.len() + 1);
-        }
+        let (object, behind) = Object::read(rest)?;
         let count = header_i16(bytes, 14)?;
         objects.push(object);
         rest = behind;
@@ -227,27 +225,7 @@ fn not_heights(kind: i16) -> Option<String> {
 }
 
 fn unit(bytes: &[u8], at: usize) -> Result<Metre, Defect> {
-    let found = text(field::<16>(bytes, at)?);
-    match found.as_str() {
-        "m" => Ok(1.0),
-        "cm" => Ok(1e-2),
-        "mm" => Ok(1e-3),
-        "µm" | "μm" | "um" => Ok(1e-6),
-        "nm" => Ok(1e-9),
-        "pm" => Ok(1e-12),
-        "Å" | "A" => Ok(1e-10),
-        "in" => Ok(25.4e-3),
-        _ => Err(Defect::Value { what: "the unit of an axis", found, expected: "a length" }),
-    }
-}
-
-/// Text padded with spaces or zeros, in UTF-8 or Latin-1.
-fn text(bytes: &[u8]) -> String {
-    let bytes = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.trim().to_owned(),
-        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect::<String>().trim().to_owned(),
-    }
+    unit_of_length(&text(field::<16>(bytes, at)?))
 }
 
 fn field<const N: usize>(bytes: &[u8], at: usize) -> Result<&[u8; N], Defect> {

@@ -7,6 +7,11 @@ use arbtest::arbtest;
 use super::*;
 use crate::grid::Grid;
 
+mod gwy;
+mod headed;
+mod instruments;
+mod sdf;
+
 /// The measured files, which are not part of the repository; without them a test is passed over, but not in CI.
 fn measured(name: &str) -> Option<PathBuf> {
     let folder = match std::env::var_os("ASPERITY_TOPOGRAPHIES") {
@@ -83,25 +88,11 @@ fn a_table_of_points_is_read_as_others_read_it() {
 
 #[test]
 fn what_is_not_read_is_named() {
-    for (name, message) in [
-        ("al3d-1.al3d", "is not a topography: it is an Alicona AL3D file"),
-        ("frt-2.frt", "is not a topography: it is an FRT MicroProf file"),
-        ("metropro-1.dat", "is not a topography: it is a Zygo MetroPro file"),
-        ("opd-1.opd", "is not a topography: it is a Wyko OPD file"),
-        ("opdx-3.opdx", "is not a topography: it is a Wyko OPDx file"),
-        ("plu-1.plu", "is not a topography: it is binary, of no known format"),
-        ("sdf-1.sdf", "is not a topography: it is a surface data file (SDF, ISO 25178-71)"),
-        ("tmd-1.tmd", "is not a topography: it is a TrueMap file"),
-        ("matrix-4.txt.gz", ": text: line 1: `h=305` is not a height"),
-    ] {
-        let Some(path) = measured(name) else { continue };
-        let error = read(&path, None).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            [path.to_str().unwrap(), message].join(if message.starts_with(':') { "" } else { " " })
-        );
-        assert!(error.hint().is_some());
-    }
+    let Some(path) = measured("opdx-3.opdx") else { return };
+    let error = read(&path, None).unwrap_err();
+    let message = format!("{} is not a topography: it is a Wyko OPDx file", path.display());
+    assert_eq!(error.to_string(), message);
+    assert!(error.hint().is_some());
 }
 
 #[test]
@@ -459,7 +450,7 @@ fn a_damaged_sur_is_an_error() {
     assert_eq!(with(18, &[12, 0]), "sur: the kind of object is `RGB image`, expected a surface or a profile");
     assert_eq!(with(108, &(-3i32).to_le_bytes()), "sur: the size along x is `-3`, expected at least 1");
     assert_eq!(with(111, &[0x7f]), "sur: 4261412870 heights, at most 268435456 are read");
-    assert_eq!(with(212, b"V "), "sur: the unit of an axis is `V`, expected a length");
+    assert_eq!(with(212, b"V "), "sur: a unit is `V`, expected one of length");
 }
 
 // ---- text ------------------------------------------------------------------------------------------------
@@ -556,7 +547,7 @@ fn samples() -> Vec<Vec<u8>> {
     gzip.write_all(&text).unwrap();
     let mut compressed = sur_of(32, "Height", 1);
     compressed[..12].copy_from_slice(b"DSCOMPRESSED");
-    vec![
+    let mut samples = vec![
         x3p,
         x3p_with("I", &[1; 20], Some(&[0x95, 0xfd]), ""),
         npy,
@@ -566,7 +557,12 @@ fn samples() -> Vec<Vec<u8>> {
         text,
         b"0 0 1\n0 1 2\n1 0 3\n1 1 4\n".to_vec(),
         gzip.finish().unwrap(),
-    ]
+    ];
+    samples.extend(sdf::samples());
+    samples.extend(instruments::samples());
+    samples.push(gwy::sample());
+    samples.extend(headed::samples());
+    samples
 }
 
 #[test]
@@ -601,7 +597,7 @@ fn a_damaged_file_is_answered_and_never_a_panic() {
 #[test]
 fn random_bytes_are_answered_and_never_a_panic() {
     arbtest(|u| {
-        let magics: [&[u8]; 7] = [
+        let magics: [&[u8]; 14] = [
             b"",
             b"PK\x03\x04",
             b"\x93NUMPY\x01\0",
@@ -609,6 +605,13 @@ fn random_bytes_are_answered_and_never_a_panic() {
             b"DSCOMPRESSED",
             b"\x1f\x8b\x08",
             b"0 1;2\n",
+            b"bISO-1.0",
+            b"GWYPGwyContainer\0\xff\0\0\0",
+            b"AliconaImaging\0\r\n",
+            b"FRTM_GLIDERV1.00\x01\0",
+            b"\x88\x1b\x03\x6f",
+            b"\x01\0Directory",
+            b"Binary TrueMap Data File v2.0\r\n\0\0",
         ];
         let mut bytes = u.choose(&magics)?.to_vec();
         bytes.extend(u.arbitrary::<Vec<u8>>()?);

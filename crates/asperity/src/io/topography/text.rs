@@ -11,6 +11,7 @@
 
 use ndarray::{Axis, Slice};
 
+use super::header::excerpt;
 use super::{Decoded, Fault, MAX_CELLS, Scan, only_channel};
 use crate::error::Defect;
 use crate::grid::Field;
@@ -18,7 +19,7 @@ use crate::units::Metre;
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
-    let heights = matrix(bytes).map_err(|defect| Fault::defect("text", defect))?;
+    let heights = matrix(bytes, 0).map_err(|defect| Fault::defect("text", defect))?;
     let (format, pitch, heights) = match grid_of_points(&heights) {
         Some((pitch, heights)) => ("xyz", Some(pitch), heights),
         None => ("text", None, heights),
@@ -26,7 +27,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     Ok(Scan { format, channel: channels[0].clone(), channels, pitch, heights })
 }
 
-fn matrix(bytes: &[u8]) -> Result<Field, Defect> {
+/// The lines of values in `bytes`, before which the file has `lines_before` others.
+pub(super) fn matrix(bytes: &[u8], lines_before: usize) -> Result<Field, Defect> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut values = Vec::new();
     let mut columns = 0;
@@ -36,7 +38,7 @@ fn matrix(bytes: &[u8]) -> Result<Field, Defect> {
         if matches!(line.trim_ascii_start().first(), None | Some(b'#' | b'%')) {
             continue;
         }
-        let line_number = index + 1;
+        let line_number = lines_before + index + 1;
         let Ok(text) = std::str::from_utf8(line) else {
             return Err(Defect::NotANumber {
                 line: line_number,
@@ -139,10 +141,6 @@ fn value(token: &str, separator: Separator) -> Option<f64> {
 fn is_missing(token: &str) -> bool {
     const WORDS: [&str; 7] = ["", "na", "n/a", "null", "bad", "-", "--"];
     token.bytes().all(|byte| byte == b'*') || WORDS.iter().any(|word| token.eq_ignore_ascii_case(word))
-}
-
-fn excerpt(token: &str) -> String {
-    token.chars().take(40).collect()
 }
 
 /// Reads three columns as x, y and height, if x and y form a full regular grid.

@@ -13,6 +13,7 @@ use roxmltree::{Document, Node};
 use zip::ZipArchive;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
+use super::binary::{Number, Order};
 use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, usable_pitch, x_fastest};
 use crate::error::{Defect, Error, Result};
 use crate::grid::{Field, Grid};
@@ -171,7 +172,7 @@ impl Header {
             }
         }
         let kind = text(z, "DataType").unwrap_or("D");
-        let number = Number::of(kind).ok_or_else(|| Defect::Value {
+        let number = number(kind).ok_or_else(|| Defect::Value {
             what: "DataType of CZ",
             found: kind.to_owned(),
             expected: "I, L, F or D",
@@ -230,7 +231,7 @@ impl Header {
         };
         Ok(x_fastest(shape, |cell| {
             let point = first + cell;
-            let number = if valid(point) { self.number.at(&data, point) } else { f64::NAN };
+            let number = if valid(point) { self.number.at(Order::Little, &data, point) } else { f64::NAN };
             // Infinite heights do not exist: they are one more way to say that there is none.
             if number.is_finite() { self.offset + self.increment * number } else { f64::NAN }
         }))
@@ -269,46 +270,14 @@ impl Header {
     }
 }
 
-/// How numbers are stored.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Number {
-    Int16,
-    Int32,
-    Float32,
-    Float64,
-}
-
-impl Number {
-    fn of(kind: &str) -> Option<Self> {
-        Some(match kind {
-            "I" => Self::Int16,
-            "L" => Self::Int32,
-            "F" => Self::Float32,
-            "D" => Self::Float64,
-            _ => return None,
-        })
-    }
-
-    fn is_integer(self) -> bool {
-        matches!(self, Self::Int16 | Self::Int32)
-    }
-
-    fn bytes(self) -> usize {
-        match self {
-            Self::Int16 => 2,
-            Self::Int32 | Self::Float32 => 4,
-            Self::Float64 => 8,
-        }
-    }
-
-    fn at(self, data: &[u8], index: usize) -> f64 {
-        match self {
-            Self::Int16 => f64::from(i16::from_le_bytes(data.as_chunks().0[index])),
-            Self::Int32 => f64::from(i32::from_le_bytes(data.as_chunks().0[index])),
-            Self::Float32 => f64::from(f32::from_le_bytes(data.as_chunks().0[index])),
-            Self::Float64 => f64::from_le_bytes(data.as_chunks().0[index]),
-        }
-    }
+fn number(kind: &str) -> Option<Number> {
+    Some(match kind {
+        "I" => Number::Int16,
+        "L" => Number::Int32,
+        "F" => Number::Float32,
+        "D" => Number::Float64,
+        _ => return None,
+    })
 }
 
 /// Compares `main.xml` with the checksum that lies beside it, if one does.

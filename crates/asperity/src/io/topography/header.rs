@@ -1,0 +1,43 @@
+//! Headers in text: lines of a name and a value.
+
+use std::collections::HashMap;
+
+use crate::error::Defect;
+
+/// The lines of a header, by their names in lower case.
+pub(super) struct Header<'a>(HashMap<String, &'a str>);
+
+impl<'a> Header<'a> {
+    /// The lines of `text` with a name before the first `separator`; a `#` before the name is passed over.
+    pub(super) fn of(text: &'a str, separator: char) -> Self {
+        let lines = text.lines().filter_map(|line| line.trim_start_matches('#').split_once(separator));
+        Self(lines.map(|(name, value)| (name.trim().to_ascii_lowercase(), before_comment(value))).collect())
+    }
+
+    /// The value of `name`, in any case, up to a comment after a semicolon.
+    pub(super) fn get(&self, name: &str) -> Option<&'a str> {
+        self.0.get(&name.to_ascii_lowercase()).copied()
+    }
+
+    pub(super) fn number(&self, name: &'static str) -> Result<f64, Defect> {
+        let found = self.get(name).ok_or(Defect::Missing(name))?;
+        let number = found.parse().ok().filter(|number: &f64| number.is_finite());
+        number.ok_or_else(|| Defect::Value { what: name, found: excerpt(found), expected: "a number" })
+    }
+
+    /// A number of heights.
+    pub(super) fn size(&self, name: &'static str) -> Result<u32, Defect> {
+        let found = self.get(name).ok_or(Defect::Missing(name))?;
+        let unusable = || Defect::Value { what: name, found: excerpt(found), expected: "at least 1" };
+        found.parse().map_err(|_| unusable())
+    }
+}
+
+fn before_comment(value: &str) -> &str {
+    value.split(';').next().unwrap_or_default().trim()
+}
+
+/// The start of what a file says, for a message.
+pub(super) fn excerpt(text: &str) -> String {
+    text.chars().take(40).collect()
+}

@@ -1,0 +1,51 @@
+//! PLU: topographies of Sensofar's confocal microscopes and interferometers; only read.
+//!
+//! No mark tells the format, but a date as the C library prints it stands at the start. Little-endian:
+//!
+//! ```text
+//! 0    date (128)          388  calibration: sizes along y and x, a number, a scale, pitch along x and y in µm (f32)
+//! 128  time u32            428  kind of measurement u32: 3 is a topography
+//! 132  comment (256)       500  sizes along y and x 2 u32, heights in µm f32, x fastest; then pictures, further layers
+//! ```
+//!
+//! A missing height is 1000001. Of several layers the first is read.
+
+use super::binary::{Cursor, Number, Order, Raster, shape};
+use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use crate::error::Defect;
+use crate::grid::Field;
+
+/// Whether the content begins with a date such as `Fri Mar 10 16:35:59 2023`, and a zero.
+pub(super) fn is_one(bytes: &[u8]) -> bool {
+    let is = |form: u8, byte: u8| match form {
+        b'A' => byte.is_ascii_alphabetic(),
+        b'0' => byte.is_ascii_digit() || byte == b' ',
+        _ => byte == form,
+    };
+    let form = b"AAA AAA 00 00:00:00 0000\0";
+    bytes.len() >= form.len() && form.iter().zip(bytes).all(|(form, byte)| is(*form, *byte))
+}
+
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    let channels = only_channel(channel)?;
+    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("plu", defect))?;
+    Ok(Scan { format: "plu", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+}
+
+const MICROMETRE: f64 = 1e-6;
+
+fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
+    let mut file = Cursor::new(bytes, Order::Little, "the file");
+    file.seek(404)?;
+    let pitch = [file.f32()? * MICROMETRE, file.f32()? * MICROMETRE];
+    file.seek(428)?;
+    let kind = file.u32()?;
+    if kind != 3 {
+        let found = kind.to_string();
+        return Err(Defect::Value { what: "the kind of measurement", found, expected: "3, a topography" });
+    }
+    file.seek(500)?;
+    let [ny, nx] = [file.u32()?, file.u32()?];
+    let raster = Raster::new(shape([nx, ny])?, Number::Float32, Order::Little, file.rest())?;
+    Ok((pitch, raster.heights(|height| if height == 1_000_001.0 { f64::NAN } else { height * MICROMETRE })))
+}
