@@ -18,6 +18,7 @@ pub mod plu;
 pub mod sdf;
 pub mod sur;
 pub mod text;
+pub mod tiff;
 pub mod tmd;
 pub mod vtk;
 pub mod x3p;
@@ -97,7 +98,7 @@ fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[&[u8]], Decode); 11] = [
+    const READ: [(&[&[u8]], Decode); 12] = [
         (&[b"PK\x03\x04"], x3p::decode),
         (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
         (&[b"\x93NUMPY"], npy::decode),
@@ -109,8 +110,9 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
         (&[al3d::MAGIC], al3d::decode),
         (&[frt::MAGIC], frt::decode),
         (&[tmd::MAGIC], tmd::decode),
+        (&tiff::MAGICS, tiff::decode),
     ];
-    const NOT_READ: [(&[u8], &str); 11] = [
+    const NOT_READ: [(&[u8], &str); 10] = [
         (b"VCA DATA", "it is a Wyko OPDx file"),
         (b"FRTM_GLIDER", "it is an FRT file of another version than 1.00"),
         (b"Binary TrueMap Data File", "it is a TrueMap file of another version than 2.0"),
@@ -118,7 +120,6 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
         (b"\x89PNG", "it is a picture (PNG)"),
         (b"\xff\xd8\xff", "it is a picture (JPEG)"),
         (b"BM", "it is a picture (BMP)"),
-        (b"II*\0", "it is a picture (TIFF)"),
         (b"GWYO", "it is a file of Gwyddion 1"),
         (b"\xff\xfe", "it is UTF-16 text, expected UTF-8"),
         (b"PK\x05\x06", "it is an empty zip archive"),

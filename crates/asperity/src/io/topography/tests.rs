@@ -11,6 +11,7 @@ mod gwy;
 mod headed;
 mod instruments;
 mod sdf;
+mod tiff;
 
 /// The measured files, which are not part of the repository; without them a test is passed over, but not in CI.
 fn measured(name: &str) -> Option<PathBuf> {
@@ -562,6 +563,7 @@ fn samples() -> Vec<Vec<u8>> {
     samples.extend(instruments::samples());
     samples.push(gwy::sample());
     samples.extend(headed::samples());
+    samples.push(tiff::sample());
     samples
 }
 
@@ -597,7 +599,7 @@ fn a_damaged_file_is_answered_and_never_a_panic() {
 #[test]
 fn random_bytes_are_answered_and_never_a_panic() {
     arbtest(|u| {
-        let magics: [&[u8]; 14] = [
+        let magics: [&[u8]; 15] = [
             b"",
             b"PK\x03\x04",
             b"\x93NUMPY\x01\0",
@@ -606,6 +608,7 @@ fn random_bytes_are_answered_and_never_a_panic() {
             b"\x1f\x8b\x08",
             b"0 1;2\n",
             b"bISO-1.0",
+            b"II*\0\x08\0\0\0",
             b"GWYPGwyContainer\0\xff\0\0\0",
             b"AliconaImaging\0\r\n",
             b"FRTM_GLIDERV1.00\x01\0",

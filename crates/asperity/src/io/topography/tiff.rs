@@ -1,0 +1,77 @@
+//! TIFF: pictures of one floating-point number per pixel, which are heights in metres; only read.
+//!
+//! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Integers are
+//! levels of grey, whose height nothing tells: they are refused. There is no pitch, as resolutions are those of a
+//! print. Each page is a channel.
+
+use std::io::Cursor;
+
+use tiff::ColorType;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+
+use super::binary::shape;
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, x_fastest};
+use crate::error::Defect;
+use crate::grid::Field;
+
+/// How the file may begin: in either order of bytes, with offsets of 32 or 64 bits.
+pub(super) const MAGICS: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
+
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    let fault = |defect| Fault::defect("tiff", defect);
+    let mut file = open(bytes).map_err(fault)?;
+    let mut pages = 1;
+    while file.more_images() {
+        file.next_image().map_err(container).map_err(fault)?;
+        pages += 1;
+    }
+    let channels: Vec<_> = match pages {
+        1 => vec![ONLY_CHANNEL.to_owned()],
+        _ => (1..=pages).map(|page| format!("{ONLY_CHANNEL} {page}")).collect(),
+    };
+    let page = choose(&channels, channel)?;
+    let heights = heights(bytes, page).map_err(fault)?;
+    Ok(Scan { format: "tiff", channel: channels[page].clone(), channels, pitch: None, heights })
+}
+
+type File<'a> = Decoder<Cursor<&'a [u8]>>;
+
+fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
+    // A code of LZW, 12 bits, stands for at most 4094 bytes; deflate makes no less of them.
+    let most = bytes.len().saturating_mul(4096);
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = most;
+    limits.intermediate_buffer_size = most;
+    Ok(Decoder::new(Cursor::new(bytes)).map_err(container)?.with_limits(limits))
+}
+
+fn heights(bytes: &[u8], page: usize) -> Result<Field, Defect> {
+    let mut file = open(bytes)?;
+    for _ in 0..page {
+        file.next_image().map_err(container)?;
+    }
+    let (nx, ny) = file.dimensions().map_err(container)?;
+    let shape = shape([nx, ny])?;
+    let colour = file.colortype().map_err(container)?;
+    if !matches!(colour, ColorType::Gray(_)) {
+        return Err(unlike_heights(format!("{colour:?}")));
+    }
+    let height = |height: f64| if height.is_finite() { height } else { f64::NAN };
+    let pixels: Vec<f64> = match file.read_image().map_err(container)? {
+        DecodingResult::F32(pixels) => pixels.into_iter().map(f64::from).collect(),
+        DecodingResult::F64(pixels) => pixels,
+        _ => return Err(unlike_heights("integers".to_owned())),
+    };
+    if pixels.len() != shape[0] * shape[1] {
+        return Err(Defect::Missing("height for each pixel"));
+    }
+    Ok(x_fastest(shape, |cell| height(pixels[cell])))
+}
+
+fn unlike_heights(found: String) -> Defect {
+    Defect::Value { what: "the kind of pixels", found, expected: "floating point, heights in metres" }
+}
+
+fn container(error: tiff::TiffError) -> Defect {
+    Defect::Container(error.to_string())
+}
