@@ -207,7 +207,7 @@ impl Error {
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
             Self::NotATopography { .. } => Some(
-                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, bcr, tiff, npy, text and tables \
+                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, bcr, tiff, npy, csv, text and tables \
                      (also gzipped) are read; export as one of these"
                     .into(),
             ),

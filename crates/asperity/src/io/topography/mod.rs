@@ -8,6 +8,7 @@ mod header;
 
 pub mod al3d;
 pub mod bcr;
+pub mod csv;
 pub mod frt;
 pub mod gwy;
 pub mod headed;
@@ -141,7 +142,9 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if bytes.iter().take(1 << 16).any(binary) {
         return Err(Fault::NotATopography("it is binary, of no known format"));
     }
-    headed::decode(bytes, channel).unwrap_or_else(|| text::decode(bytes, channel))
+    headed::decode(bytes, channel)
+        .or_else(|| csv::decode(bytes, channel))
+        .unwrap_or_else(|| text::decode(bytes, channel))
 }
 
 type Decoded = std::result::Result<Scan, Fault>;

@@ -7,6 +7,7 @@ use arbtest::arbtest;
 use super::*;
 use crate::grid::Grid;
 
+mod csv;
 mod gwy;
 mod headed;
 mod instruments;
@@ -564,6 +565,7 @@ fn samples() -> Vec<Vec<u8>> {
     samples.push(gwy::sample());
     samples.extend(headed::samples());
     samples.push(tiff::sample());
+    samples.push(csv::SAMPLE.as_bytes().to_vec());
     samples
 }
 

@@ -20,7 +20,7 @@ use crate::units::Metre;
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
     let heights = matrix(bytes, 0).map_err(|defect| Fault::defect("text", defect))?;
-    let (format, pitch, heights) = match grid_of_points(&heights) {
+    let (format, pitch, heights) = match xyz(&heights) {
         Some((pitch, heights)) => ("xyz", Some(pitch), heights),
         None => ("text", None, heights),
     };
@@ -143,9 +143,14 @@ fn is_missing(token: &str) -> bool {
     token.bytes().all(|byte| byte == b'*') || WORDS.iter().any(|word| token.eq_ignore_ascii_case(word))
 }
 
-/// Reads three columns as x, y and height, if x and y form a full regular grid.
-fn grid_of_points(table: &Field) -> Option<([Metre; 2], Field)> {
-    if table.ncols() != 3 || table.nrows() < 4 {
+/// Reads t/// Reads three columns as x, y and height, if x and y form a full regular grid.
+fn xyz(table: &Field) -> Option<([Metre; 2], Field)> {
+    if table.ncols() == 3 { grid_of_points(table, 2) } else { None }
+}
+
+/// The values of a column over those of the first two, if these form a full regular grid of at least 2 × 2 points.
+pub(super) fn grid_of_points(table: &Field, column: usize) -> Option<([f64; 2], Field)> {
+    if table.nrows() < 4 {
         return None;
     }
     let [x, y] = [positions(table.column(0))?, positions(table.column(1))?];
@@ -159,7 +164,7 @@ fn grid_of_points(table: &Field) -> Option<([Metre; 2], Field)> {
         if std::mem::replace(&mut seen[at], true) {
             return None;
         }
-        heights[at] = point[2];
+        heights[at] = point[column];
     }
     Some(([x.pitch, y.pitch], heights))
 }

@@ -1,0 +1,56 @@
+//! CSV: a table of x, y and heights under a line of names; only read.
+//!
+//! The names of the first two columns begin with x and y; each further column is a channel. A name may end with a unit
+//! of length, as in `x [µm]` or `height (nm)`; without one it is m. x and y form a full regular grid, in any order. What
+//! separates the columns, and what else text may look like, is told in [`text`](super::text).
+
+use super::binary::unit_of_length;
+use super::header::excerpt;
+use super::text::{grid_of_points, matrix};
+use super::{Decoded, Fault, Scan, choose, distinct};
+use crate::error::Defect;
+
+/// The heights, if the content begins with such a line of names.
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    let line = std::str::from_utf8(&bytes[..end]).ok()?;
+    let names: Vec<_> = match [';', '\t', ','].into_iter().find(|separator| line.contains(*separator)) {
+        Some(separator) => line.split(separator).map(str::trim).collect(),
+        None => line.split_whitespace().collect(),
+    };
+    let [x, y, _, ..] = names[..] else { return None };
+    let begins_with = |name: &str, letter| name.to_ascii_lowercase().starts_with(letter);
+    (begins_with(x, 'x') && begins_with(y, 'y')).then(|| table(&names, &bytes[end + 1..], channel))
+}
+
+fn table(names: &[&str], lines: &[u8], channel: Option<&str>) -> Decoded {
+    let fault = |defect| Fault::defect("csv", defect);
+    let columns: Vec<_> = names.iter().map(|name| name_and_unit(name)).collect();
+    let channels = distinct(columns[2..].iter().map(|(name, _)| (*name).to_owned()));
+    let column = 2 + choose(&channels, channel)?;
+    let table = matrix(lines, 1).map_err(fault)?;
+    if table.ncols() != names.len() {
+        return Err(fault(Defect::Ragged { line: 2, expected: names.len(), found: table.ncols() }));
+    }
+    let [x, y, z] = [0, 1, column].map(|column| columns[column].1.map_or(Ok(1.0), unit_of_length));
+    let (x, y, z) = (x.map_err(fault)?, y.map_err(fault)?, z.map_err(fault)?);
+    let (pitch, heights) = grid_of_points(&table, column).ok_or_else(|| {
+        let found = excerpt(&names[..2].join(", "));
+        fault(Defect::Value {
+            what: "x and y",
+            found,
+            expected: "a full regular grid of at least 2 × 2 points",
+        })
+    })?;
+    let pitch = Some([pitch[0] * x, pitch[1] * y]);
+    Ok(Scan { format: "csv", channel: channels[column - 2].clone(), channels, pitch, heights: heights * z })
+}
+
+/// `height (nm)` is a height in nm.
+fn name_and_unit(name: &str) -> (&str, Option<&str>) {
+    match name.trim_end_matches([')', ']']).split_once(['(', '[']) {
+        Some((name, unit)) => (name.trim(), Some(unit.trim())),
+        None => (name, None),
+    }
+}
