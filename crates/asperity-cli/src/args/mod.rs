@@ -1,0 +1,144 @@
+//! The arguments of every command.
+
+mod generate;
+mod surface;
+mod values;
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+pub(crate) use generate::{Generate, Recipe};
+pub(crate) use surface::{Convert, Info, Reading, Surface};
+
+/// Contact of two rough surfaces that press together and move
+///
+/// A case file says which bodies meet, under what load, and how they move.
+#[derive(Debug, Parser)]
+#[command(version, subcommand_required = true, arg_required_else_help = true)]
+#[command(after_help = BEGIN, after_long_help = [BEGIN, EXIT_CODES].concat())]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const BEGIN: &str = "\
+To begin:
+  asperity run --example quickstart
+  asperity check quickstart/case/case.toml";
+
+const EXIT_CODES: &str = "
+
+Data go to stdout, all else to stderr.
+
+Exit code:
+  0    done
+  1    the computation failed: not converged, load unreachable
+  2    bad input or usage
+  130  interrupted";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Run(Run),
+    Check(Check),
+    Example(Example),
+    #[command(subcommand)]
+    Surface(Surface),
+    Plot(Plot),
+    /// Compare the solvers with closed forms
+    ///
+    /// Prints for each case the errors on finer and finer grids and the order of convergence. Exit code 1 if one fails.
+    Verify,
+    Paper(Paper),
+}
+
+/// Compute a case: a static contact, or a motion
+///
+/// Progress goes to stderr, a short table to stdout, all else into the results directory: summary.json, steps.csv,
+/// passes.csv, fields (HDF5) and figures. Ctrl-C leaves the finished passes; --resume goes on from them.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  asperity run --example quickstart\n  asperity run surfaces/disc.toml --out disc"
+)]
+pub(crate) struct Run {
+    /// Case file
+    #[arg(value_name = "CASE.toml", required_unless_present = "example", conflicts_with = "example")]
+    pub(crate) case: Option<PathBuf>,
+    /// An example instead: its files are written to DIR/case
+    #[arg(long, value_name = "NAME")]
+    pub(crate) example: Option<String>,
+    /// Results directory, by default the case file's name with `-results`; of an example the folder of `case` and `results`, by default its name
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on from the last finished pass of the results that are there
+    #[arg(long, conflicts_with = "overwrite")]
+    pub(crate) resume: bool,
+    /// Replace the results that are there
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+    /// Threads over the positions of a pass; by default as many as the machine has cores
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// No progress on stderr
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Draw the figures of a results directory again
+#[derive(Debug, Args)]
+pub(crate) struct Plot {
+    /// Results directory
+    #[arg(value_name = "DIR")]
+    pub(crate) directory: PathBuf,
+}
+
+/// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost
+///
+/// Prints the size of the influence matrix over a pass, and the measured cost of sub-matrices against circular
+/// shifting: dense for 12 to 32 cells along a side, by FFT up to --largest.
+#[derive(Debug, Args)]
+pub(crate) struct Paper {
+    /// Folder for the figures
+    #[arg(long, value_name = "DIR", default_value = "paper")]
+    pub(crate) out: PathBuf,
+    /// Most cells along a side for the cost by FFT
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub(crate) largest: usize,
+}
+
+/// Validate a case and print what would be solved
+///
+/// Reads both surfaces and reports the grid, the pair, positions, passes, memory and what to be wary of. Nothing is
+/// solved. Exit code 1 if no pressure within the hardness can carry the load, 2 if the case has a mistake.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// Case file
+    #[arg(value_name = "CASE.toml")]
+    pub(crate) case: PathBuf,
+}
+
+/// List the examples, or write one out
+///
+/// Without a name: one line per example. With a name: its case file and data go into a new folder.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity example quickstart --out my-case")]
+pub(crate) struct Example {
+    /// Which one
+    pub(crate) name: Option<String>,
+    /// Folder to make; by default the example's name
+    #[arg(long, value_name = "DIR", requires = "name")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_commands_are_well_formed() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,112 @@
+//! Values of arguments: quantities with units, pairs of them, shapes, words.
+
+use asperity::surface::{Axis, Fill, Level};
+use asperity::units::{self, Dimension};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+/// Two lengths, along x and y.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pair(pub(crate) [f64; 2]);
+
+/// Two numbers of cells.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shape(pub(crate) [usize; 2]);
+
+/// x0, y0, nx, ny.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Window(pub(crate) [usize; 4]);
+
+fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    units::parse(text, dimension).map_err(|error| match error.hint() {
+        Some(hint) => format!("{error}; {hint}"),
+        None => error.to_string(),
+    })
+}
+
+pub(super) fn positive_length(text: &str) -> Result<f64, String> {
+    match quantity(text, Dimension::Length)? {
+        length if length > 0.0 => Ok(length),
+        _ => Err("expected a length above 0 such as 0.25um".to_owned()),
+    }
+}
+
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    quantity(text, Dimension::Angle)
+}
+
+fn pair(text: &str, read: impl Fn(&str) -> Result<f64, String>) -> Result<Pair, String> {
+    match text.split(',').collect::<Vec<_>>()[..] {
+        [both] => read(both).map(|both| Pair([both; 2])),
+        [x, y] => Ok(Pair([read(x)?, read(y)?])),
+        _ => Err("expected one length, or two with a comma between".to_owned()),
+    }
+}
+
+pub(super) fn lengths(text: &str) -> Result<Pair, String> {
+    pair(text, positive_length)
+}
+
+pub(super) fn wavelengths(text: &str) -> Result<Pair, String> {
+    pair(text, |text| if text.trim() == "inf" { Ok(f64::INFINITY) } else { positive_length(text) })
+}
+
+fn counts<const N: usize>(text: &str, separators: &[char], expected: &str) -> Result<[usize; N], String> {
+    let counts: Option<Vec<usize>> = text.split(separators).map(|count| count.trim().parse().ok()).collect();
+    counts.and_then(|counts| counts.try_into().ok()).ok_or_else(|| format!("expected {expected}"))
+}
+
+pub(super) fn shape(text: &str) -> Result<Shape, String> {
+    const EXPECTED: &str = "two whole numbers of at least 1, such as 256x256, and at most 2²⁸ cells";
+    const MOST_CELLS: usize = 1 << 28;
+    let shape: [usize; 2] = counts(text, &['x', '×', ','], EXPECTED)?;
+    match shape[0].checked_mul(shape[1]) {
+        Some(1..=MOST_CELLS) => Ok(Shape(shape)),
+        _ => Err(format!("expected {EXPECTED}")),
+    }
+}
+
+pub(super) fn window(text: &str) -> Result<Window, String> {
+    counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
+}
+
+fn words<T: Clone + Send + Sync + 'static>(
+    words: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(words.iter().map(|(word, _)| *word)).map(|given| {
+        let found = words.iter().find(|(word, _)| *word == given);
+        found.expect("only these words pass").1.clone()
+    })
+}
+
+pub(super) fn level_parser() -> impl TypedValueParser<Value = Level> {
+    words(&[
+        ("none", Level::None),
+        ("mean", Level::Mean),
+        ("plane", Level::Plane),
+        ("quadratic", Level::Quadratic),
+    ])
+}
+
+pub(super) fn fill_parser() -> impl TypedValueParser<Value = Fill> {
+    words(&[("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)])
+}
+
+pub(super) fn axis_parser() -> impl TypedValueParser<Value = Axis> {
+    words(&[("x", Axis::X), ("y", Axis::Y)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_numbers_are_read_in_full_or_not_at_all() {
+        assert_eq!(shape("256x128").unwrap().0, [256, 128]);
+        assert_eq!(window("1, 2,3,4").unwrap().0, [1, 2, 3, 4]);
+        assert_eq!(wavelengths("8um,inf").unwrap().0, [8e-6, f64::INFINITY]);
+        for text in ["256", "0x4", "4x-4", "4x4x4", "99999999x99999999", ""] {
+            assert!(shape(text).is_err(), "{text}");
+        }
+        assert!(lengths("8um,inf").is_err() && lengths("1um,2um,3um").is_err() && lengths("0").is_err());
+    }
+}
