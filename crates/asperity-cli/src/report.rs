@@ -151,7 +151,7 @@ fn hint(error: &Error) -> Option<String> {
             units::format(*limit, Dimension::Force)
         )),
         Error::NotConverged { .. } => {
-            Some("raise `tolerance` in [contact], or try `method = \"polonsky-keer\"` there".to_owned())
+            Some("raise `tolerance` in [contact], or try another `method` there".to_owned())
         }
         Error::PeriodicFullContact { mean_gap, .. } => Some(format!(
             "give an approach below {}, or a load, which also holds in full contact",

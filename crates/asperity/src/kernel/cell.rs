@@ -66,7 +66,7 @@ mod tests {
 
     /// The point loads' k and the closed forms, in the order of the theory: 1/r, x²/r³, y²/r³, xy/r³, x/r², y/r².
     type Function = fn(f64, f64) -> f64;
-    pub(super) const ALL: [(Function, Function); 6] = [
+    const ALL: [(Function, Function); 6] = [
         (|x, y| asinh_term(x, y) + asinh_term(y, x), |x, y| 1.0 / x.hypot(y)),
         (|x, y| asinh_term(y, x), |x, y| x * x / x.hypot(y).powi(3)),
         (asinh_term, |x, y| y * y / x.hypot(y).powi(3)),

@@ -25,8 +25,8 @@ pub fn harmonic_displacements(qx: f64, qy: f64, compliances: &Compliances) -> Co
         return Coefficients { xx: 0.0, xy: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 };
     }
     let [cos, sin] = [qx / q, qy / q];
-    let [normal, lateral, coupling] =
-        [compliances.normal, compliances.lateral, compliances.coupling].map(|c| 2.0 * c / q);
+    let normal = harmonic_displacement(qx, qy, compliances.normal.recip());
+    let [lateral, coupling] = [compliances.lateral, compliances.coupling].map(|c| 2.0 * c / q);
     Coefficients {
         xx: normal + lateral * sin * sin,
         xy: -lateral * cos * sin,

@@ -1,7 +1,6 @@
 //! Mathematics that several modules share.
 
 pub mod convolution;
-
 pub mod elliptic;
 pub mod fft;
 pub mod good_size;

@@ -53,6 +53,12 @@ pub(super) fn residual_under<I: Iterator<Item = Pascal>>(
     Tally::of(cells(), approach, self_influence).residual(approach, self_influence)
 }
 
+/// What a residual is a share of, for displacements of this deviation and the largest that a cell makes by itself.
+pub(super) fn scale(deviation: Metre, local: Metre) -> Metre {
+    // A uniform displacement deviates by round-off alone.
+    if deviation <= 1e-12 * local { local } else { deviation }
+}
+
 /// What the residual asks of a cell.
 #[derive(Clone, Copy)]
 pub(super) struct Cell {
@@ -158,7 +164,7 @@ impl Tally {
     pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
         let deviation = (self.squares.max(0.0) / self.cells).sqrt();
         let local = self_influence * self.max_pressure;
-        let scale = if deviation <= 1e-12 * local { local } else { deviation };
+        let scale = scale(deviation, local);
         // What is not a number is no answer, though a maximum would pass over it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }

@@ -7,7 +7,7 @@ use crate::solver::friction::bodies::Bodies;
 use crate::solver::friction::shear::{Answer, Rigid, ShearSolver, Task};
 use crate::solver::friction::yielding::{AtCaps, caps, solve_capped};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
-use crate::solver::residual::{Residual, residual_under};
+use crate::solver::residual::{Residual, residual_under, scale};
 use crate::solver::{Params, Solution, Stats, solve_normal};
 use crate::units::{Metre, Pascal};
 
@@ -64,11 +64,12 @@ pub(super) fn alternate(
     let mut cap = start.cap.unwrap_or_else(|| Field::from_elem(shape, hardness));
     let mut lift = start.shear.as_ref().and_then(|shear| increment.bodies.lift(shear));
     let mut shear = start.shear.unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
+    let mut softer = pressure.as_ref().and_then(|pressure| increment.softer(pressure, &shear));
     let alternates = increment.bodies.shear_lifts() || softens;
     let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
     let (mut last, mut share) = (f64::INFINITY, 1.0);
     for _ in 0..MOST_ROUNDS {
-        let mut normal = increment.press(lift.as_ref(), pressure.as_ref(), &shear, &mut cap, tolerance)?;
+        let mut normal = increment.press(lift.as_ref(), pressure.as_ref(), softer, &mut cap, tolerance)?;
         let bound = normal.pressure.mapv(|p| increment.friction.bound(p));
         let answer = increment.push(&normal, &bound, &shear, tolerance)?;
         shear = answer.shear;
@@ -77,8 +78,9 @@ pub(super) fn alternate(
         if let Some(lift) = &lift {
             normal.displacement += lift;
         }
+        softer = increment.softer(&normal.pressure, &shear);
         if alternates {
-            let state = increment.residual(&normal, &cap, &shear);
+            let state = increment.residual(&normal, softer.as_ref().unwrap_or(&cap));
             (normal.residual, normal.approach) = (state.eta, state.approach);
         }
         normal.residual = normal.residual.max(answer.residual);
@@ -115,12 +117,17 @@ struct Increment<'a> {
 }
 
 impl Increment<'_> {
-    /// The pressure beside the `shear`, which lifts the surface.
+    /// The caps that the `shear` leaves to the pressure, where it takes from it.
+    fn softer(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Field> {
+        self.softens.then(|| caps(&self.friction, self.hardness, pressure, shear))
+    }
+
+    /// The pressure beside a shear that lifts the surface and leaves it `softer` caps.
     fn press(
         &mut self,
         lift: Option<&Field>,
         pressure: Option<&Field>,
-        shear: &[Field; 2],
+        softer: Option<Field>,
         cap: &mut Field,
         tolerance: f64,
     ) -> Result<Solution> {
@@ -128,14 +135,13 @@ impl Increment<'_> {
         let gap = lifted.as_ref().unwrap_or(self.initial_gap);
         let params = Params { tolerance, ..*self.params };
         let operator = self.bodies.operator.normal();
-        let solution = match pressure {
-            Some(pressure) if self.softens => {
-                let softer = caps(&self.friction, self.hardness, pressure, shear);
+        let solution = match (pressure, softer) {
+            (Some(pressure), Some(softer)) => {
                 let start = AtCaps::of(pressure, cap, &softer);
                 *cap = softer;
                 solve_capped(operator, gap, cap, self.loading.normal, start, &params)?
             }
-            start => solve_normal(operator, gap, self.hardness, self.loading.normal, start, &params)?,
+            (start, _) => solve_normal(operator, gap, self.hardness, self.loading.normal, start, &params)?,
         };
         self.stats = self.stats.and(&solution.stats);
         Ok(solution)
@@ -165,15 +171,14 @@ impl Increment<'_> {
     }
 
     /// How far the pressure is from equilibrium beside the shear that it has led to.
-    fn residual(&self, normal: &Solution, cap: &Field, shear: &[Field; 2]) -> Residual {
-        let softer = self.softens.then(|| caps(&self.friction, self.hardness, &normal.pressure, shear));
+    fn residual(&self, normal: &Solution, cap: &Field) -> Residual {
         // Of cells that come off their caps by a little the multiplier of the load knows nothing.
         let approach = match self.softens {
             true => Some(normal.approach),
             false => self.loading.normal.approach(),
         };
         residual_under(
-            || softer.as_ref().unwrap_or(cap).iter().copied(),
+            || cap.iter().copied(),
             &normal.pressure,
             &normal.displacement,
             self.initial_gap,
@@ -216,7 +221,7 @@ fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator)
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
     let share = (bound.sum() / normal.pressure.sum()).min(1.0);
-    let scale = share * if deviation <= 1e-12 * local { local } else { deviation };
+    let scale = share * scale(deviation, local);
     // Without contact, or without friction, nothing is left to be a share of.
     if scale > 0.0 { scale } else { 1.0 }
 }
