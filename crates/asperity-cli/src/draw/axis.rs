@@ -25,6 +25,8 @@ pub(crate) enum Unit {
     Force,
     /// Seconds.
     Time,
+    /// Radians per metre.
+    Wavenumber,
     /// A pure number.
     Number,
     /// A unit without multiples, such as "m/Pa".
@@ -59,6 +61,9 @@ impl Unit {
             Self::Pressure => (&[(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")], 1.0),
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
+            Self::Wavenumber => {
+                (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0)
+            }
             Self::Number => (&[(1.0, "")], 1.0),
             Self::Of(_) => (&[(1.0, "")], 1.0),
         }

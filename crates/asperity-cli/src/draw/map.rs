@@ -88,6 +88,25 @@ pub(crate) struct SectionFigure<'a> {
     pub(crate) mark: Option<[f64; 2]>,
 }
 
+/// A field over a plane of lags or of wavenumbers, with the origin in its middle sample: `n/2` of `n` samples.
+#[derive(Debug, Clone)]
+pub(crate) struct PlaneFigure<'a> {
+    /// Stands above the plane.
+    pub(crate) title: String,
+    /// Values in SI, `[x, y]`.
+    pub(crate) field: &'a Field,
+    /// Distance of neighbouring samples along x and y.
+    pub(crate) step: [f64; 2],
+    /// What the axes are, with their unit.
+    pub(crate) names: [&'a str; 2],
+    /// Unit of the axes.
+    pub(crate) unit: Unit,
+    /// What the field holds: label of the colour bar.
+    pub(crate) quantity: Quantity,
+    /// The least and the largest value shown; logarithmic colours if the least is above 0.
+    pub(crate) range: [f64; 2],
+}
+
 /// Draws a field with its colour bar into the PNG file `path`.
 ///
 /// The map is true to scale unless one side is more than four times the other.
@@ -136,6 +155,27 @@ pub(crate) fn matrix(path: &Path, figure: &MatrixFigure) -> Result<()> {
         names: [&figure.nodes[1], &figure.nodes[0]],
         unit: Unit::Number,
         reversed: true,
+        mark: None,
+    };
+    save(path, &sheet(&[picture], 1, false).canvas)
+}
+
+/// Draws a plane into the PNG file `path`, true to scale unless one side is more than four times the other.
+pub(crate) fn plane(path: &Path, figure: &PlaneFigure) -> Result<()> {
+    let end = |axis: usize, samples: usize| {
+        let before = (samples / 2) as f64 + 0.5;
+        [-before * figure.step[axis], (samples as f64 - before) * figure.step[axis]]
+    };
+    let kind = if figure.range[0] > 0.0 { Kind::Logarithmic } else { Kind::Heights };
+    let picture = Picture {
+        title: &figure.title,
+        cells: figure.field.view(),
+        shading: Shading { range: widened(figure.range), kind },
+        quantity: &figure.quantity,
+        ends: [end(0, figure.field.nrows()), end(1, figure.field.ncols())],
+        names: figure.names,
+        unit: figure.unit,
+        reversed: false,
         mark: None,
     };
     save(path, &sheet(&[picture], 1, false).canvas)
