@@ -121,7 +121,8 @@ impl Correlation {
             return f64::NAN;
         }
         let (sin, cos) = angle.sin_cos();
-        let step = self.pitch[0].min(self.pitch[1]);
+        // To the next sample along x or y, whichever comes first.
+        let step = 1.0 / (cos.abs() / self.pitch[0]).max(sin.abs() / self.pitch[1]);
         let target = level * self.variance();
         let above = |distance: f64| {
             self.between([distance * cos / self.pitch[0], distance * sin / self.pitch[1]]).map(|r| r - target)
@@ -143,18 +144,14 @@ impl Correlation {
     /// and of slowest decay. Each is NaN if it lies beyond the lags: the first if R falls to the level nowhere, the
     /// second if there is a direction in which it does not.
     pub fn decay_lengths(&self, level: f64) -> [Metre; 2] {
-        // So many directions that on the longest lag they are a sample apart.
-        let reach = (0..2).map(|axis| self.longest()[axis] as f64 * self.pitch[axis]).fold(0.0, f64::max);
-        let directions = (std::f64::consts::PI * reach / self.pitch[0].min(self.pitch[1])).ceil() as usize;
-        // An even number, so that both axes are among them.
-        let directions = directions.next_multiple_of(2);
-        let (mut fastest, mut slowest) = (f64::NAN, f64::NEG_INFINITY);
-        for k in 0..directions {
-            let length = self.decay_length(std::f64::consts::PI * k as f64 / directions as f64, level);
-            fastest = length.min(fastest);
-            slowest = if length.is_nan() || slowest.is_nan() { f64::NAN } else { length.max(slowest) };
-        }
-        [fastest, if slowest.is_finite() { slowest } else { f64::NAN }]
+        // So many directions that on the longest lag they are about a sample apart, and both axes among them.
+        let [mx, my] = self.longest();
+        let directions = ((std::f64::consts::PI * mx.max(my) as f64) as usize).next_multiple_of(2).max(2);
+        let angle = |k: usize| std::f64::consts::PI * k as f64 / directions as f64;
+        let lengths: Vec<_> = (0..directions).map(|k| self.decay_length(angle(k), level)).collect();
+        let fastest = lengths.iter().copied().fold(f64::NAN, f64::min);
+        let slowest = lengths.iter().copied().fold(f64::NAN, f64::max);
+        [fastest, if lengths.iter().any(|length| length.is_nan()) { f64::NAN } else { slowest }]
     }
 
     /// Number of samples to the longest lag along x and y: the entry of lag 0.
@@ -335,25 +332,34 @@ mod tests {
 
     #[test]
     fn a_gaussian_decays_to_a_fifth_at_its_length_times_the_root_of_ln_5() {
-        // R = exp(−(x/βx)² − (y/βy)²), turned by 30°.
-        let lengths = |pitch: f64| {
+        // R = exp(−(ξ/3)² − η²), ξ and η turned by 30°: in the direction φ from ξ, (cos²φ/9 + sin²φ)^(−1/2) √ln 5.
+        let correlation = |pitch: f64| {
             let (sin, cos) = FRAC_PI_6.sin_cos();
-            let r = |x: f64, y: f64| {
-                (-((x * cos + y * sin) / 3.0).powi(2) - ((y * cos - x * sin) / 1.0).powi(2)).exp()
-            };
-            let longest = [(6.0 / pitch) as usize, (5.0 / pitch) as usize];
-            let correlation = given(longest, [pitch, 1.25 * pitch], r);
-            let [fastest, slowest] = correlation.decay_lengths(0.2);
-            let across = correlation.decay_length(FRAC_PI_6 + FRAC_PI_2, 0.2);
-            assert_relative_eq!(across, fastest, max_relative = 1e-3);
-            let root = 5f64.ln().sqrt();
-            [(fastest / root - 1.0).abs(), (slowest / (3.0 * root) - 1.0).abs()]
+            let r =
+                |x: f64, y: f64| (-((x * cos + y * sin) / 3.0).powi(2) - (y * cos - x * sin).powi(2)).exp();
+            given([(6.0 / pitch) as usize, (5.0 / pitch) as usize], [pitch, 1.25 * pitch], r)
         };
-        let [coarse, fine] = [lengths(0.25), lengths(0.0625)];
-        for (coarse, fine) in coarse.iter().zip(fine) {
-            let order = (coarse / fine).log2() / 2.0;
-            // Cubic convolution is of third order, directions a sample apart find an extremum to the second.
-            assert!(1.9 < order && fine < 1e-4, "error {coarse:e} → {fine:e} is order {order:.2}");
+        let root = 5f64.ln().sqrt();
+        let error = |pitch: f64| {
+            let correlation = correlation(pitch);
+            let errors = (0..40).map(|k| {
+                let angle = std::f64::consts::PI * f64::from(k) / 40.0;
+                let (sin, cos) = (angle - FRAC_PI_6).sin_cos();
+                let exact = root / (cos / 3.0).hypot(sin);
+                (correlation.decay_length(angle, 0.2) / exact - 1.0).abs()
+            });
+            errors.fold(0.0, f64::max)
+        };
+        let (coarse, fine) = (error(0.25), error(0.125));
+        let order = (coarse / fine).log2();
+        assert!(2.7 < order && fine < 1e-3, "error {coarse:e} → {fine:e} is order {order:.2}");
+        // The extrema over directions that are π/n apart: up to half of that beside them, where the squared length
+        // differs by (3² − 1) (π/2n)².
+        for pitch in [0.25, 0.125] {
+            let [fastest, slowest] = correlation(pitch).decay_lengths(0.2);
+            let beside = 0.5 * 8.0 * (0.5 * pitch / 6.0).powi(2);
+            assert_relative_eq!(fastest, root, max_relative = beside + error(pitch));
+            assert_relative_eq!(slowest, 3.0 * root, max_relative = beside + error(pitch));
         }
     }
 

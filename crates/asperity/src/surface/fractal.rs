@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::error::{Result, check};
+use crate::surface::moments::mean_square;
 use crate::surface::{Axis, SpectralPoint, Topography};
 use crate::units::{Metre, RadianPerMetre, SquareMetre};
 
@@ -16,7 +17,8 @@ use crate::units::{Metre, RadianPerMetre, SquareMetre};
 pub struct SelfAffinity {
     /// Hurst exponent H; a surface that is self-affine has 0 < H < 1.
     pub hurst: f64,
-    /// Standard error of H, from the scatter of the points about the law.
+    /// Standard error of H, from the scatter of the points about the law, which need not be the same for all: those
+    /// of few waves scatter more. MacKinnon & White, J. Econometrics 29, 305 (1985), HC3.
     pub hurst_error: f64,
     /// First and last abscissa fitted: wave numbers in rad/m, or lags in metres.
     pub range: [f64; 2],
@@ -49,17 +51,20 @@ impl SelfAffinity {
         let mut best: Option<Line> = None;
         for first in 0..points.len() {
             for last in first + 2..points.len() {
+                let length = points[last].0 - points[first].0;
+                if best.as_ref().is_some_and(|best| length <= best.length()) {
+                    continue;
+                }
                 let line = Line::through(&points[first..=last]);
-                let longer = best.as_ref().is_none_or(|best| best.length() < line.length());
                 let residuals = points[first..=last].iter().map(|point| line.residual(*point).abs());
-                if longer && residuals.zip(&tolerances[first..]).all(|(residual, bound)| residual <= *bound) {
+                if residuals.zip(&tolerances[first..]).all(|(residual, bound)| residual <= *bound) {
                     best = Some(line);
                 }
             }
         }
         let found = best.as_ref().map_or(0, |line| line.points) as f64;
         check("points on a power law", found, best.is_some(), "at least three in a row")?;
-        Ok(best.map(|line| Self::of_densities(&line)).expect("checked above"))
+        Ok(Self::of_densities(&best.expect("checked")))
     }
 
     /// From the mean square differences of height ([`Topography::height_differences`]) whose lags lie within `range`.
@@ -105,15 +110,15 @@ impl Topography {
             .take_while(|lag| 2 * lag <= self.grid().shape[axis])
             .collect();
         lags.dedup();
-        let mean_square = |lag: usize| {
-            let along = ndarray::Axis(axis);
-            let first = self.heights().slice_axis(along, (..self.grid().shape[axis] - lag).into());
-            let second = self.heights().slice_axis(along, (lag..).into());
-            let differences = first.iter().zip(&second).map(|(a, b)| b - a).filter(|d| !d.is_nan());
-            let (sum, count) = differences.fold((0.0, 0usize), |(sum, n), d| (sum + d * d, n + 1));
-            (count > 0).then(|| (lag as f64 * self.grid().pitch[axis], sum / count as f64))
+        let n = self.grid().shape[axis];
+        let samples =
+            |range: std::ops::Range<usize>| self.heights().slice_axis(ndarray::Axis(axis), range.into());
+        let differences = |lag: usize| {
+            let (here, there) = (samples(0..n - lag), samples(lag..n));
+            mean_square(here.iter().zip(&there).map(|(a, b)| b - a))
         };
-        lags.into_iter().filter_map(mean_square).collect()
+        let points = lags.into_iter().map(|lag| (lag as f64 * self.grid().pitch[axis], differences(lag)));
+        points.filter(|(_, square)| !square.is_nan()).collect()
     }
 }
 
@@ -152,8 +157,9 @@ impl Line {
             ends: [points[0].0, points[points.len() - 1].0],
             points: points.len(),
         };
-        let scatter: f64 = points.iter().map(|point| line.residual(*point).powi(2)).sum();
-        line.slope_error = (scatter / (count - 2.0) / square).sqrt();
+        let share = |(s, _): &(f64, f64)| 1.0 / count + (s - x).powi(2) / square;
+        let scatter = |point: &(f64, f64)| (point.0 - x) * line.residual(*point) / (1.0 - share(point));
+        line.slope_error = points.iter().map(|point| scatter(point).powi(2)).sum::<f64>().sqrt() / square;
         line
     }
 

@@ -13,8 +13,9 @@ use crate::units::{Metre, SquareMetre};
 /// of memory. A sample on the rim or beside an undefined one is not judged, nor a plateau that has such a sample; the
 /// area that the density refers to is that of the samples judged.
 ///
-/// On a sampled surface some summits are missed and summits of the noise are found: a wave needs some ten samples.
-/// Greenwood, Proc. R. Soc. A 393, 133 (1984).
+/// What is a summit depends on the pitch: on a sampled surface some are missed, and those of the noise are found
+/// (Greenwood, Proc. R. Soc. A 393, 133, 1984). With eight samples to the shortest wave of an isotropic Gaussian surface
+/// the density is right to 1 % and the radius 5 % too large, with twelve 2 %.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summits {
     /// The summits, in the order of memory.

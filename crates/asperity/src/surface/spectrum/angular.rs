@@ -10,7 +10,7 @@ impl Spectrum {
     ///
     /// f(θ) = 2 ∫ C(q cos θ, q sin θ) q dq/(2π)²,  0 < q ≤ [`Spectrum::nyquist`]
     ///
-    /// (the 2 for q and −q), at `directions` angles θ = kπ/`directions` from the x axis towards the y axis, each the
+    /// (the 2 for q and −q), at so many `directions`, at least one, θ = kπ/`directions` from the x axis towards the y axis, each the
     /// mean over the sector around it; so the sum times π/`directions` is the variance of the waves in the circle. The
     /// lay is at right angles to the wave vector. ISO 25178-2, angular spectrum, but for the factor.
     ///
@@ -18,6 +18,7 @@ impl Spectrum {
     /// plane of wave vectors, and its power is spread over the directions that the cell covers, evenly enough for
     /// white noise to have no direction.
     pub fn angular(&self, directions: usize) -> Vec<SquareMetre> {
+        let directions = directions.max(1);
         let sector = PI / directions as f64;
         let [lx, ly] = self.grid.extent();
         let cell = TAU / (lx * ly).sqrt();

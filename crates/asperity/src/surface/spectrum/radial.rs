@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::{SpectralPoint, Spectrum};
+use crate::grid::Grid;
 
 /// How wave numbers are grouped for a mean over all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bins {
-    /// Rings of one step, 2π over the longer side of the topography.
+    /// Rings of one step, 2π over the longer side of the topography (of a line, over its length).
     Linear,
     /// Rings of one ratio, so many for a factor of ten; at least one is used.
     Logarithmic {
@@ -26,7 +27,9 @@ impl Spectrum {
     /// any are left out, and so is q = 0. Of a single line it is the spectrum along it.
     /// Jacobs, Junge & Pastewka (2017), as for [`Spectrum`].
     pub fn radial(&self, bins: Bins) -> Vec<SpectralPoint> {
-        let step = TAU / self.grid.extent().into_iter().fold(0.0, f64::max);
+        let Grid { shape, .. } = self.grid;
+        let several = (0..2).filter(|&axis| shape[axis] > 1);
+        let step = TAU / several.map(|axis| self.grid.extent()[axis]).fold(0.0, f64::max);
         // A wave on the limit counts, whatever the round-off.
         let limit = self.nyquist() * (1.0 + 1e-9);
         let ring = |logarithm: f64| match bins {
@@ -62,7 +65,6 @@ mod tests {
 
     use super::super::{Window, tests::noise};
     use super::*;
-    use crate::grid::Grid;
     use crate::surface::{Amplitude, Axis, SelfAffine};
 
     #[test]
@@ -120,5 +122,6 @@ mod tests {
             // C is per width of the line, here one cell.
             assert_relative_eq!(radial.density / 3.0, along.density, max_relative = 1e-12);
         }
+        assert!(Spectrum::of(&noise([1, 1], [0.5, 3.0], 2), Window::None).radial(Bins::Linear).is_empty());
     }
 }
