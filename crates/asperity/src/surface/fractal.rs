@@ -39,7 +39,8 @@ impl SelfAffinity {
 
     /// From the longest range of wave numbers on which no point is off the fitted law by more than a tenth and three
     /// standard errors √(2/waves), in the logarithm: without roll-off and cut-off, where there are any. Points of fewer
-    /// than a hundred waves, which would fit any law, are left out.
+    /// than a hundred waves, which would fit any law, are left out. On a measured surface the range may be one in which
+    /// the instrument sets the law: an H beyond 0 … 1 tells.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if there is no such range of three points.
