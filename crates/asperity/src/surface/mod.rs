@@ -3,14 +3,26 @@
 //! A topography is given with the material's side up, as it is measured. Only [`Topography::underside`] turns
 //! one over, when it is mounted as the upper body.
 
+mod correlation;
 mod form;
+mod fractal;
 mod generate;
+mod moments;
 mod parameters;
 mod process;
+mod spatial;
+mod spectrum;
+mod summits;
 mod topography;
 
+pub use correlation::Correlation;
 pub use form::{Axis, Form};
+pub use fractal::SelfAffinity;
 pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
+pub use moments::SpectralMoments;
 pub use parameters::Parameters;
 pub use process::{Fill, Level};
+pub use spatial::Spatial;
+pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};
+pub use summits::{GreenwoodWilliamson, Summit, Summits};
 pub use topography::Topography;

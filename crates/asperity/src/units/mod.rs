@@ -10,6 +10,8 @@ pub type Metre = f64;
 pub type SquareMetre = f64;
 /// Volume in cubic metres.
 pub type CubicMetre = f64;
+/// Wave number 2π/wavelength in radians per metre.
+pub type RadianPerMetre = f64;
 /// Pressure, modulus or hardness in pascals.
 pub type Pascal = f64;
 /// Force in newtons.

@@ -1,0 +1,204 @@
+//! Spatial parameters of ISO 25178-2.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use crate::surface::{Correlation, Spectrum, Topography, Window};
+use crate::units::Metre;
+
+/// Value to which the autocorrelation decays for [`Spatial::sal`] and [`Spatial::str`]: the default of ISO 25178-3.
+const DECAY: f64 = 0.2;
+
+/// Directions of the angular spectrum that [`Spatial::std`] is chosen from: half a degree apart.
+const DIRECTIONS: usize = 360;
+
+/// Spatial parameters of ISO 25178-2 (2021), heights taken from their mean.
+///
+/// No filter is applied: level and filter first. A parameter without meaning is NaN.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Spatial {
+    /// Autocorrelation length: the lag at which the autocorrelation function decays fastest to 0.2.
+    ///
+    /// By [`Correlation`], of lags up to half the topography, around undefined samples. NaN if it does not decay so far
+    /// in any direction.
+    #[serde(rename = "Sal")]
+    pub sal: Metre,
+    /// Texture aspect ratio, 0 to 1: the lag of the fastest decay to 0.2 over that of the slowest, 1 for an isotropic
+    /// surface.
+    ///
+    /// NaN if there is a direction in which the autocorrelation stays above 0.2 up to half the topography: the lay is
+    /// then too long to be measured.
+    #[serde(rename = "Str")]
+    pub str: f64,
+    /// Texture direction, the lay: the angle from the x axis towards the y axis in degrees, 0 ≤ Std < 180, to half a
+    /// degree; at right angles to the wave vectors of the highest power in the angular spectrum.
+    ///
+    /// By [`Spectrum::angular`] under Hann's window. Of no meaning for an isotropic surface, whose Str is near 1. NaN
+    /// where all heights are equal, and for a single line of samples.
+    #[serde(rename = "Std")]
+    pub std: f64,
+    /// Dominant spatial wavelength: that of the largest absolute value of the Fourier transform.
+    ///
+    /// By the spectrum under Hann's window, and between its wave numbers as for a single sinusoid (Grandke, IEEE Trans.
+    /// Instrum. Meas. 32, 350, 1983). NaN where all heights are equal.
+    #[serde(rename = "Ssw")]
+    pub ssw: Metre,
+}
+
+impl Spatial {
+    /// The spatial parameters of `topography`.
+    pub fn of(topography: &Topography) -> Self {
+        let [fastest, slowest] = Correlation::of(topography).decay_lengths(DECAY);
+        let spectrum = Spectrum::of(topography, Window::Hann);
+        let several = topography.grid().shape.iter().all(|n| *n > 1);
+        Self {
+            sal: fastest,
+            str: fastest / slowest,
+            std: if several { lay(&spectrum) } else { f64::NAN },
+            ssw: dominant_wavelength(&spectrum),
+        }
+    }
+}
+
+impl Topography {
+    /// The spatial parameters of ISO 25178-2.
+    pub fn spatial(&self) -> Spatial {
+        Spatial::of(self)
+    }
+}
+
+/// Direction at right angles to the wave vectors of the highest power, in degrees.
+fn lay(spectrum: &Spectrum) -> f64 {
+    let angular = spectrum.angular(DIRECTIONS);
+    let highest =
+        (0..DIRECTIONS).filter(|k| angular[*k] > 0.0).max_by(|a, b| angular[*a].total_cmp(&angular[*b]));
+    highest.map_or(f64::NAN, |k| (k as f64 * 180.0 / DIRECTIONS as f64 + 90.0).rem_euclid(180.0))
+}
+
+/// Wavelength of the highest density of a spectrum under Hann's window.
+fn dominant_wavelength(spectrum: &Spectrum) -> Metre {
+    let highest = spectrum
+        .density()
+        .indexed_iter()
+        .filter(|(at, density)| *at != (0, 0) && **density > 0.0)
+        .max_by(|a, b| a.1.total_cmp(b.1));
+    let Some(((k, l), _)) = highest else { return f64::NAN };
+    let (at, step) = (spectrum.wave_vector([k, l]), spectrum.wave_vector([1, 1]));
+    let q = [0, 1].map(|axis| at[axis] + offset(spectrum, [k, l], axis) * step[axis]);
+    TAU / q[0].hypot(q[1])
+}
+
+/// Distance of a sinusoid's wave number from that of the highest entry along `axis`, in steps, −½ to ½.
+///
+/// Under Hann's window its amplitude at the larger neighbour is (1 + δ)/(2 − δ) of the highest.
+fn offset(spectrum: &Spectrum, highest: [usize; 2], axis: usize) -> f64 {
+    let at = |step: isize| {
+        let mut wave = highest.map(|index| index as isize);
+        wave[axis] += step;
+        spectrum.at(wave)
+    };
+    let (before, after) = (at(-1), at(1));
+    let ratio = (before.max(after) / at(0)).sqrt();
+    let distance = ((2.0 * ratio - 1.0) / (1.0 + ratio)).clamp(0.0, 0.5);
+    if before > after { -distance } else { distance }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::grid::{Field, Grid};
+    use crate::surface::{Autocorrelation, Form};
+
+    fn wave(shape: [usize; 2], pitch: [f64; 2], q: [f64; 2]) -> Topography {
+        let grid = Grid::new(shape, pitch).unwrap();
+        let heights = Field::from_shape_fn(shape, |(ix, iy)| {
+            2.0 + (q[0] * grid.centre(0, ix) + q[1] * grid.centre(1, iy) + 0.3).cos()
+        });
+        Topography::new(grid, heights).unwrap()
+    }
+
+    #[test]
+    fn an_exponential_surface_decays_as_it_was_made() {
+        // R = 10^(−√((x/βx)² + (y/βy)²)): Sal = βx log 5 where βx is the shorter, Str = βx/βy.
+        let (beta, shape) = ([8.0, 16.0], [512, 512]);
+        let method = Autocorrelation { sq: 1.0, correlation_length: beta };
+        let grid = Grid::new(shape, [1.0; 2]).unwrap();
+        let seeds = 4;
+        let (mut sal, mut aspect) = (0.0, 0.0);
+        for seed in 0..seeds {
+            let parameters = method.generate(&grid, seed).unwrap().spatial();
+            sal += parameters.sal / seeds as f64;
+            aspect += parameters.str / seeds as f64;
+        }
+        // R scatters by 1/√spots, and by its mean, which is set to 0; its slope at 0.2 is 0.2 ln 5 per length of decay.
+        let spots = 512.0 * 512.0 / (TAU * beta[0] * beta[1] / 4.605f64.powi(2));
+        let error = (4.0 / (seeds as f64 * spots).sqrt() + 2.0 / spots) / (0.2 * 5f64.ln());
+        assert_relative_eq!(sal, 8.0 * 5f64.log10(), max_relative = error);
+        assert_relative_eq!(aspect, 0.5, max_relative = 2f64.sqrt() * error);
+    }
+
+    #[test]
+    fn holes_change_them_by_their_scatter_only() {
+        let method = Autocorrelation { sq: 1.0, correlation_length: [16.0, 16.0] };
+        let whole = method.generate(&Grid::new([256, 256], [1.0; 2]).unwrap(), 3).unwrap();
+        let mut holed = whole.clone();
+        let heights = holed.heights_mut().iter_mut().enumerate();
+        heights
+            .filter(|(n, _)| (n.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40).is_multiple_of(5))
+            .for_each(|(_, z)| *z = f64::NAN);
+        let (whole, holed) = (whole.spatial(), holed.spatial());
+        // R differs by the scatter of the pairs that are missing, √(2 · 0.36/0.64/n), over its slope.
+        let error = 4.0 * (2.0 * 0.36 / 0.64 / 65536.0f64).sqrt() / (0.2 * 5f64.ln());
+        assert_relative_eq!(holed.sal, whole.sal, max_relative = error);
+        assert_relative_eq!(holed.str, whole.str, max_relative = 2.0 * error);
+    }
+
+    #[test]
+    fn a_turned_and_scaled_wave_keeps_its_wavelength_and_shows_its_lay() {
+        for degrees in [0.0f64, 20.0, 75.0, 90.0, 133.0, 170.0] {
+            // The lay at right angles to the wave vector, both from x towards y.
+            let (sin, cos) = (degrees - 90.0).to_radians().sin_cos();
+            let wavelength = 7.3;
+            let q = TAU / wavelength;
+            let found = wave([200, 150], [0.5, 1.0], [q * cos, q * sin]).spatial();
+            let distance = (found.std - degrees + 90.0).rem_euclid(180.0) - 90.0;
+            // Half a step of the directions, and half a step 2π/L of the wave number over q.
+            let step = 0.5 * (TAU / 100.0 / q).to_degrees();
+            assert!(distance.abs() <= 0.25 + step, "{}°, not {degrees}°", found.std);
+            // Grandke's formula leaves out the wave −q: (qL/2π)⁻² of a step, here and 1/14 of a wave number.
+            assert_relative_eq!(found.ssw, wavelength, max_relative = (wavelength / 100.0f64).powi(2));
+        }
+    }
+
+    #[test]
+    fn grooves_longer_than_the_map_have_no_aspect_ratio() {
+        let found = wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]).spatial();
+        // R = cos(2πx/λ)/2: 0.2 of R(0) at λ arccos(0.2)/2π. Its estimate is off by the part of a wave at the ends, λ/πL.
+        assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
+        assert!(found.str.is_nan());
+        assert_eq!(found.std, 90.0);
+    }
+
+    #[test]
+    fn what_has_no_meaning_is_not_a_number() {
+        let grid = Grid::new([16, 16], [1.0; 2]).unwrap();
+        let level = Topography::new(grid, Field::from_elem([16, 16], 0.1)).unwrap();
+        let nothing = Topography::new(grid, Field::from_elem([16, 16], f64::NAN)).unwrap();
+        for topography in [Form::Flat.on(&grid).unwrap(), level, nothing] {
+            let Spatial { sal, str, std, ssw } = topography.spatial();
+            assert!([sal, str, std, ssw].iter().all(|value| value.is_nan()), "{sal} {str} {std} {ssw}");
+        }
+        let line = wave([200, 1], [0.5, 1.0], [TAU / 10.0, 0.0]).spatial();
+        assert!(line.sal > 0.0 && line.str.is_nan() && line.std.is_nan());
+        assert_relative_eq!(line.ssw, 10.0, max_relative = 0.01);
+    }
+
+    #[test]
+    fn json_carries_the_names_of_the_standard() {
+        let json = serde_json::to_value(wave([32, 32], [1.0; 2], [0.5, 0.7]).spatial()).unwrap();
+        assert!(["Sal", "Str", "Std", "Ssw"].iter().all(|name| json.get(name).is_some()), "{json}");
+    }
+}
