@@ -7,10 +7,15 @@ mod form;
 mod generate;
 mod parameters;
 mod process;
+mod profile;
 mod topography;
 
 pub use form::{Axis, Form};
 pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
-pub use parameters::Parameters;
+pub use parameters::{
+    BearingCurve, Classes, Core, Distribution, FunctionalParameters, HeightParameters, HybridParameters,
+    Parameter, Parameters, Slope, Unit,
+};
 pub use process::{Fill, Level};
+pub use profile::{Profile, ProfileParameters};
 pub use topography::Topography;
