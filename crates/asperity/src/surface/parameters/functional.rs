@@ -2,13 +2,14 @@
 
 use super::bearing::BearingCurve;
 use super::row::family;
+use super::stratified::Core;
 use crate::surface::Topography;
 
 family! {
     /// Functional parameters of ISO 25178-2:2021, 4.5, from the [`BearingCurve`] of the defined samples, at the
     /// ratios that ISO 25178-3 takes where nothing else is said.
     ///
-    /// NaN without a defined sample; those of the core also where [`BearingCurve::core`] says so.
+    /// NaN without a defined sample; those of the core also where there is none.
     FunctionalParameters: "functional" {
         /// Core height.
         ///
@@ -58,24 +59,23 @@ const PITS: f64 = 0.8;
 impl FunctionalParameters {
     /// The functional parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
-        topography
-            .bearing_curve()
-            .map_or_else(|_| Self::from_each(|_| f64::NAN), |curve| Self::of_curve(&curve))
+        topography.bearing_curve().map_or_else(|_| Self::undefined(), |curve| Self::of_curve(&curve))
     }
 
     /// The functional parameters of a curve.
     pub fn of_curve(curve: &BearingCurve) -> Self {
         let core = curve.core();
+        let core = |pick: fn(&Core) -> f64| core.as_ref().map_or(f64::NAN, pick);
         Self {
-            sk: core.k,
-            spk: core.pk,
-            svk: core.vk,
-            smrk1: core.mrk1,
-            smrk2: core.mrk2,
-            spkx: core.pkx,
-            svkx: core.vkx,
-            sak1: core.ak1,
-            sak2: core.ak2,
+            sk: core(|core| core.k),
+            spk: core(|core| core.pk),
+            svk: core(|core| core.vk),
+            smrk1: core(|core| core.mrk1),
+            smrk2: core(|core| core.mrk2),
+            spkx: core(|core| core.pkx),
+            svkx: core(|core| core.vkx),
+            sak1: core(|core| core.ak1),
+            sak2: core(|core| core.ak2),
             smc: curve.height(0.1),
             sxp: curve.height(0.025) - curve.height(0.5),
             vmp: curve.material_volume(PEAKS),

@@ -7,14 +7,16 @@ mod height;
 mod hybrid;
 pub(crate) mod row;
 pub(crate) mod slope;
+mod stratified;
 
-pub use bearing::{BearingCurve, Core};
+pub use bearing::BearingCurve;
 pub use distribution::{Classes, Distribution, Slope};
 pub use functional::FunctionalParameters;
 pub use height::HeightParameters;
 pub use hybrid::HybridParameters;
 pub(crate) use hybrid::area_excess;
 pub use row::{Parameter, Unit};
+pub use stratified::Core;
 
 use serde::Serialize;
 

@@ -37,9 +37,9 @@ mod tests {
     #[test]
     fn a_wave_at_the_cutoff_keeps_half_of_its_amplitude_and_others_as_the_filter_says() {
         let n = 1200;
-        for (wavelength, cutoff) in [(80.0, 80.0), (160.0, 80.0), (50.0, 80.0), (80.0, 30.0)] {
+        for (wavelength, cutoff) in [(80.0f64, 80.0f64), (160.0, 80.0), (50.0, 80.0), (80.0, 30.0)] {
             let heights: Vec<f64> = (0..n).map(|i| (TAU * i as f64 / wavelength).sin()).collect();
-            let left = 2f64.powf(-(cutoff / wavelength as f64).powi(2));
+            let left = 2f64.powf(-(cutoff / wavelength).powi(2));
             let smooth = smooth(&heights, cutoff);
             let error = |i: usize| (smooth[i] - left * heights[i]).abs();
             // Beyond one cut-off from the ends; the weights cut off are erfc(√π/α) = 9.5e-8 of all.

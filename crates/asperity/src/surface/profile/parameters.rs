@@ -4,7 +4,7 @@ use super::Profile;
 use super::elements::{Discrimination, elements};
 use crate::surface::parameters::row::family;
 use crate::surface::parameters::slope::{REACH, derivative};
-use crate::surface::parameters::{HeightParameters, area_excess};
+use crate::surface::parameters::{Core, HeightParameters, area_excess};
 
 family! {
     /// Profile parameters of ISO 21920-2:2021 over the defined samples, heights taken from their mean.
@@ -91,8 +91,8 @@ impl Profile {
         let Sections { peak, pit, samples } = self.sections();
         let Slopes { square, absolute, steepest, excess } = self.slopes();
         let [spacing, element_height] = self.mean_element(peak, pit, samples);
-        let core = self.bearing_curve().map(|curve| curve.core());
-        let core = |pick: fn(&crate::surface::Core) -> f64| core.as_ref().map_or(f64::NAN, pick);
+        let core = self.bearing_curve().ok().and_then(|curve| curve.core());
+        let core = |pick: fn(&Core) -> f64| core.as_ref().map_or(f64::NAN, pick);
         ProfileParameters {
             ra: height.sa,
             rq: height.sq,
