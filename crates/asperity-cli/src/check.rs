@@ -43,7 +43,7 @@ fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
 }
 
 fn body(body: &Prepared) -> String {
-    let (grid, parameters) = (body.topography.grid(), body.topography.parameters());
+    let grid = body.topography.grid();
     let length = |value| units::format(value, Dimension::Length);
     let ([nx, ny], [dx, dy], [lx, ly]) = (grid.shape, grid.pitch, grid.extent());
     let mut text = format!(
@@ -52,8 +52,8 @@ fn body(body: &Prepared) -> String {
         length(dy),
         length(lx),
         length(ly),
-        length(parameters.sq),
-        parameters.sdq
+        length(body.topography.sq()),
+        body.topography.sdq()
     );
     if let Some(origin) = &body.origin {
         let [sx, sy] = origin.shape;

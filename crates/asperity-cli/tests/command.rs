@@ -72,7 +72,9 @@ fn a_surface_survives_every_format_that_holds_it() {
     assert!((info["parameters"]["Sq"].as_f64().unwrap() / 0.2e-6 - 1.0).abs() < 1e-9);
 
     let text = ok(&at("surface info z.x3p"));
-    for part in ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "Sq         0.2 µm", "Sdq"] {
+    for part in
+        ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "Sq         0.2 µm", "Sdq", "Sdr", "Smrk1", "Vvv"]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -88,7 +90,11 @@ fn conversion_prepares_in_its_order() {
         serde_json::from_str(&ok(&at(&format!("surface info {name} --json")))).unwrap()
     };
     assert_eq!(info("z.txt")["undefined"], 1);
-    assert_eq!((&info("z.txt")["pitch"], &info("z.txt")["parameters"]["Sdq"]), (&Value::Null, &Value::Null));
+    let bare = info("z.txt");
+    for (value, given) in [("Sdq", false), ("Sdr", false), ("Sq", true), ("Sk", true)] {
+        assert_eq!(bare["parameters"][value].is_number(), given, "{value}");
+    }
+    assert_eq!(bare["pitch"], Value::Null);
     ok(&at("surface convert z.txt z.x3p --pitch 1um --fill nearest --level plane --resample 2x2"));
     let after = info("z.x3p");
     assert_eq!((&after["shape"], &after["undefined"]), (&serde_json::json!([2, 2]), &0.into()));

@@ -59,7 +59,7 @@ fn main() -> asperity::Result<()> {
     let lower = roughness.generate(&grid, 1)?;
     let upper = roughness.generate(&grid, 2)?.underside();
     // Independent surfaces: the slopes add up as their squares.
-    let slope = lower.parameters().sdq.hypot(upper.parameters().sdq);
+    let slope = lower.sdq().hypot(upper.sdq());
     let pair = Pair::new(lower, upper, [&steel, &steel])?;
 
     println!("  p̄ (MPa)     A/A₀      κ   convolutions");

@@ -17,7 +17,7 @@ pub(super) fn generate(arguments: Generate) -> Outcome {
     };
     output.write(&topography, Some(grid.pitch))?;
     let [nx, ny] = grid.shape;
-    let sq = units::format(topography.parameters().sq, Dimension::Length);
+    let sq = units::format(topography.sq(), Dimension::Length);
     note(&format!("{}: {nx} × {ny} cells, Sq {sq}", target.out.path.display()));
     Ok(())
 }

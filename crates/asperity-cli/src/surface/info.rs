@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use asperity::surface::Parameters;
+use asperity::surface::{HybridParameters, Parameters};
 use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ pub(super) fn info(arguments: &Info) -> Outcome {
     let mut parameters = file.topography.parameters();
     if file.pitch.is_none() {
         // A slope needs lengths along the surface.
-        parameters.sdq = f64::NAN;
+        parameters.hybrid = HybridParameters::undefined();
     }
     if arguments.json {
         print(&format!("{:#}\n", json(&file, &parameters)));
@@ -47,7 +47,6 @@ fn text(file: &Read, parameters: &Parameters) -> String {
         true => "–".to_owned(),
         false => units::format(value, Dimension::Length),
     };
-    let number = |value: f64| if value.is_nan() { "–".to_owned() } else { format!("{value:.4}") };
     let both = |[x, y]: [f64; 2]| format!("{} × {}", length(x), length(y));
     let grid = file.topography.grid();
     let none = || "– (the file has none: --pitch)".to_owned();
@@ -64,15 +63,9 @@ fn text(file: &Read, parameters: &Parameters) -> String {
         ("min", length(low), ""),
         ("max", length(high), ""),
         ("mean", length(file.topography.mean()), ""),
-        ("Sa", length(parameters.sa), "arithmetical mean height"),
-        ("Sq", length(parameters.sq), "rms height"),
-        ("Ssk", number(parameters.ssk), "skewness"),
-        ("Sku", number(parameters.sku), "kurtosis"),
-        ("Sz", length(parameters.sz), "maximum height"),
-        ("Sp", length(parameters.sp), "highest peak"),
-        ("Sv", length(parameters.sv), "deepest pit"),
-        ("Sdq", number(parameters.sdq), "rms slope"),
     ];
+    let parameters = parameters.rows();
+    rows.extend(parameters.iter().map(|row| (row.symbol, row.unit.format(row.value), row.meaning)));
     if file.scan.channels.len() > 1 {
         rows.insert(2, ("channels", file.scan.channels.join(", "), ""));
     }

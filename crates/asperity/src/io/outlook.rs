@@ -8,7 +8,7 @@ use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
 use crate::motion::{Control, Position, Stage, Strategy, memory_together};
 use crate::solver::{self, Coupling, Friction, Rolling, Sliding, Tangential};
-use crate::surface::{Level, Topography};
+use crate::surface::Level;
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
 /// What is known of a computation before it starts.
@@ -73,7 +73,7 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     if let (Some(friction), Some(course)) = (friction, &course) {
         holds(&friction.law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
     }
-    let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.parameters().sdq);
+    let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
     let mut outlook = Outlook {
         modulus: compliances.modulus(),
         dundurs: compliances.dundurs(),
@@ -292,8 +292,7 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
 
 /// A measured surface that stands askew.
 fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
-    let rms = |topography: &Topography| topography.parameters().sq;
-    let (as_is, levelled) = (rms(&body.topography), rms(&body.topography.clone().level(Level::Plane)));
+    let (as_is, levelled) = (body.topography.sq(), body.topography.clone().level(Level::Plane).sq());
     if as_is > 1.5 * levelled {
         warnings.push(format!(
             "the {name} surface is tilted: Sq is {}, without its plane {}; `level = \"plane\"` removes it",

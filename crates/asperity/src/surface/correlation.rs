@@ -264,7 +264,7 @@ mod tests {
                 }
                 assert_relative_eq!(
                     correlation.variance(),
-                    topography.parameters().sq.powi(2),
+                    topography.sq().powi(2),
                     max_relative = 1e-12
                 );
             }

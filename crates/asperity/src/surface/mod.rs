@@ -10,7 +10,7 @@ mod generate;
 mod moments;
 mod parameters;
 mod process;
-mod spatial;
+mod profile;
 mod spectrum;
 mod summits;
 mod topography;
@@ -20,9 +20,12 @@ pub use form::{Axis, Form};
 pub use fractal::SelfAffinity;
 pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
 pub use moments::SpectralMoments;
-pub use parameters::Parameters;
+pub use parameters::{
+    BearingCurve, Classes, Core, Distribution, FunctionalParameters, HeightParameters, HybridParameters,
+    Parameter, Parameters, Slope, SpatialParameters, Unit,
+};
 pub use process::{Fill, Level};
-pub use spatial::Spatial;
+pub use profile::{Profile, ProfileParameters};
 pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};
 pub use summits::{GreenwoodWilliamson, Summit, Summits};
 pub use topography::Topography;

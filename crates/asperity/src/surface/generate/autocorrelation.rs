@@ -68,6 +68,7 @@ impl Autocorrelation {
 mod tests {
     use super::super::noise::tests::covariance;
     use super::*;
+    use crate::surface::HeightParameters;
 
     #[test]
     fn it_falls_to_a_tenth_at_the_correlation_length_of_each_direction() {
@@ -113,7 +114,7 @@ mod tests {
         // Standard errors √6 and √24 per independent spot, 2πβ²/(2 ln 10)² and less for higher powers of R.
         let spots = 512.0 * 512.0 * 4.605f64.powi(2) / (std::f64::consts::TAU * 36.0);
         for seed in 0..4 {
-            let parameters = method.generate(&grid, seed).unwrap().parameters();
+            let parameters = HeightParameters::of(&method.generate(&grid, seed).unwrap());
             assert!(parameters.ssk.abs() < 4.0 * (6.0 / spots).sqrt(), "{}", parameters.ssk);
             assert!((parameters.sku - 3.0).abs() < 4.0 * (24.0 / spots).sqrt(), "{}", parameters.sku);
         }

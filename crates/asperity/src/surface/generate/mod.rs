@@ -85,7 +85,7 @@ mod tests {
         let grid = Grid::new([48, 35], [0.5e-6, 1e-6]).unwrap();
         for generator in generators() {
             let topography = generator.generate(&grid, 3).unwrap();
-            assert_relative_eq!(topography.parameters().sq, 2e-7, max_relative = 1e-12);
+            assert_relative_eq!(topography.sq(), 2e-7, max_relative = 1e-12);
             assert!(topography.mean().abs() < 1e-20, "{generator:?}: {:e}", topography.mean());
         }
     }

@@ -47,7 +47,7 @@ pub enum Amplitude {
     /// Rms height, > 0.
     Sq(Metre),
     /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences
-    /// of [`crate::surface::Parameters::sdq`] find less where waves shorter than about four pitches occur.
+    /// of [`crate::surface::HybridParameters::sdq`] find less where waves shorter than about four pitches occur.
     Sdq(f64),
 }
 
@@ -172,6 +172,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::surface::HeightParameters;
 
     fn surface(shape: [usize; 2], pitch: [f64; 2], method: SelfAffine, seed: u64) -> Topography {
         method.generate(&Grid::new(shape, pitch).unwrap(), seed).unwrap()
@@ -201,8 +202,7 @@ mod tests {
     fn every_shape_gets_its_rms_height() {
         for shape in [[16, 16], [15, 17], [16, 1], [1, 16], [9, 32]] {
             let method = SelfAffine { rolloff: None, shortest: None, ..method() };
-            let parameters = surface(shape, [1.0, 1.0], method, 1).parameters();
-            assert_relative_eq!(parameters.sq, 0.3, max_relative = 1e-12);
+            assert_relative_eq!(surface(shape, [1.0, 1.0], method, 1).sq(), 0.3, max_relative = 1e-12);
         }
     }
 
@@ -223,7 +223,7 @@ mod tests {
         assert_relative_eq!(squared.sqrt() / (128.0 * 128.0), 0.1, max_relative = 1e-12);
         // … and by finite differences, once the shortest wave has 16 cells.
         let fine = surface([512, 512], [0.25, 0.25], method, 2);
-        assert_relative_eq!(fine.parameters().sdq, 0.1, max_relative = 0.02);
+        assert_relative_eq!(fine.sdq(), 0.1, max_relative = 0.02);
     }
 
     #[test]
@@ -240,7 +240,7 @@ mod tests {
     fn heights_are_gaussian_over_seeds() {
         let (seeds, mut skewness, mut kurtosis) = (24, 0.0, 0.0);
         for seed in 0..seeds {
-            let parameters = surface([128, 128], [1.0, 1.0], method(), seed).parameters();
+            let parameters = HeightParameters::of(&surface([128, 128], [1.0, 1.0], method(), seed));
             skewness += parameters.ssk / seeds as f64;
             kurtosis += parameters.sku / seeds as f64;
         }

@@ -114,6 +114,7 @@ fn nearest_in_line(defined: &[bool]) -> Vec<Option<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::HeightParameters;
 
     fn with_holes(
         shape: [usize; 2],
@@ -156,7 +157,7 @@ mod tests {
             |x, y| (3.1 * x + 1.7 * y * y).sin(),
             |i, j| (i * 7 + j * j) % 3 > 0,
         );
-        let range = holed.parameters();
+        let range = HeightParameters::of(&holed);
         let mean = holed.mean();
         let filled = holed.fill(Fill::Harmonic).unwrap();
         assert!(

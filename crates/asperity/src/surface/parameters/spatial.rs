@@ -1,52 +1,47 @@
 //! Spatial parameters of ISO 25178-2.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
+use super::row::family;
 use crate::surface::{Correlation, Spectrum, Topography, Window};
 use crate::units::Metre;
 
-/// Value to which the autocorrelation decays for [`Spatial::sal`] and [`Spatial::str`]: the default of ISO 25178-3.
+/// Value to which the autocorrelation decays for Sal and Str: the default of ISO 25178-3.
 const DECAY: f64 = 0.2;
 
-/// Directions of the angular spectrum that [`Spatial::std`] is chosen from: half a degree apart.
+/// Directions of the angular spectrum that Std is chosen from: half a degree apart.
 const DIRECTIONS: usize = 360;
 
-/// Spatial parameters of ISO 25178-2 (2021), heights taken from their mean.
-///
-/// No filter is applied: level and filter first. A parameter without meaning is NaN.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Spatial {
-    /// Autocorrelation length: the lag at which the autocorrelation function decays fastest to 0.2.
+family! {
+    /// Spatial parameters of ISO 25178-2:2021, 4.3, heights taken from their mean.
     ///
-    /// By [`Correlation`], of lags up to half the topography, around undefined samples. NaN if it does not decay so far
-    /// in any direction.
-    #[serde(rename = "Sal")]
-    pub sal: Metre,
-    /// Texture aspect ratio, 0 to 1: the lag of the fastest decay to 0.2 over that of the slowest, 1 for an isotropic
-    /// surface.
-    ///
-    /// NaN if there is a direction in which the autocorrelation stays above 0.2 up to half the topography: the lay is
-    /// then too long to be measured.
-    #[serde(rename = "Str")]
-    pub str: f64,
-    /// Texture direction, the lay: the angle from the x axis towards the y axis in degrees, 0 ≤ Std < 180, to half a
-    /// degree; at right angles to the wave vectors of the highest power in the angular spectrum.
-    ///
-    /// By [`Spectrum::angular`] under Hann's window. Of no meaning for an isotropic surface, whose Str is near 1. NaN
-    /// where all heights are equal, and for a single line of samples.
-    #[serde(rename = "Std")]
-    pub std: f64,
-    /// Dominant spatial wavelength: that of the largest absolute value of the Fourier transform.
-    ///
-    /// By the spectrum under Hann's window, and between its wave numbers as for a single sinusoid (Grandke, IEEE Trans.
-    /// Instrum. Meas. 32, 350, 1983). NaN where all heights are equal.
-    #[serde(rename = "Ssw")]
-    pub ssw: Metre,
+    /// No filter is applied: level and filter first. A parameter without meaning is NaN.
+    SpatialParameters: "spatial" {
+        /// Autocorrelation length, of the fastest decay to 0.2.
+        ///
+        /// By [`Correlation`], of lags up to half the topography, around undefined samples. NaN if it does not decay so
+        /// far in any direction.
+        sal: Length as "Sal",
+        /// Texture aspect ratio, the fastest decay over the slowest; 1 if isotropic.
+        ///
+        /// NaN if there is a direction in which the autocorrelation stays above 0.2 up to half the topography: the lay
+        /// is then too long to be measured.
+        str: Number as "Str",
+        /// Texture direction, of the lay, from the x axis towards the y axis.
+        ///
+        /// 0 ≤ Std < π, to half a degree, at right angles to the wave vectors of the highest power in
+        /// [`Spectrum::angular`] under Hann's window. Of no meaning for an isotropic surface, whose Str is near 1. NaN
+        /// where all heights are equal, and for a single line of samples.
+        std: Angle as "Std",
+        /// Dominant spatial wavelength, of the largest amplitude in the Fourier transform.
+        ///
+        /// By the spectrum under Hann's window, and between its wave numbers as for a single sinusoid (Grandke, IEEE
+        /// Trans. Instrum. Meas. 32, 350, 1983). NaN where all heights are equal.
+        ssw: Length as "Ssw",
+    }
 }
 
-impl Spatial {
+impl SpatialParameters {
     /// The spatial parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         let [fastest, slowest] = Correlation::of(topography).decay_lengths(DECAY);
@@ -61,19 +56,12 @@ impl Spatial {
     }
 }
 
-impl Topography {
-    /// The spatial parameters of ISO 25178-2.
-    pub fn spatial(&self) -> Spatial {
-        Spatial::of(self)
-    }
-}
-
-/// Direction at right angles to the wave vectors of the highest power, in degrees.
+/// Direction at right angles to the wave vectors of the highest power, in radians.
 fn lay(spectrum: &Spectrum) -> f64 {
     let angular = spectrum.angular(DIRECTIONS);
     let highest =
         (0..DIRECTIONS).filter(|k| angular[*k] > 0.0).max_by(|a, b| angular[*a].total_cmp(&angular[*b]));
-    highest.map_or(f64::NAN, |k| (k as f64 * 180.0 / DIRECTIONS as f64 + 90.0).rem_euclid(180.0))
+    highest.map_or(f64::NAN, |k| (k as f64 * PI / DIRECTIONS as f64 + FRAC_PI_2).rem_euclid(PI))
 }
 
 /// Wavelength of the highest density of a spectrum under Hann's window.
@@ -129,7 +117,7 @@ mod tests {
         let seeds = 4;
         let (mut sal, mut aspect) = (0.0, 0.0);
         for seed in 0..seeds {
-            let parameters = method.generate(&grid, seed).unwrap().spatial();
+            let parameters = SpatialParameters::of(&method.generate(&grid, seed).unwrap());
             sal += parameters.sal / seeds as f64;
             aspect += parameters.str / seeds as f64;
         }
@@ -149,7 +137,7 @@ mod tests {
         heights
             .filter(|(n, _)| (n.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40).is_multiple_of(5))
             .for_each(|(_, z)| *z = f64::NAN);
-        let (whole, holed) = (whole.spatial(), holed.spatial());
+        let (whole, holed) = (SpatialParameters::of(&whole), SpatialParameters::of(&holed));
         // R differs by the scatter of the pairs that are missing, √(2 · 0.36/0.64/n), over its slope.
         let error = 4.0 * (2.0 * 0.36 / 0.64 / 65536.0f64).sqrt() / (0.2 * 5f64.ln());
         assert_relative_eq!(holed.sal, whole.sal, max_relative = error);
@@ -163,11 +151,11 @@ mod tests {
             let (sin, cos) = (degrees - 90.0).to_radians().sin_cos();
             let wavelength = 7.3;
             let q = TAU / wavelength;
-            let found = wave([200, 150], [0.5, 1.0], [q * cos, q * sin]).spatial();
-            let distance = (found.std - degrees + 90.0).rem_euclid(180.0) - 90.0;
+            let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [q * cos, q * sin]));
+            let distance = (found.std.to_degrees() - degrees + 90.0).rem_euclid(180.0) - 90.0;
             // Half a step of the directions, and half a step 2π/L of the wave number over q.
             let step = 0.5 * (TAU / 100.0 / q).to_degrees();
-            assert!(distance.abs() <= 0.25 + step, "{}°, not {degrees}°", found.std);
+            assert!(distance.abs() <= 0.25 + step, "{}°, not {degrees}°", found.std.to_degrees());
             // Grandke's formula leaves out the wave −q: (qL/2π)⁻² of a step, here and 1/14 of a wave number.
             assert_relative_eq!(found.ssw, wavelength, max_relative = (wavelength / 100.0f64).powi(2));
         }
@@ -175,11 +163,11 @@ mod tests {
 
     #[test]
     fn grooves_longer_than_the_map_have_no_aspect_ratio() {
-        let found = wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]).spatial();
+        let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]));
         // R = cos(2πx/λ)/2: 0.2 of R(0) at λ arccos(0.2)/2π. Its estimate is off by the part of a wave at the ends, λ/πL.
         assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
         assert!(found.str.is_nan());
-        assert_eq!(found.std, 90.0);
+        assert_eq!(found.std, FRAC_PI_2);
     }
 
     #[test]
@@ -188,17 +176,17 @@ mod tests {
         let level = Topography::new(grid, Field::from_elem([16, 16], 0.1)).unwrap();
         let nothing = Topography::new(grid, Field::from_elem([16, 16], f64::NAN)).unwrap();
         for topography in [Form::Flat.on(&grid).unwrap(), level, nothing] {
-            let Spatial { sal, str, std, ssw } = topography.spatial();
+            let SpatialParameters { sal, str, std, ssw } = SpatialParameters::of(&topography);
             assert!([sal, str, std, ssw].iter().all(|value| value.is_nan()), "{sal} {str} {std} {ssw}");
         }
-        let line = wave([200, 1], [0.5, 1.0], [TAU / 10.0, 0.0]).spatial();
+        let line = SpatialParameters::of(&wave([200, 1], [0.5, 1.0], [TAU / 10.0, 0.0]));
         assert!(line.sal > 0.0 && line.str.is_nan() && line.std.is_nan());
         assert_relative_eq!(line.ssw, 10.0, max_relative = 0.01);
     }
 
     #[test]
     fn json_carries_the_names_of_the_standard() {
-        let json = serde_json::to_value(wave([32, 32], [1.0; 2], [0.5, 0.7]).spatial()).unwrap();
+        let json = serde_json::to_value(SpatialParameters::of(&wave([32, 32], [1.0; 2], [0.5, 0.7]))).unwrap();
         assert!(["Sal", "Str", "Std", "Ssw"].iter().all(|name| json.get(name).is_some()), "{json}");
     }
 }

@@ -1,0 +1,137 @@
+//! Roughness in numbers, after ISO 25178-2:2021: a file per family of parameters.
+
+mod bearing;
+mod distribution;
+mod functional;
+mod height;
+mod hybrid;
+pub(crate) mod row;
+pub(crate) mod slope;
+mod spatial;
+mod stratified;
+
+pub use bearing::BearingCurve;
+pub use distribution::{Classes, Distribution, Slope};
+pub use functional::FunctionalParameters;
+pub use height::HeightParameters;
+pub use hybrid::HybridParameters;
+pub(crate) use hybrid::area_excess;
+pub use row::{Parameter, Unit};
+pub use spatial::SpatialParameters;
+pub use stratified::Core;
+
+use serde::Serialize;
+
+use crate::surface::Topography;
+use crate::units::Metre;
+
+/// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
+///
+/// No filter is applied: level and filter first. Values are SI, shares parts of one. A parameter without meaning
+/// is NaN, `null` in JSON: its family says where.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Parameters {
+    /// Of the heights alone.
+    #[serde(flatten)]
+    pub height: HeightParameters,
+    /// Of the autocorrelation and the spectrum.
+    #[serde(flatten)]
+    pub spatial: SpatialParameters,
+    /// Of the slopes.
+    #[serde(flatten)]
+    pub hybrid: HybridParameters,
+    /// Of the material ratio curve.
+    #[serde(flatten)]
+    pub functional: FunctionalParameters,
+}
+
+impl Parameters {
+    /// The parameters of `topography`.
+    pub fn of(topography: &Topography) -> Self {
+        Self {
+            height: HeightParameters::of(topography),
+            spatial: SpatialParameters::of(topography),
+            hybrid: HybridParameters::of(topography),
+            functional: FunctionalParameters::of(topography),
+        }
+    }
+
+    /// All parameters with symbols, units and meanings: what tables are printed from.
+    pub fn rows(&self) -> Vec<Parameter> {
+        [self.height.rows(), self.spatial.rows(), self.hybrid.rows(), self.functional.rows()].concat()
+    }
+}
+
+impl Topography {
+    /// The ISO 25178 parameters of the defined samples. Who wants one family asks it alone, as
+    /// [`HeightParameters::of`]: the heights are sorted for others.
+    pub fn parameters(&self) -> Parameters {
+        Parameters::of(self)
+    }
+
+    /// Root mean square height, [`HeightParameters::sq`].
+    pub fn sq(&self) -> Metre {
+        HeightParameters::of(self).sq
+    }
+
+    /// Root mean square gradient, [`HybridParameters::sdq`].
+    pub fn sdq(&self) -> f64 {
+        HybridParameters::of(self).sdq
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Field, Grid};
+    use crate::surface::Form;
+
+    fn topography(shape: [usize; 2], height: impl Fn(usize, usize) -> f64) -> Topography {
+        let grid = Grid::new(shape, [1e-6; 2]).unwrap();
+        Topography::new(grid, Field::from_shape_fn(shape, |(ix, iy)| height(ix, iy))).unwrap()
+    }
+
+    #[test]
+    fn what_has_no_meaning_is_not_a_number() {
+        let flat = Form::Flat.on(&Grid::new([4, 4], [1.0; 2]).unwrap()).unwrap().parameters();
+        let Parameters { height, hybrid, functional, .. } = flat;
+        assert_eq!((height.sa, height.sq, height.sz), (0.0, 0.0, 0.0));
+        assert!(height.ssk.is_nan() && hybrid.sdq.is_nan() && hybrid.sdr.is_nan());
+        assert_eq!((functional.sk, functional.spk, functional.svk, functional.vvc), (0.0, 0.0, 0.0, 0.0));
+        let nothing = topography([4, 4], |_, _| f64::NAN).parameters();
+        assert!(nothing.rows().iter().all(|row| row.value.is_nan()));
+    }
+
+    #[test]
+    fn one_row_and_one_sample_are_surfaces_too() {
+        let row = topography([64, 1], |ix, _| 1e-7 * (0.3 * ix as f64).sin()).parameters();
+        assert!(row.rows().iter().all(|row| row.value.is_finite()), "{row:?}");
+        let one = topography([1, 1], |_, _| 3.0).parameters();
+        assert_eq!((one.height.sz, one.functional.smc, one.functional.vmp), (0.0, 0.0, 0.0));
+        assert!(one.hybrid.sdq.is_finite() && one.functional.sk.is_nan());
+    }
+
+    #[test]
+    fn undefined_samples_do_not_count() {
+        // Every second row undefined: the heights that are left are those of the rows between.
+        let height = |ix: usize, iy: usize| ((7 * ix * ix + 3 * iy) % 31) as f64;
+        let holed = topography([30, 40], |ix, iy| if iy % 2 == 0 { height(ix, iy / 2) } else { f64::NAN });
+        let whole = topography([30, 20], height);
+        assert_eq!(HeightParameters::of(&holed), HeightParameters::of(&whole));
+        assert_eq!(FunctionalParameters::of(&holed), FunctionalParameters::of(&whole));
+    }
+
+    #[test]
+    fn json_is_one_map_of_the_symbols_in_the_rows() {
+        let parameters = topography([8, 8], |ix, iy| (ix as f64).sin() + (iy as f64).cos()).parameters();
+        let json = serde_json::to_value(parameters).unwrap();
+        let rows = parameters.rows();
+        assert_eq!(json.as_object().unwrap().len(), rows.len());
+        assert!(rows.iter().all(|row| json[row.symbol] == row.value), "{json}");
+        let sq = rows.iter().find(|row| row.symbol == "Sq").unwrap();
+        assert_eq!(
+            (sq.unit, sq.family, sq.meaning),
+            (Unit::Length, "height", "Root mean square height, √⟨z²⟩")
+        );
+    }
+}

@@ -1,0 +1,167 @@
+//! Profiles: heights along a line, filtered and described after ISO 21920-2:2021.
+
+mod elements;
+mod gaussian;
+mod parameters;
+
+pub use parameters::ProfileParameters;
+
+use crate::error::{Error, Result, check};
+use crate::surface::{Axis, BearingCurve, Topography};
+use crate::units::Metre;
+
+/// Heights along a line at one spacing, in metres; an undefined sample is NaN.
+///
+/// A roughness profile also knows its section length, the cut-off λc.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    pitch: Metre,
+    heights: Vec<Metre>,
+    /// Section length; none where the whole profile is one section.
+    section: Option<Metre>,
+}
+
+impl Profile {
+    /// The profile with these `heights`, each finite, or NaN where undefined, `pitch` apart.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there are no heights, one is infinite, or the pitch is not a positive length.
+    pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
+        check("pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
+        check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
+        match heights.iter().find(|z| z.is_infinite()) {
+            Some(&value) => Err(Error::OutOfRange {
+                quantity: "height",
+                value,
+                expected: "a finite height, or NaN where the sample is undefined",
+            }),
+            None => Ok(Self { pitch, heights, section: None }),
+        }
+    }
+
+    /// Distance between two samples.
+    pub fn pitch(&self) -> Metre {
+        self.pitch
+    }
+
+    /// Heights; NaN where undefined.
+    pub fn heights(&self) -> &[Metre] {
+        &self.heights
+    }
+
+    /// Evaluation length: the pitch for each sample.
+    pub fn length(&self) -> Metre {
+        self.pitch * self.heights.len() as f64
+    }
+
+    /// The primary profile: without waves below the nesting index λs.
+    ///
+    /// A wave of length λ is left with the part 2^−(λs/λ)²; of length λs a half. ISO 16610-21.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless the nesting index is at least two pitches.
+    pub fn primary(&self, nesting_index: Metre) -> Result<Self> {
+        self.with(self.smoothed(nesting_index)?, None)
+    }
+
+    /// The waviness: without waves below the cut-off λc, by the same filter as [`Profile::primary`].
+    ///
+    /// # Errors
+    /// As [`Profile::primary`].
+    pub fn waviness(&self, cutoff: Metre) -> Result<Self> {
+        self.primary(cutoff)
+    }
+
+    /// The roughness: what the waviness leaves, to be described in sections of the length λc.
+    ///
+    /// # Errors
+    /// As [`Profile::primary`].
+    pub fn roughness(&self, cutoff: Metre) -> Result<Self> {
+        let waviness = self.smoothed(cutoff)?;
+        let rough = self.heights.iter().zip(waviness).map(|(z, w)| z - w).collect();
+        self.with(rough, Some(cutoff))
+    }
+
+    /// The material ratio curve: Rmr(c), Rmc(p), and Rdc(p, q) = Rmc(p) − Rmc(q).
+    ///
+    /// # Errors
+    /// [`Error::NothingDefined`] without a defined sample.
+    pub fn bearing_curve(&self) -> Result<BearingCurve> {
+        BearingCurve::new(&self.heights)
+    }
+
+    fn with(&self, heights: Vec<Metre>, section: Option<Metre>) -> Result<Self> {
+        Ok(Self { section, ..Self::new(self.pitch, heights)? })
+    }
+
+    fn smoothed(&self, cutoff: Metre) -> Result<Vec<Metre>> {
+        let pitches = cutoff / self.pitch;
+        check("cutoff", cutoff, pitches >= 2.0 && pitches.is_finite(), "a length of at least two pitches")?;
+        Ok(gaussian::smooth(&self.heights, pitches))
+    }
+}
+
+impl Topography {
+    /// The profile along `axis` at the sample `index` of the other axis.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there is no such line.
+    pub fn profile(&self, axis: Axis, index: usize) -> Result<Profile> {
+        let lines = self.grid().shape[1 - axis as usize];
+        check("index of the profile", index as f64, index < lines, "one of the samples across the profile")?;
+        Ok(self.line(axis, index))
+    }
+
+    /// All profiles along `axis`.
+    pub fn profiles(&self, axis: Axis) -> impl Iterator<Item = Profile> {
+        (0..self.grid().shape[1 - axis as usize]).map(move |index| self.line(axis, index))
+    }
+
+    /// Parameters of the roughness profiles along `axis` with the cut-off λc, each the mean over the lines.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless the cut-off is at least two pitches.
+    pub fn profile_parameters(&self, axis: Axis, cutoff: Metre) -> Result<ProfileParameters> {
+        let lines = self.profiles(axis).map(|profile| Ok(profile.roughness(cutoff)?.parameters()));
+        Ok(ProfileParameters::mean(&lines.collect::<Result<Vec<_>>>()?))
+    }
+
+    fn line(&self, axis: Axis, index: usize) -> Profile {
+        let across = ndarray::Axis(1 - axis as usize);
+        let heights = self.heights().index_axis(across, index).to_vec();
+        Profile { pitch: self.grid().pitch[axis as usize], heights, section: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Field, Grid};
+
+    fn numbered() -> Topography {
+        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
+        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
+    }
+
+    #[test]
+    fn a_profile_runs_along_its_axis_at_the_pitch_of_that_axis() {
+        let along_x = numbered().profile(Axis::X, 2).unwrap();
+        assert_eq!((along_x.heights(), along_x.pitch()), (&[2.0, 12.0, 22.0, 32.0][..], 1.0));
+        let along_y = numbered().profile(Axis::Y, 3).unwrap();
+        assert_eq!((along_y.heights(), along_y.length()), (&[30.0, 31.0, 32.0][..], 6.0));
+        assert_eq!((numbered().profiles(Axis::X).count(), numbered().profiles(Axis::Y).count()), (3, 4));
+    }
+
+    #[test]
+    fn what_is_no_profile_is_refused() {
+        let message = |profile: Result<Profile>| profile.unwrap_err().to_string();
+        assert!(message(numbered().profile(Axis::X, 3)).starts_with("index of the profile is 3e0"));
+        assert!(message(Profile::new(0.0, vec![1.0])).starts_with("pitch is 0e0"));
+        assert!(message(Profile::new(1.0, vec![])).starts_with("number of heights is 0e0"));
+        assert!(message(Profile::new(1.0, vec![f64::INFINITY])).starts_with("height is inf"));
+        let profile = Profile::new(1.0, vec![0.0; 9]).unwrap();
+        for cutoff in [1.9, f64::NAN, f64::INFINITY] {
+            assert!(message(profile.roughness(cutoff)).starts_with("cutoff is"));
+        }
+    }
+}
