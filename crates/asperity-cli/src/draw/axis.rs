@@ -61,9 +61,7 @@ impl Unit {
             Self::Pressure => (&[(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")], 1.0),
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
-            Self::Wavenumber => {
-                (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0)
-            }
+            Self::Wavenumber => (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0),
             Self::Number => (&[(1.0, "")], 1.0),
             Self::Of(_) => (&[(1.0, "")], 1.0),
         }

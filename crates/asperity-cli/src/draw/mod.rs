@@ -19,7 +19,9 @@ use std::path::{Path, PathBuf};
 pub(crate) use animation::{Animation, Frame, animation};
 pub(crate) use axis::{Quantity, Unit};
 pub(crate) use lines::{Axis, LineFigure, Mark, Series, lines};
-pub(crate) use map::{Colours, MapFigure, MatrixFigure, PlaneFigure, SectionFigure, map, maps, matrix, plane, section};
+pub(crate) use map::{
+    Colours, MapFigure, MatrixFigure, PlaneFigure, SectionFigure, map, maps, matrix, plane, section,
+};
 
 /// A figure that could not be drawn, or not be written.
 #[derive(Debug)]

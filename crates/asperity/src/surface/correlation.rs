@@ -262,11 +262,7 @@ mod tests {
                         assert_relative_eq!(*r, sum / pairs, epsilon = 1e-12);
                     }
                 }
-                assert_relative_eq!(
-                    correlation.variance(),
-                    topography.sq().powi(2),
-                    max_relative = 1e-12
-                );
+                assert_relative_eq!(correlation.variance(), topography.sq().powi(2), max_relative = 1e-12);
             }
         }
     }

@@ -11,6 +11,7 @@ mod moments;
 mod parameters;
 mod process;
 mod profile;
+mod segmentation;
 mod spectrum;
 mod summits;
 mod topography;
@@ -21,11 +22,12 @@ pub use fractal::SelfAffinity;
 pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
 pub use moments::SpectralMoments;
 pub use parameters::{
-    BearingCurve, Classes, Core, Distribution, FunctionalParameters, HeightParameters, HybridParameters,
-    Parameter, Parameters, Slope, SpatialParameters, Unit,
+    BearingCurve, Classes, Core, Distribution, FeatureParameters, FunctionalParameters, HeightParameters,
+    HybridParameters, Parameter, Parameters, Slope, SpatialParameters, Unit,
 };
 pub use process::{Fill, Level};
 pub use profile::{Profile, ProfileParameters};
+pub use segmentation::{Motif, Segmentation, WOLF_PRUNING};
 pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};
 pub use summits::{GreenwoodWilliamson, Summit, Summits};
 pub use topography::Topography;

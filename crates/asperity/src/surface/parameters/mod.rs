@@ -2,6 +2,7 @@
 
 mod bearing;
 mod distribution;
+mod feature;
 mod functional;
 mod height;
 mod hybrid;
@@ -12,6 +13,7 @@ mod stratified;
 
 pub use bearing::BearingCurve;
 pub use distribution::{Classes, Distribution, Slope};
+pub use feature::FeatureParameters;
 pub use functional::FunctionalParameters;
 pub use height::HeightParameters;
 pub use hybrid::HybridParameters;
@@ -22,7 +24,7 @@ pub use stratified::Core;
 
 use serde::Serialize;
 
-use crate::surface::Topography;
+use crate::surface::{Topography, WOLF_PRUNING};
 use crate::units::Metre;
 
 /// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
@@ -43,6 +45,9 @@ pub struct Parameters {
     /// Of the material ratio curve.
     #[serde(flatten)]
     pub functional: FunctionalParameters,
+    /// Of the hills and dales, pruned at [`WOLF_PRUNING`].
+    #[serde(flatten)]
+    pub feature: FeatureParameters,
 }
 
 impl Parameters {
@@ -53,12 +58,14 @@ impl Parameters {
             spatial: SpatialParameters::of(topography),
             hybrid: HybridParameters::of(topography),
             functional: FunctionalParameters::of(topography),
+            feature: FeatureParameters::of(topography, WOLF_PRUNING).expect("the pruning is a share"),
         }
     }
 
     /// All parameters with symbols, units and meanings: what tables are printed from.
     pub fn rows(&self) -> Vec<Parameter> {
-        [self.height.rows(), self.spatial.rows(), self.hybrid.rows(), self.functional.rows()].concat()
+        let Self { height, spatial, hybrid, functional, feature } = self;
+        [height.rows(), spatial.rows(), hybrid.rows(), functional.rows(), feature.rows()].concat()
     }
 }
 

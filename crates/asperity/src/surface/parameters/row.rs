@@ -28,8 +28,14 @@ pub enum Unit {
     Length,
     /// Cubic metres per square metre.
     VolumePerArea,
+    /// Square metres.
+    Area,
+    /// Cubic metres.
+    Volume,
     /// Per metre.
     PerLength,
+    /// Per square metre.
+    PerArea,
     /// Radians; printed in degrees.
     Angle,
 }
@@ -41,7 +47,10 @@ impl Unit {
             Self::Number | Self::Share => "1",
             Self::Length => "m",
             Self::VolumePerArea => "m³/m²",
+            Self::Area => "m²",
+            Self::Volume => "m³",
             Self::PerLength => "1/m",
+            Self::PerArea => "1/m²",
             Self::Angle => "rad",
         }
     }
@@ -58,7 +67,10 @@ impl Unit {
                 Some((number, unit)) => format!("{number} {unit}³/{unit}²"),
                 None => length(),
             },
+            Self::Area => units::format(value, Dimension::Area),
+            Self::Volume => units::format(value, Dimension::Volume),
             Self::PerLength => format!("{:.4} /mm", 1e-3 * value),
+            Self::PerArea => format!("{:.4} /mm²", 1e-6 * value),
             Self::Angle => format!("{:.1}°", value.to_degrees()),
         }
     }

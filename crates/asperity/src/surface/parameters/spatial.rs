@@ -186,7 +186,8 @@ mod tests {
 
     #[test]
     fn json_carries_the_names_of_the_standard() {
-        let json = serde_json::to_value(SpatialParameters::of(&wave([32, 32], [1.0; 2], [0.5, 0.7]))).unwrap();
+        let json =
+            serde_json::to_value(SpatialParameters::of(&wave([32, 32], [1.0; 2], [0.5, 0.7]))).unwrap();
         assert!(["Sal", "Str", "Std", "Ssw"].iter().all(|name| json.get(name).is_some()), "{json}");
     }
 }

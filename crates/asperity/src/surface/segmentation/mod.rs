@@ -1,0 +1,429 @@
+//! Hills and dales: the segmentation of a topography by its course and ridge lines.
+
+mod relief;
+mod watershed;
+
+use ndarray::Array2;
+
+use crate::error::{Result, check};
+use crate::surface::Topography;
+use crate::units::{CubicMetre, Metre, SquareMetre};
+use relief::Relief;
+use watershed::{Pruned, Watershed};
+
+/// The Wolf pruning of ISO 25178-3, as a share of Sz.
+pub const WOLF_PRUNING: f64 = 0.05;
+
+/// A topography divided into hills around its peaks, or into dales around its pits.
+///
+/// A Maxwellian hill is all from where the steepest way up ends at the same peak (ISO 25178-2:2012, 3.3.1;
+/// Maxwell, Phil. Mag. 40, 421 (1870)): a sample belongs to the hill of the steepest of its eight neighbours,
+/// those on the diagonals at their distance. On a plateau the shortest way to where it rises is taken; a
+/// plateau that rises nowhere is one peak, at its first sample. Dales are the hills of −z, also with eight
+/// neighbours, so a ridge and a course may cross between four samples.
+///
+/// Hills too low to matter are pruned, dales too shallow by themselves (ISO 16610-85; Wolf, Computers &
+/// Geosciences 17, 1359 (1991); Scott, Proc. R. Soc. Lond. A 460, 2845 (2004)): as long as a peak stands less
+/// than the threshold above the highest saddle around its hill, the lowest such hill becomes part of the one
+/// across that saddle. So the peak is the highest sample of its hill.
+///
+/// An undefined sample is nobody's neighbour. Samples that holes cut off from all others are an island, whose
+/// highest peak is measured from the lowest sample; where even that stays below the threshold, and on a plane,
+/// there is no hill.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segmentation {
+    /// For each sample the number of its hill or dale, counted from 1 in the order of `motifs`; 0 without one.
+    pub labels: Array2<u32>,
+    /// The hills, highest peak first, or the dales, deepest pit first.
+    pub motifs: Vec<Motif>,
+}
+
+/// A hill with its peak, or a dale with its pit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motif {
+    /// The sample `[ix, iy]` of the peak or pit.
+    pub at: [usize; 2],
+    /// Height z of the peak or pit, as the topography has it.
+    pub height: Metre,
+    /// Height z of the saddle that it is connected to: the highest around the hill, the lowest around the dale.
+    /// Of the only hill of an island its lowest sample, of the only dale the highest.
+    pub saddle: Metre,
+    /// The threshold above which it would be pruned, > 0: height of the peak above the saddle from which a
+    /// higher peak is reached, or of an island's highest peak above its lowest sample. ≥ |height − saddle|.
+    pub prominence: Metre,
+    /// Mean curvature −½ (∂²z/∂x² + ∂²z/∂y²) at the peak or pit, 1/m: ≥ 0 at a peak, ≤ 0 at a pit.
+    ///
+    /// From the second differences (z₊₁ − 2 z₀ + z₋₁)/Δx², too small by (2πΔx/λ)²/12 of itself on a wave of
+    /// length λ. NaN beside an undefined sample and at the border; there is no curvature along a direction
+    /// with one sample.
+    pub curvature: f64,
+    /// Area of its samples.
+    pub area: SquareMetre,
+    /// Volume of the hill above the height of its saddle, or of the dale below it: what the dale holds before
+    /// it overflows.
+    pub volume: CubicMetre,
+    /// Whether it does not reach the rim of the measured area at the height of 50 % material ratio: no sample
+    /// at the rim is as high as that height in the hill, or as low in the dale. The rim is the border of the
+    /// grid, and that of what is undefined from there on; holes inside are no rim, nor are the sides of a
+    /// single row.
+    pub closed: bool,
+}
+
+impl Motif {
+    /// Local peak height or pit depth, Lpvh of ISO 25178-2: |height − saddle|, at least the pruning threshold.
+    pub fn local_height(&self) -> Metre {
+        (self.height - self.saddle).abs()
+    }
+}
+
+impl Topography {
+    /// The hills that stand at least `pruning` of Sz above their saddles; [`WOLF_PRUNING`] is usual.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
+    pub fn hills(&self, pruning: f64) -> Result<Segmentation> {
+        segment(self, 1.0, pruning)
+    }
+
+    /// The dales at least `pruning` of Sz deep below their saddles; [`WOLF_PRUNING`] is usual.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
+    pub fn dales(&self, pruning: f64) -> Result<Segmentation> {
+        segment(self, -1.0, pruning)
+    }
+}
+
+/// The hills of `up` · z.
+fn segment(topography: &Topography, up: f64, pruning: f64) -> Result<Segmentation> {
+    check("pruning", pruning, (0.0..=1.0).contains(&pruning), "a share of Sz from 0 to 1")?;
+    let relief = Relief::of(topography, up);
+    let mut defined: Vec<f64> = relief.z.iter().copied().filter(|z| !z.is_nan()).collect();
+    if defined.is_empty() {
+        return Ok(Segmentation { labels: Array2::zeros(topography.grid().shape), motifs: Vec::new() });
+    }
+    let middle = defined.len() / 2;
+    let half = *defined.select_nth_unstable_by(middle, |a, b| b.total_cmp(a)).1;
+    let highest = defined.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lowest = defined.iter().copied().fold(f64::INFINITY, f64::min);
+    let Pruned { of, hills } = Watershed::of(&relief).prune(pruning * (highest - lowest));
+
+    let mut motifs: Vec<Motif> = hills
+        .iter()
+        .map(|hill| Motif {
+            at: relief.sample(hill.peak),
+            height: relief.z[hill.peak],
+            saddle: hill.saddle,
+            prominence: hill.prominence,
+            curvature: relief.curvature(hill.peak),
+            area: 0.0,
+            volume: 0.0,
+            closed: true,
+        })
+        .collect();
+    let labels = Array2::from_shape_fn(topography.grid().shape, |(ix, iy)| of[relief.cell(ix, iy)]);
+    let rim = relief.rim();
+    let cell_area = topography.grid().cell_area();
+    for ((ix, iy), &label) in labels.indexed_iter().filter(|(_, label)| **label > 0) {
+        let (motif, cell) = (&mut motifs[label as usize - 1], relief.cell(ix, iy));
+        let z = relief.z[cell];
+        motif.area += cell_area;
+        motif.volume += cell_area * (z - motif.saddle).max(0.0);
+        motif.closed &= !(rim[cell] && z >= half);
+    }
+    for motif in &mut motifs {
+        for value in [&mut motif.height, &mut motif.saddle, &mut motif.curvature] {
+            *value *= up;
+        }
+    }
+    Ok(Segmentation { labels, motifs })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cmp::Ordering;
+    use std::f64::consts::{PI, TAU};
+
+    use approx::assert_relative_eq;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::grid::{Field, Grid};
+
+    fn topography(heights: Field) -> Topography {
+        Topography::new(Grid::new(heights.dim().into(), [1.0, 1.0]).unwrap(), heights).unwrap()
+    }
+
+    /// ½ (cos kx + cos ky), `n` samples of pitch 1 a wave, n odd, and m × m whole waves: a peak in the middle
+    /// of each square of n × n samples, which is its hill; saddles at height 0 between them.
+    fn egg_box(n: usize, m: usize) -> Topography {
+        let cosine = |i: usize| (TAU * (i as f64 - 0.5 * (n as f64 - 1.0)) / n as f64).cos();
+        topography(Field::from_shape_fn([n * m, n * m], |(ix, iy)| 0.5 * (cosine(ix) + cosine(iy))))
+    }
+
+    #[test]
+    fn an_egg_box_is_divided_into_its_squares() {
+        let segmentation = egg_box(15, 5).hills(WOLF_PRUNING).unwrap();
+        assert_eq!(segmentation.motifs.len(), 25);
+        for (hill, motif) in segmentation.motifs.iter().enumerate() {
+            assert_eq!(motif.area, 225.0);
+            let [x, y] = motif.at.map(|i| i / 15);
+            assert_eq!(motif.at, [15 * x + 7, 15 * y + 7]);
+            let square = segmentation.labels.slice(ndarray::s![15 * x..15 * (x + 1), 15 * y..15 * (y + 1)]);
+            assert!(square.iter().all(|&label| label as usize == hill + 1));
+            // The rim passes the saddles between the outer peaks and those beyond it.
+            assert_eq!(motif.closed, [x, y].iter().all(|i| (1..4).contains(i)));
+        }
+    }
+
+    #[test]
+    fn height_volume_and_curvature_of_an_egg_box_tend_to_their_integrals_at_second_order() {
+        let errors = |n: usize| {
+            let hill = egg_box(n, 3).hills(WOLF_PRUNING).unwrap().motifs[4];
+            let k = TAU / n as f64;
+            // The sample nearest to the saddle is half a pitch beside it.
+            assert_relative_eq!(
+                hill.local_height(),
+                0.5 * (1.0 + (PI / n as f64).cos()),
+                max_relative = 1e-14
+            );
+            assert_relative_eq!(hill.height, 1.0);
+            // Above z = 0: |x| + |y| < λ/2, and the integral of the height over it is 8/k².
+            [
+                hill.local_height() - 1.0,
+                hill.volume / (8.0 / (k * k)) - 1.0,
+                hill.curvature / (0.5 * k * k) - 1.0,
+            ]
+        };
+        let (coarse, fine) = (errors(15), errors(45));
+        for (coarse, fine) in coarse.iter().zip(fine) {
+            let order = (coarse / fine).ln() / 3f64.ln();
+            assert!((1.9..2.1).contains(&order), "error {coarse:e} → {fine:e} is order {order:.2}");
+        }
+        assert_relative_eq!(fine[2], -(TAU / 45.0).powi(2) / 12.0, max_relative = 0.01);
+    }
+
+    #[test]
+    fn a_low_noise_does_not_change_the_hills_that_pruning_leaves() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let mut rough = egg_box(63, 3);
+        // Heights moved by at most 0.02 move a saddle below its peak by 0.04; pruned is below 5 % of Sz = 2.
+        rough.heights_mut().mapv_inplace(|z| z + 0.02 * (2.0 * random.random::<f64>() - 1.0));
+        assert!(rough.hills(0.0).unwrap().motifs.len() > 50);
+        assert_eq!(rough.hills(WOLF_PRUNING).unwrap().motifs.len(), 9);
+        assert_eq!(rough.dales(WOLF_PRUNING).unwrap().motifs.len(), 16);
+    }
+
+    #[test]
+    fn the_lower_of_two_summits_is_pruned_above_the_depth_of_the_saddle_between_them() {
+        let summit = |x: f64, y: f64| (-(x * x + y * y) / 100.0).exp();
+        let height = |x: f64, y: f64| summit(x + 16.0, y) + 0.8 * summit(x - 16.0, y);
+        let summits =
+            topography(Field::from_shape_fn([81, 41], |(ix, iy)| height(ix as f64 - 40.0, iy as f64 - 20.0)));
+        // The best way from one to the other is the row of both.
+        let row = summits.heights().column(20);
+        let saddle = row.iter().skip(24).take(33).fold(f64::INFINITY, |low, &z| z.min(low));
+        let lower = row.iter().skip(40).fold(0.0, |high: f64, &z| z.max(high));
+        let highest = row.iter().fold(0.0, |high: f64, &z| z.max(high));
+        let lowest = summits.heights().iter().fold(1.0, |low: f64, &z| z.min(low));
+        let depth = (lower - saddle) / (highest - lowest);
+        let below = summits.hills(depth * (1.0 - 1e-12)).unwrap();
+        assert_eq!(below.motifs.iter().map(|hill| hill.at).collect::<Vec<_>>(), [[24, 20], [56, 20]]);
+        assert!(below.motifs.iter().all(|hill| hill.saddle == saddle));
+        assert_eq!(below.motifs[0].prominence, highest - lowest);
+        assert_eq!(below.motifs[1].prominence, lower - saddle);
+        let above = summits.hills(depth * (1.0 + 1e-12)).unwrap();
+        assert_eq!(above.motifs.len(), 1);
+        assert_eq!((above.motifs[0].area, above.motifs[0].saddle), (81.0 * 41.0, lowest));
+    }
+
+    #[test]
+    fn a_pruned_hill_goes_to_the_one_across_its_saddle_not_to_the_highest() {
+        let row = [0.0, 9.0, 2.0, 6.0, 5.0, 5.5, 0.0];
+        let ridge = topography(Field::from_shape_fn([7, 1], |(ix, _)| row[ix]));
+        let hills = ridge.hills(0.1).unwrap();
+        assert_eq!(hills.labels.iter().copied().collect::<Vec<_>>(), [1, 1, 1, 2, 2, 2, 2]);
+        assert_eq!(hills.motifs.iter().map(|hill| hill.volume).collect::<Vec<_>>(), [7.0, 4.0 + 3.0 + 3.5]);
+    }
+
+    #[test]
+    fn dales_are_the_hills_of_the_surface_upside_down() {
+        let rough = random_topography(24, 31);
+        let dales = rough.dales(WOLF_PRUNING).unwrap();
+        let mut hills = topography(-rough.heights()).hills(WOLF_PRUNING).unwrap();
+        assert!(dales.motifs.len() > 5);
+        for hill in &mut hills.motifs {
+            *hill = Motif { height: -hill.height, saddle: -hill.saddle, curvature: -hill.curvature, ..*hill };
+        }
+        // Curvatures at the border are undefined.
+        let text = |segmentation: &Segmentation| format!("{segmentation:?}");
+        assert_eq!(text(&dales), text(&hills));
+        assert!(dales.motifs.iter().all(|dale| dale.height < dale.saddle && dale.curvature.max(-1.0) <= 0.0));
+    }
+
+    #[test]
+    fn a_mirrored_surface_has_mirrored_hills() {
+        let rough = random_topography(24, 31);
+        let hills = rough.hills(WOLF_PRUNING).unwrap();
+        for axis in [0, 1] {
+            let mut mirrored = rough.heights().clone();
+            mirrored.invert_axis(ndarray::Axis(axis));
+            let mut labels = topography(mirrored).hills(WOLF_PRUNING).unwrap().labels;
+            labels.invert_axis(ndarray::Axis(axis));
+            assert_eq!(labels, hills.labels);
+        }
+    }
+
+    #[test]
+    fn a_plateau_is_one_peak_and_a_terrace_none() {
+        // A horseshoe on a slope: its first samples in order are at its two ends.
+        let picture = ["0000000", "0900900", "0900900", "0999900", "0111110", "0000000"];
+        let height = |ix: usize, iy: usize| f64::from(picture[iy].as_bytes()[ix] - b'0');
+        let horseshoe = topography(Field::from_shape_fn([7, 6], |(ix, iy)| height(ix, iy)));
+        let hills = horseshoe.hills(0.0).unwrap();
+        assert_eq!(
+            hills.motifs.iter().map(|hill| (hill.at, hill.area)).collect::<Vec<_>>(),
+            [([1, 1], 42.0)]
+        );
+        // A terrace between two summits is divided in its middle.
+        let terrace = topography(Field::from_shape_fn([10, 1], |(ix, _)| {
+            [4.0, 1.0, 3.0][usize::from(ix > 0) + usize::from(ix > 8)]
+        }));
+        let labels = terrace.hills(0.0).unwrap().labels;
+        assert_eq!(labels.iter().copied().collect::<Vec<_>>(), [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]);
+    }
+
+    #[test]
+    fn holes_divide_islands_and_the_low_ones_have_no_hill() {
+        let mut heights = Field::from_shape_fn([30, 9], |(ix, iy)| {
+            -((ix as f64 - 7.0).powi(2) + (iy as f64 - 4.0).powi(2))
+        });
+        heights.slice_mut(ndarray::s![15, ..]).fill(f64::NAN);
+        heights.slice_mut(ndarray::s![16.., ..]).mapv_inplace(|_| -50.0);
+        heights[[20, 4]] = -49.0;
+        let hills = topography(heights.clone()).hills(WOLF_PRUNING).unwrap();
+        assert_eq!(
+            hills.motifs.iter().map(|hill| (hill.at, hill.area)).collect::<Vec<_>>(),
+            [([7, 4], 135.0)]
+        );
+        assert!(hills.labels.slice(ndarray::s![15.., ..]).iter().all(|&label| label == 0));
+        heights[[20, 4]] = -40.0;
+        let hills = topography(heights).hills(WOLF_PRUNING).unwrap();
+        assert_eq!(
+            hills.motifs[1],
+            Motif {
+                at: [20, 4],
+                height: -40.0,
+                saddle: -50.0,
+                prominence: 10.0,
+                area: 126.0,
+                volume: 10.0,
+                curvature: 20.0,
+                closed: false
+            }
+        );
+    }
+
+    #[test]
+    fn a_hole_inside_is_no_rim_but_the_end_of_the_data_is() {
+        let mut holed = egg_box(15, 5);
+        holed.heights_mut()[[37, 40]] = f64::NAN;
+        let centre = |topography: &Topography| {
+            let motifs = topography.hills(WOLF_PRUNING).unwrap().motifs;
+            *motifs.iter().find(|hill| hill.at == [37, 37]).unwrap()
+        };
+        assert!(centre(&holed).closed);
+        assert_eq!(centre(&holed).area, 224.0);
+        holed.heights_mut().slice_mut(ndarray::s![37, 40..]).fill(f64::NAN);
+        assert!(!centre(&holed).closed);
+    }
+
+    #[test]
+    fn each_sample_belongs_to_one_hill_whose_peak_is_its_highest_and_rises_above_the_threshold() {
+        arbtest::arbtest(|u| {
+            let shape = [u.int_in_range(1..=7)?, u.int_in_range(1..=6)?];
+            let mut heights = Field::zeros(shape);
+            for z in &mut heights {
+                *z = match u.int_in_range(0..=9)? {
+                    0 => f64::NAN,
+                    _ => f64::from(u.int_in_range(0..=12)?),
+                };
+            }
+            let pruning = f64::from(u.int_in_range(0..=5)?) / 12.0;
+            let rough = topography(heights);
+            let segmentation = rough.hills(pruning).unwrap();
+            let (peaks, in_hill) = peaks_by_bottleneck(rough.heights(), pruning);
+            let found: Vec<_> = segmentation.motifs.iter().map(|hill| (hill.at, hill.prominence)).collect();
+            assert_eq!(found, peaks);
+            for ((at, &label), &in_hill) in segmentation.labels.indexed_iter().zip(&in_hill) {
+                assert_eq!(label > 0, in_hill, "at {at:?}");
+                assert!(label == 0 || rough.heights()[at] <= segmentation.motifs[label as usize - 1].height);
+            }
+            let lowest = peaks.iter().fold(f64::INFINITY, |low, peak| peak.1.min(low));
+            for (hill, motif) in segmentation.motifs.iter().enumerate() {
+                assert_eq!(segmentation.labels[motif.at] as usize, hill + 1);
+                assert!((lowest..=motif.prominence).contains(&motif.local_height()));
+                let area = segmentation.labels.iter().filter(|&&label| label as usize == hill + 1).count();
+                assert_eq!(motif.area, area as f64);
+            }
+            Ok(())
+        });
+    }
+
+    /// The peaks that rise by their prominence, the highest first, and which samples are on an island with
+    /// one: from the lowest sample on the best way between any two, by Floyd and Warshall's recursion.
+    fn peaks_by_bottleneck(z: &Field, pruning: f64) -> (Vec<([usize; 2], f64)>, Vec<bool>) {
+        let samples: Vec<(usize, usize)> = z.indexed_iter().map(|(at, _)| at).collect();
+        let n = samples.len();
+        let beside = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= 1 && a.1.abs_diff(b.1) <= 1;
+        // −∞ where there is no way; comparisons with NaN fail.
+        let mut way = Field::from_shape_fn([n, n], |(a, b)| {
+            let (low, high) = (z[samples[a]].min(z[samples[b]]), z[samples[a]].max(z[samples[b]]));
+            if beside(samples[a], samples[b]) && !(z[samples[a]] + z[samples[b]]).is_nan() {
+                low.min(high)
+            } else {
+                f64::NEG_INFINITY
+            }
+        });
+        for via in 0..n {
+            for a in 0..n {
+                for b in 0..n {
+                    way[[a, b]] = way[[a, b]].max(way[[a, via]].min(way[[via, b]]));
+                }
+            }
+        }
+        let defined = || z.iter().copied().filter(|z| !z.is_nan());
+        let sz = defined().fold(f64::NEG_INFINITY, f64::max) - defined().fold(f64::INFINITY, f64::min);
+        let higher =
+            |a: usize, b: usize| z[samples[a]] > z[samples[b]] || (z[samples[a]] == z[samples[b]] && a < b);
+        let reached = |a: usize, b: usize| way[[a, b]] > f64::NEG_INFINITY;
+        let mut peaks: Vec<(usize, f64)> = (0..n)
+            .filter(|&a| !z[samples[a]].is_nan())
+            .map(|a| {
+                let saddle =
+                    (0..n).filter(|&b| higher(b, a) && reached(a, b)).map(|b| way[[a, b]]).reduce(f64::max);
+                let foot =
+                    (0..n).filter(|&b| reached(a, b)).map(|b| z[samples[b]]).fold(f64::INFINITY, f64::min);
+                (a, z[samples[a]] - saddle.unwrap_or(foot))
+            })
+            .filter(|&(_, prominence)| prominence > 0.0 && prominence >= pruning * sz)
+            .collect();
+        peaks.sort_by(|&(a, _), &(b, _)| if higher(a, b) { Ordering::Less } else { Ordering::Greater });
+        let in_hill = (0..n).map(|a| peaks.iter().any(|&(peak, _)| reached(a, peak))).collect();
+        (peaks.into_iter().map(|(a, prominence)| (samples[a].into(), prominence)).collect(), in_hill)
+    }
+
+    #[test]
+    fn a_pruning_beyond_the_whole_height_is_refused() {
+        for pruning in [-0.1, 1.1, f64::NAN] {
+            let refused = egg_box(5, 1).hills(pruning).unwrap_err();
+            assert!(refused.to_string().starts_with("pruning is "), "{refused}");
+        }
+    }
+
+    fn random_topography(nx: usize, ny: usize) -> Topography {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        topography(Field::from_shape_simple_fn([nx, ny], || random.random()))
+    }
+}

@@ -1,0 +1,172 @@
+//! Maxwellian hills, the tree of their saddles, and its pruning.
+
+use rayon::slice::ParallelSliceMut;
+
+use super::relief::Relief;
+
+/// No way up.
+const NONE: usize = usize::MAX;
+
+/// No hill.
+const NOWHERE: u32 = u32::MAX;
+
+/// All hills, however low, and how they are connected.
+pub(super) struct Watershed {
+    /// The hill of each cell; hills are numbered from 0 in the order of their peaks, the highest first.
+    of: Vec<u32>,
+    /// The cell of each peak, and its height.
+    peaks: Vec<(usize, f64)>,
+    /// Where each peak ceases to be the highest of the land around it.
+    ends: Vec<End>,
+}
+
+/// The height down to which a peak is the highest of the land around it.
+struct End {
+    height: f64,
+    /// The hills that meet at the saddle to a higher peak: one of this peak's side, one of the other. None
+    /// for the highest peak of an island, whose land ends at the lowest sample.
+    saddle: Option<[u32; 2]>,
+}
+
+/// What pruning leaves.
+pub(super) struct Pruned {
+    /// The hill of each cell, counted from 1; 0 without one.
+    pub(super) of: Vec<u32>,
+    /// The hills, highest first.
+    pub(super) hills: Vec<Hill>,
+}
+
+/// A hill that was not pruned.
+pub(super) struct Hill {
+    /// The cell of its peak.
+    pub(super) peak: usize,
+    /// Height of the peak above the saddle to a higher one, or above the lowest sample of the island.
+    pub(super) prominence: f64,
+    /// Height of the highest saddle around it; of the only hill of an island that of the lowest sample.
+    pub(super) saddle: f64,
+}
+
+impl Watershed {
+    /// The hills of `relief`, and the saddles where the lands that a sinking water level lays bare grow
+    /// together.
+    ///
+    /// Linear in the number of samples, but for sorting the peaks and the samples at borders between hills.
+    pub(super) fn of(relief: &Relief) -> Self {
+        let z = &relief.z;
+        let (of, peaks) = hills(relief);
+        let meets = |cell: usize, other: usize| z[other] >= z[cell] && of[other] != of[cell];
+        let mut border: Vec<(f64, usize)> = relief
+            .samples()
+            .filter(|&cell| relief.neighbours(cell).any(|other| meets(cell, other)))
+            .map(|cell| (z[cell], cell))
+            .collect();
+        border.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+
+        let mut lands: Vec<usize> = (0..peaks.len()).collect();
+        let mut ends: Vec<End> = peaks.iter().map(|&(_, height)| End { height, saddle: None }).collect();
+        for (height, cell) in border {
+            while let Some(other) = relief.steepest(cell, |other| {
+                meets(cell, other)
+                    && find(&mut lands, of[other] as usize) != find(&mut lands, of[cell] as usize)
+            }) {
+                let [here, across] = [cell, other].map(|cell| find(&mut lands, of[cell] as usize));
+                // The numbers of peaks grow as their heights fall.
+                let (higher, lower) = (here.min(across), here.max(across));
+                let (inner, outer) = if lower == here { (cell, other) } else { (other, cell) };
+                ends[lower] = End { height, saddle: Some([of[inner], of[outer]]) };
+                lands[lower] = higher;
+            }
+        }
+        for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+            let end = &mut ends[find(&mut lands, of[cell] as usize)];
+            end.height = end.height.min(z[cell]);
+        }
+        Self { of, peaks, ends }
+    }
+
+    /// Each hill lower than `threshold`, or without height, goes to the hill across its saddle.
+    pub(super) fn prune(self, threshold: f64) -> Pruned {
+        let mut hills: Vec<Hill> = Vec::new();
+        let mut number = vec![0; self.peaks.len()];
+        let mut into: Vec<usize> = (0..self.peaks.len()).collect();
+        for (hill, (&(peak, height), end)) in self.peaks.iter().zip(&self.ends).enumerate() {
+            let prominence = height - end.height;
+            if prominence > 0.0 && prominence >= threshold {
+                hills.push(Hill { peak, prominence, saddle: end.height });
+                number[hill] = hills.len() as u32;
+            } else if let Some([_, across]) = end.saddle {
+                into[hill] = across as usize;
+            }
+        }
+        for hill in 0..number.len() {
+            number[hill] = number[find(&mut into, hill)];
+        }
+        for end in &self.ends {
+            let sides = end.saddle.map(|sides| sides.map(|hill| number[hill as usize]));
+            for side in sides.filter(|[a, b]| a != b).into_iter().flatten() {
+                let hill = &mut hills[side as usize - 1];
+                hill.saddle = hill.saddle.max(end.height);
+            }
+        }
+        let of = self.of.iter().map(|&hill| number.get(hill as usize).copied().unwrap_or(0)).collect();
+        Pruned { of, hills }
+    }
+}
+
+/// The hill of each cell, and the peaks with their heights.
+fn hills(relief: &Relief) -> (Vec<u32>, Vec<(usize, f64)>) {
+    let z = &relief.z;
+    // The way up: each cell's next one. It ends at a cell that is its own next one.
+    let mut next = vec![NONE; z.len()];
+    for cell in relief.samples() {
+        if let Some(higher) = relief.steepest(cell, |other| z[other] > z[cell]) {
+            next[cell] = higher;
+        }
+    }
+    let level = |cell: usize, next: &[usize]| {
+        relief.neighbours(cell).any(|other| z[other] == z[cell] && next[other] == NONE)
+    };
+    let brinks = relief.samples().filter(|&cell| next[cell] != NONE && level(cell, &next)).collect();
+    spread(relief, &mut next, brinks);
+    let mut peaks = Vec::new();
+    for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+        if next[cell] == NONE {
+            next[cell] = cell;
+            peaks.push((cell, z[cell]));
+            spread(relief, &mut next, vec![cell]);
+        }
+    }
+    peaks.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+
+    let mut of = vec![NOWHERE; z.len()];
+    for (hill, &(peak, _)) in peaks.iter().enumerate() {
+        of[peak] = hill as u32;
+    }
+    for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+        of[cell] = of[find(&mut next, cell)];
+    }
+    (of, peaks)
+}
+
+/// From the cells of `front` over the plateaus that they lie on, nearest first, where there is no way up yet.
+fn spread(relief: &Relief, next: &mut [usize], mut front: Vec<usize>) {
+    let mut first = 0;
+    while let Some(&cell) = front.get(first) {
+        for other in relief.neighbours(cell) {
+            if relief.z[other] == relief.z[cell] && next[other] == NONE {
+                next[other] = cell;
+                front.push(other);
+            }
+        }
+        first += 1;
+    }
+}
+
+/// The end of the way from `at` to what points to itself; the way gets shorter each time.
+fn find(to: &mut [usize], mut at: usize) -> usize {
+    while to[at] != at {
+        to[at] = to[to[at]];
+        at = to[at];
+    }
+    at
+}
