@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use generate::{Generate, Recipe};
-pub(crate) use surface::{Convert, Info, Reading, Surface};
+pub(crate) use surface::{Convert, Info, PlotSurface, Reading, Surface};
 
 /// Contact of two rough surfaces that press together and move
 ///

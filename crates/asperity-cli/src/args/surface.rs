@@ -6,13 +6,16 @@ use asperity::surface::{Fill, Level};
 use clap::{Args, Subcommand};
 
 use super::generate::Generate;
-use super::values::{Pair, Shape, Window, fill_parser, lengths, level_parser, shape, window};
+use super::values::{
+    Pair, Shape, Window, fill_parser, lengths, level_parser, positive_length, shape, window,
+};
 
-/// Make, describe and convert topographies
+/// Make, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
 pub(crate) enum Surface {
     Generate(Generate),
     Info(Info),
+    Plot(PlotSurface),
     Convert(Convert),
 }
 
@@ -33,6 +36,30 @@ pub(crate) struct Info {
     /// What is subtracted first
     #[arg(long, default_value = "none", value_parser = level_parser())]
     pub(crate) level: Level,
+    /// Cut-off λc of the roughness profiles along x and along y: adds their parameters, ISO 21920-2
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    pub(crate) cutoff: Option<f64>,
+}
+
+/// Draw a topography, its material ratio curve, distributions, spectrum, autocorrelation and hills
+///
+/// The figures (png) go into DIR, the curves as numbers in SI into curves.json beside them.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity surface plot disc.sur --level plane --out disc")]
+pub(crate) struct PlotSurface {
+    /// Topography
+    pub(crate) file: PathBuf,
+    /// Folder for the figures
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
+    /// What is subtracted first
+    #[arg(long, default_value = "none", value_parser = level_parser())]
+    pub(crate) level: Level,
+    /// Replace the figures that are there
+    #[arg(long)]
+    pub(crate) overwrite: bool,
 }
 
 #[derive(Debug, Args)]

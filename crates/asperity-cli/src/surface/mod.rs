@@ -1,9 +1,11 @@
-//! `asperity surface`: topographies made, described, converted.
+//! `asperity surface`: topographies made, described, drawn, converted.
 
 mod convert;
+mod description;
 mod generate;
 mod info;
 mod output;
+mod plot;
 
 use std::path::Path;
 
@@ -19,6 +21,7 @@ pub(crate) fn surface(arguments: Surface) -> Outcome {
     match arguments {
         Surface::Generate(arguments) => generate::generate(arguments),
         Surface::Info(arguments) => info::info(&arguments),
+        Surface::Plot(arguments) => plot::plot(&arguments),
         Surface::Convert(arguments) => convert::convert(&arguments),
     }
 }

@@ -55,13 +55,13 @@ impl Unit {
         }
     }
 
-    /// Writes a value with four digits and a unit that suits it: `0.2 µm`, `9.31 %`; `–` for NaN.
+    /// Writes a value with four digits, or four decimals, and a unit that suits it: `0.2 µm`, `9.3100 %`; `–` for NaN.
     pub fn format(self, value: f64) -> String {
         let length = || units::format(value, Dimension::Length);
         match self {
             _ if value.is_nan() => "–".to_owned(),
             Self::Number => format!("{value:.4}"),
-            Self::Share => format!("{:.2} %", 100.0 * value),
+            Self::Share => format!("{:.4} %", 100.0 * value),
             Self::Length => length(),
             Self::VolumePerArea => match length().split_once(' ') {
                 Some((number, unit)) => format!("{number} {unit}³/{unit}²"),
@@ -133,7 +133,7 @@ mod tests {
     fn a_value_is_written_in_the_unit_of_its_kind() {
         for (unit, value, text) in [
             (Unit::Number, 0.123_46, "0.1235"),
-            (Unit::Share, 0.0931, "9.31 %"),
+            (Unit::Share, 0.0931, "9.3100 %"),
             (Unit::Length, 2e-7, "0.2 µm"),
             (Unit::VolumePerArea, 3e-8, "30 nm³/nm²"),
             (Unit::PerLength, 12_500.0, "12.5000 /mm"),

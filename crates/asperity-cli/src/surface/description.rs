@@ -1,0 +1,90 @@
+//! What a topography is like, in numbers.
+
+use asperity::surface::{
+    Axis, Bins, FeatureParameters, GreenwoodWilliamson, HybridParameters, Parameters, ProfileParameters,
+    SelfAffinity, SpatialParameters, SpectralMoments, Spectrum, Summits, Window,
+};
+use asperity::units::Metre;
+use serde::Serialize;
+
+use super::Read;
+use crate::report::Outcome;
+
+/// All that `asperity surface info` tells beyond the file itself, SI.
+#[derive(Serialize)]
+pub(super) struct Description {
+    /// Areal parameters of ISO 25178-2.
+    pub(super) parameters: Parameters,
+    /// None without a pitch.
+    #[serde(flatten)]
+    pub(super) statistics: Option<Statistics>,
+    /// None without a cut-off.
+    pub(super) profiles: Option<Profiles>,
+}
+
+/// What the theories of random surfaces start from.
+#[derive(Serialize)]
+pub(super) struct Statistics {
+    /// Of the spectrum under Hann's window.
+    pub(super) moments: SpectralMoments,
+    /// Nayak's α.
+    pub(super) bandwidth: f64,
+    pub(super) asperities: Asperities,
+    /// The law on the longest range that follows one.
+    pub(super) self_affine: Option<SelfAffinity>,
+}
+
+/// The surface of Greenwood and Williamson.
+#[derive(Serialize)]
+pub(super) struct Asperities {
+    /// From its summits.
+    pub(super) counted: GreenwoodWilliamson,
+    /// From its moments.
+    pub(super) by_moments: GreenwoodWilliamson,
+}
+
+/// Parameters of ISO 21920-2 of the roughness, means over all lines.
+#[derive(Serialize)]
+pub(super) struct Profiles {
+    pub(super) cutoff: Metre,
+    pub(super) x: ProfileParameters,
+    pub(super) y: ProfileParameters,
+}
+
+impl Description {
+    pub(super) fn of(file: &Read, cutoff: Option<Metre>) -> Outcome<Self> {
+        let topography = &file.topography;
+        let mut parameters = topography.parameters();
+        if file.pitch.is_none() {
+            // These need lengths along the surface.
+            parameters.spatial = SpatialParameters::undefined();
+            parameters.hybrid = HybridParameters::undefined();
+            parameters.feature = FeatureParameters::undefined();
+        }
+        let profiles = cutoff.map(|cutoff| {
+            let along = |axis| topography.profile_parameters(axis, cutoff);
+            Ok::<_, asperity::Error>(Profiles { cutoff, x: along(Axis::X)?, y: along(Axis::Y)? })
+        });
+        let statistics = file.pitch.map(|_| Statistics::of(file));
+        Ok(Self { parameters, statistics, profiles: profiles.transpose()? })
+    }
+}
+
+impl Statistics {
+    fn of(file: &Read) -> Self {
+        let spectrum = Spectrum::of(&file.topography, Window::Hann);
+        let moments = spectrum.moments();
+        Self {
+            moments,
+            bandwidth: moments.bandwidth(),
+            asperities: Asperities {
+                counted: Summits::of(&file.topography).greenwood_williamson(),
+                by_moments: moments.greenwood_williamson(),
+            },
+            self_affine: SelfAffinity::of_longest_range(&spectrum.radial(RINGS)).ok(),
+        }
+    }
+}
+
+/// Rings over which spectra are averaged.
+pub(super) const RINGS: Bins = Bins::Logarithmic { per_decade: 10 };

@@ -1,0 +1,281 @@
+//! `asperity surface plot`: the figures of a topography, and the curves in them as numbers.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use asperity::Field;
+use asperity::surface::{
+    Axis as Direction, BearingCurve, Classes, Correlation, Distribution, SelfAffinity, Slope, SpectralPoint,
+    Spectrum, Topography, WOLF_PRUNING, Window,
+};
+use asperity::units::Metre;
+use serde_json::{Value, json};
+
+use super::description::RINGS;
+use super::read;
+use crate::args::PlotSurface;
+use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, PlaneFigure, Quantity, Series, Unit};
+use crate::report::{Failure, Outcome, note};
+
+/// Points of a sampled curve.
+const POINTS: usize = 501;
+/// Decades of a spectrum's map below its largest value.
+const DECADES: i32 = 8;
+
+pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
+    let out = &arguments.out;
+    if out.exists() && !arguments.overwrite {
+        let message = format!("`{}` exists", out.display());
+        return Err(Failure::usage(message, Some("--overwrite replaces the figures in it")));
+    }
+    let mut file = read(&arguments.file, &arguments.reading)?;
+    file.topography = file.topography.level(arguments.level);
+    if file.pitch.is_none() {
+        let message = "the figures need a pitch, which the heights have not";
+        return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+    }
+    let folder = |source| asperity::Error::File { path: out.clone(), source };
+    std::fs::create_dir_all(out).map_err(folder)?;
+    let sheet = Sheet { folder: out.clone(), topography: &file.topography };
+    let curves = json!({
+        "bearing": sheet.bearing()?,
+        "distributions": sheet.distributions()?,
+        "spectrum": sheet.spectrum()?,
+        "autocorrelation": sheet.autocorrelation()?,
+    });
+    sheet.heights()?;
+    sheet.hills()?;
+    asperity::io::atomic::write(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
+    note(&format!("figures and curves.json in {}", out.display()));
+    Ok(())
+}
+
+/// Where the figures go, and what they show.
+struct Sheet<'a> {
+    folder: PathBuf,
+    topography: &'a Topography,
+}
+
+impl Sheet<'_> {
+    fn heights(&self) -> Outcome {
+        self.map("heights.png", "heights", self.topography.heights())
+    }
+
+    /// The heights, the borders of the hills left out.
+    fn hills(&self) -> Outcome {
+        let labels = self.topography.hills(WOLF_PRUNING)?.labels;
+        let mut heights = self.topography.heights().clone();
+        let [nx, ny] = self.topography.grid().shape;
+        for ((ix, iy), z) in heights.indexed_iter_mut() {
+            let own = labels[[ix, iy]];
+            if (ix + 1 < nx && labels[[ix + 1, iy]] != own) || (iy + 1 < ny && labels[[ix, iy + 1]] != own) {
+                *z = f64::NAN;
+            }
+        }
+        self.map("hills.png", "hills, pruned at 5 % of Sz", &heights)
+    }
+
+    fn map(&self, name: &str, title: &str, field: &Field) -> Outcome {
+        let figure = MapFigure {
+            title: title.to_owned(),
+            field,
+            grid: self.topography.grid(),
+            quantity: Quantity::new("height", Unit::Length),
+            colours: Colours::Heights,
+            range: None,
+        };
+        Ok(draw::map(&self.path(name), &figure)?)
+    }
+
+    /// The material ratio curve with the line through its core.
+    fn bearing(&self) -> Outcome<Value> {
+        let curve = self.topography.bearing_curve()?;
+        let points = curve.sampled(POINTS);
+        let core = core_line(&curve);
+        let mut series = vec![Series::new("material ratio curve", points.clone(), Mark::Line)];
+        if let Some(core) = &core {
+            series.push(Series::new("core", core.clone(), Mark::Dashed));
+        }
+        let figure = LineFigure {
+            title: "material ratio (Abbott–Firestone) curve".to_owned(),
+            x: Axis { range: Some([0.0, 1.0]), ..Axis::linear("material ratio", Unit::Number) },
+            y: Axis::linear("height above the mean", Unit::Length),
+            right: None,
+            series,
+        };
+        draw::lines(&self.path("bearing.png"), &figure)?;
+        Ok(json!({ "ratio_height": points, "core": core }))
+    }
+
+    /// Densities of the heights and of the slopes, each beside the Gaussian of the same mean square.
+    fn distributions(&self) -> Outcome<Value> {
+        let heights = self.topography.height_distribution(Classes::default());
+        let slopes = [("along x", Slope::X), ("along y", Slope::Y)]
+            .map(|(name, slope)| (name, self.topography.slope_distribution(slope, Classes::default())));
+        let mut json = json!({ "heights": null, "slopes": {} });
+        if let Ok(heights) = heights {
+            let points = bars(&heights);
+            let series = vec![
+                Series::new("heights", points.clone(), Mark::Line),
+                Series::new("Gaussian", gaussian(&heights, self.topography.sq()), Mark::Dashed),
+            ];
+            let x = Axis::linear("height above the mean", Unit::Length);
+            self.density(
+                "height-distribution.png",
+                "distribution of the heights",
+                x,
+                Unit::Of("1/m"),
+                series,
+            )?;
+            json["heights"] = json!(points);
+        }
+        let mut series = Vec::new();
+        for (name, slopes) in slopes {
+            if let Ok(slopes) = slopes {
+                let points = bars(&slopes);
+                json["slopes"][name] = json!(points);
+                series.push(Series::new(name, points, Mark::Line));
+            }
+        }
+        if !series.is_empty() {
+            let x = Axis::linear("slope", Unit::Number);
+            self.density("slope-distribution.png", "distribution of the slopes", x, Unit::Number, series)?;
+        }
+        Ok(json)
+    }
+
+    fn density(&self, name: &str, title: &str, x: Axis, unit: Unit, series: Vec<Series>) -> Outcome {
+        let y = Axis::linear("density", unit);
+        let figure = LineFigure { title: title.to_owned(), x, y, right: None, series };
+        Ok(draw::lines(&self.path(name), &figure)?)
+    }
+
+    /// The spectrum over all directions with its power law, and as a map.
+    fn spectrum(&self) -> Outcome<Value> {
+        let spectrum = Spectrum::of(self.topography, Window::Hann);
+        let radial = spectrum.radial(RINGS);
+        let points = |points: &[SpectralPoint]| -> Vec<[f64; 2]> {
+            points.iter().filter(|p| p.wave_number > 0.0).map(|p| [p.wave_number, p.density]).collect()
+        };
+        let mut series = vec![Series::new("mean over all directions", points(&radial), Mark::LineAndPoints)];
+        let law = SelfAffinity::of_longest_range(&radial).ok();
+        if let Some(law) = law {
+            let name = format!("self-affine, H = {:.2}", law.hurst);
+            series.push(Series::new(name, power_law(&law, &radial), Mark::Dashed));
+        }
+        let figure = LineFigure {
+            title: "power spectral density".to_owned(),
+            x: Axis::log("wave number", Unit::Of("rad/m")),
+            y: Axis::log("C", Unit::Of("m⁴")),
+            right: None,
+            series,
+        };
+        draw::lines(&self.path("spectrum.png"), &figure)?;
+        self.spectrum_map(&spectrum)?;
+        Ok(json!({
+            "radial": radial,
+            "x": spectrum.along(Direction::X),
+            "y": spectrum.along(Direction::Y),
+            "self_affine": law,
+        }))
+    }
+
+    fn spectrum_map(&self, spectrum: &Spectrum) -> Outcome {
+        let grid = self.topography.grid();
+        let field = Field::from_shape_fn(grid.shape, |(i, j)| {
+            let wave = |axis: usize, index: usize| index as isize - (grid.shape[axis] / 2) as isize;
+            spectrum.at([wave(0, i), wave(1, j)])
+        });
+        let largest = field.iter().copied().fold(0.0, f64::max);
+        if largest == 0.0 {
+            return Ok(());
+        }
+        let figure = PlaneFigure {
+            title: "power spectral density, Hann's window".to_owned(),
+            field: &field,
+            step: grid.extent().map(|length| TAU / length),
+            names: ["qx", "qy"],
+            unit: Unit::Wavenumber,
+            quantity: Quantity::new("C", Unit::Of("m⁴")),
+            range: [largest * 10f64.powi(-DECADES), largest],
+        };
+        Ok(draw::plane(&self.path("spectrum-map.png"), &figure)?)
+    }
+
+    /// The autocorrelation as a map, and along lines.
+    fn autocorrelation(&self) -> Outcome<Value> {
+        let correlation = Correlation::of(self.topography);
+        let variance = correlation.variance();
+        if variance == 0.0 {
+            return Ok(Value::Null);
+        }
+        let field = correlation.values() / variance;
+        let figure = PlaneFigure {
+            title: "autocorrelation".to_owned(),
+            field: &field,
+            step: self.topography.grid().pitch,
+            names: ["lag along x", "lag along y"],
+            unit: Unit::Length,
+            quantity: Quantity::new("R/Sq²", Unit::Number),
+            range: [field.iter().copied().fold(0.0, f64::min), 1.0],
+        };
+        draw::plane(&self.path("autocorrelation-map.png"), &figure)?;
+        let share = |curve: Vec<(Metre, f64)>| -> Vec<[f64; 2]> {
+            curve.into_iter().map(|(lag, r)| [lag, r / variance]).collect()
+        };
+        let curves = [
+            ("x", "along x", share(correlation.along(Direction::X))),
+            ("y", "along y", share(correlation.along(Direction::Y))),
+            ("radial", "mean over all directions", share(correlation.radial())),
+        ];
+        let mut json = json!({});
+        let mut series = Vec::new();
+        for (key, name, points) in curves {
+            json[key] = json!(points);
+            series.push(Series::new(name, points, Mark::Line));
+        }
+        let figure = LineFigure {
+            title: "autocorrelation".to_owned(),
+            x: Axis::linear("lag", Unit::Length),
+            y: Axis::linear("R/Sq²", Unit::Number),
+            right: None,
+            series,
+        };
+        draw::lines(&self.path("autocorrelation.png"), &figure)?;
+        Ok(json)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        Path::new(&self.folder).join(name)
+    }
+}
+
+/// The straight line from the upper to the lower end of the core.
+fn core_line(curve: &BearingCurve) -> Option<Vec<[f64; 2]>> {
+    curve.core().map(|core| vec![[0.0, core.upper], [1.0, core.lower]])
+}
+
+/// The middle of each class and its density.
+fn bars(distribution: &Distribution) -> Vec<[f64; 2]> {
+    let density = distribution.density.iter().enumerate();
+    density.map(|(class, density)| [distribution.centre(class), *density]).collect()
+}
+
+fn gaussian(distribution: &Distribution, deviation: f64) -> Vec<[f64; 2]> {
+    let [first, last] = [0, distribution.density.len() - 1].map(|class| distribution.centre(class));
+    let points = (0..POINTS).map(|i| first + (last - first) * i as f64 / (POINTS - 1) as f64);
+    let density = |z: f64| (-0.5 * (z / deviation).powi(2)).exp() / (TAU.sqrt() * deviation);
+    points.map(|z| [z, density(z)]).collect()
+}
+
+/// The law on its range, through the geometric mean of the points that it was fitted to.
+fn power_law(law: &SelfAffinity, radial: &[SpectralPoint]) -> Vec<[f64; 2]> {
+    let inside = || {
+        let range = law.range[0] * (1.0 - 1e-9)..=law.range[1] * (1.0 + 1e-9);
+        radial.iter().filter(move |p| range.contains(&p.wave_number) && p.density > 0.0)
+    };
+    let exponent = -2.0 - 2.0 * law.hurst;
+    let level = inside().map(|p| p.density.ln() - exponent * p.wave_number.ln()).sum::<f64>();
+    let level = level / inside().count() as f64;
+    law.range.map(|q| [q, (level + exponent * q.ln()).exp()]).to_vec()
+}
