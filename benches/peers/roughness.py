@@ -21,10 +21,13 @@ import surfalize
 
 FILES = ("al3d-1.al3d", "metropro-1.dat", "x3p-2.x3p")
 UM = 1e-6
+# Parameters of hills and dales: surfalize leaves out those at the edge unless told.
+FEATURES = ("S5p", "S5v", "S10z", "Spd", "Svd", "Spc", "Svc")
 # Of each parameter: the unit of surfalize in SI, where it has the parameter.
 SURFALIZE = {
     **dict.fromkeys(("Sa", "Sq", "Sp", "Sv", "Sz", "Sk", "Spk", "Svk", "Spkx", "Svkx", "Sal", "Ssw", "Sxp"), UM),
-    **dict.fromkeys(("S5p", "S5v", "S10z", "Sak1", "Sak2", "Vmp", "Vmc", "Vvc", "Vvv"), UM),
+    **dict.fromkeys(("S5p", "S5v", "S10z", "Vmp", "Vmc", "Vvc", "Vvv"), UM),
+    **dict.fromkeys(("Sak1", "Sak2"), 1e-2 * UM),
     **dict.fromkeys(("Ssk", "Sku", "Sdq", "Str"), 1.0),
     **dict.fromkeys(("Sdr", "Smrk1", "Smrk2"), 1e-2),
     **dict.fromkeys(("Spd", "Svd"), UM**-2),
@@ -40,11 +43,8 @@ def run(*arguments):
 def by_asperity(program, heights_file, pitch):
     size = ",".join(f"{p!r}" for p in pitch)
     info = json.loads(run(program, "surface", "info", heights_file, "--pitch", size, "--json"))
-    moments = info["moments"]["spectrum"]
-    return info["parameters"] | {
-        "√m2": math.sqrt(sum(moments["m2"])),
-        "m0": moments["m0"],
-    }
+    moments = info["moments"]
+    return info["parameters"] | {"√m2": math.sqrt(sum(moments["m2"]))}
 
 
 def by_surfalize(heights, pitch):
@@ -54,7 +54,8 @@ def by_surfalize(heights, pitch):
     for symbol, unit in SURFALIZE.items():
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            values[symbol] = float(getattr(surface, symbol)()) * unit
+            options = {"exclude_edge": False} if symbol in FEATURES else {}
+            values[symbol] = float(getattr(surface, symbol)(**options)) * unit
     return values
 
 
@@ -64,8 +65,7 @@ def by_surface_topography(heights, pitch):
     return {
         "Sq": topography.rms_height_from_area(),
         "Sdq": topography.rms_gradient(),
-        "m0": topography.moment_power_spectrum(0),
-        "√m2": math.sqrt(topography.moment_power_spectrum(2)),
+        "√m2": math.sqrt(topography.moment_power_spectrum(2, window="hann")),
     }
 
 

@@ -123,6 +123,10 @@ impl Scale {
                 (i as f64 * step, label.replace('-', "−"))
             })
             .collect();
+        // One tick tells no scale.
+        if first == last && most < 8 {
+            return Self::linear(range, magnitude, unit, most + 1);
+        }
         Self { low, high, ticks, minor: Vec::new(), symbol, factor, log: false }
     }
 

@@ -60,8 +60,8 @@ impl Unit {
         let length = || units::format(value, Dimension::Length);
         match self {
             _ if value.is_nan() => "–".to_owned(),
-            Self::Number => format!("{value:.4}"),
-            Self::Share => format!("{:.4} %", 100.0 * value),
+            Self::Number => four_digits(value),
+            Self::Share => format!("{} %", four_digits(100.0 * value)),
             Self::Length => length(),
             Self::VolumePerArea => match length().split_once(' ') {
                 Some((number, unit)) => format!("{number} {unit}³/{unit}²"),
@@ -69,11 +69,17 @@ impl Unit {
             },
             Self::Area => units::format(value, Dimension::Area),
             Self::Volume => units::format(value, Dimension::Volume),
-            Self::PerLength => format!("{:.4} /mm", 1e-3 * value),
-            Self::PerArea => format!("{:.4} /mm²", 1e-6 * value),
+            Self::PerLength => format!("{} /mm", four_digits(1e-3 * value)),
+            Self::PerArea => format!("{} /mm²", four_digits(1e-6 * value)),
             Self::Angle => format!("{:.1}°", value.to_degrees()),
         }
     }
+}
+
+/// The number with four significant digits, all before the point at the least.
+fn four_digits(value: f64) -> String {
+    let exponent = if value == 0.0 { 3.0 } else { value.abs().log10().floor() };
+    format!("{value:.*}", (3.0 - exponent).clamp(0.0, 12.0) as usize)
 }
 
 /// A family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a struct of public
@@ -133,10 +139,10 @@ mod tests {
     fn a_value_is_written_in_the_unit_of_its_kind() {
         for (unit, value, text) in [
             (Unit::Number, 0.123_46, "0.1235"),
-            (Unit::Share, 0.0931, "9.3100 %"),
+            (Unit::Share, 0.0931, "9.310 %"),
             (Unit::Length, 2e-7, "0.2 µm"),
             (Unit::VolumePerArea, 3e-8, "30 nm³/nm²"),
-            (Unit::PerLength, 12_500.0, "12.5000 /mm"),
+            (Unit::PerLength, 12_500.0, "12.50 /mm"),
             (Unit::Angle, std::f64::consts::FRAC_PI_4, "45.0°"),
             (Unit::Length, f64::NAN, "–"),
         ] {

@@ -1,6 +1,6 @@
 //! Spatial parameters of ISO 25178-2.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use super::row::family;
 use crate::surface::{Correlation, Spectrum, Topography, Window};
@@ -27,11 +27,11 @@ family! {
         /// NaN if there is a direction in which the autocorrelation stays above 0.2 up to half the topography: the lay
         /// is then too long to be measured.
         str: Number as "Str",
-        /// Texture direction, of the lay, from the x axis towards the y axis.
+        /// Texture direction, of the largest angular spectrum, from the x axis towards the y axis.
         ///
-        /// 0 ≤ Std < π, to half a degree, at right angles to the wave vectors of the highest power in
-        /// [`Spectrum::angular`] under Hann's window. Of no meaning for an isotropic surface, whose Str is near 1. NaN
-        /// where all heights are equal, and for a single line of samples.
+        /// 0 ≤ Std < π, to half a degree, by [`Spectrum::angular`] under Hann's window. It is that of the wave vectors:
+        /// the lay is at right angles to it, so that 0 means grooves along y. Of no meaning for an isotropic surface,
+        /// whose Str is near 1. NaN where all heights are equal, and for a single line of samples.
         std: Angle as "Std",
         /// Dominant spatial wavelength, of the largest amplitude in the Fourier transform.
         ///
@@ -50,18 +50,18 @@ impl SpatialParameters {
         Self {
             sal: fastest,
             str: fastest / slowest,
-            std: if several { lay(&spectrum) } else { f64::NAN },
+            std: if several { direction(&spectrum) } else { f64::NAN },
             ssw: dominant_wavelength(&spectrum),
         }
     }
 }
 
-/// Direction at right angles to the wave vectors of the highest power, in radians.
-fn lay(spectrum: &Spectrum) -> f64 {
+/// Direction of the wave vectors of the highest power, in radians.
+fn direction(spectrum: &Spectrum) -> f64 {
     let angular = spectrum.angular(DIRECTIONS);
     let highest =
         (0..DIRECTIONS).filter(|k| angular[*k] > 0.0).max_by(|a, b| angular[*a].total_cmp(&angular[*b]));
-    highest.map_or(f64::NAN, |k| (k as f64 * PI / DIRECTIONS as f64 + FRAC_PI_2).rem_euclid(PI))
+    highest.map_or(f64::NAN, |k| k as f64 * PI / DIRECTIONS as f64)
 }
 
 /// Wavelength of the highest density of a spectrum under Hann's window.
@@ -145,10 +145,9 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_and_scaled_wave_keeps_its_wavelength_and_shows_its_lay() {
+    fn a_turned_and_scaled_wave_keeps_its_wavelength_and_shows_its_direction() {
         for degrees in [0.0f64, 20.0, 75.0, 90.0, 133.0, 170.0] {
-            // The lay at right angles to the wave vector, both from x towards y.
-            let (sin, cos) = (degrees - 90.0).to_radians().sin_cos();
+            let (sin, cos) = degrees.to_radians().sin_cos();
             let wavelength = 7.3;
             let q = TAU / wavelength;
             let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [q * cos, q * sin]));
@@ -167,7 +166,7 @@ mod tests {
         // R = cos(2πx/λ)/2: 0.2 of R(0) at λ arccos(0.2)/2π. Its estimate is off by the part of a wave at the ends, λ/πL.
         assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
         assert!(found.str.is_nan());
-        assert_eq!(found.std, FRAC_PI_2);
+        assert_eq!(found.std, 0.0);
     }
 
     #[test]
