@@ -14,9 +14,16 @@ fn every_command_has_help_with_an_exit_code() {
     for word in ["check", "example", "surface", "Exit code"] {
         assert!(help.contains(word), "{help}");
     }
-    for command in
-        ["run", "check", "example", "surface", "surface generate low-pass", "surface info", "surface convert"]
-    {
+    for command in [
+        "run",
+        "check",
+        "example",
+        "surface",
+        "surface generate low-pass",
+        "surface info",
+        "surface plot",
+        "surface convert",
+    ] {
         let help = ok(&run(Path::new("."), &format!("{command} --help")));
         assert!(help.contains("Usage: asperity"), "{help}");
     }
@@ -64,8 +71,23 @@ fn a_surface_survives_every_format_that_holds_it() {
 
     let info: Value = serde_json::from_str(&ok(&at("surface info z.x3p --json"))).unwrap();
     let keys: Vec<_> = info.as_object().unwrap().keys().map(String::as_str).collect();
-    let expected =
-        ["channel", "channels", "format", "max", "mean", "min", "parameters", "pitch", "shape", "undefined"];
+    let expected = [
+        "asperities",
+        "bandwidth",
+        "channel",
+        "channels",
+        "format",
+        "max",
+        "mean",
+        "min",
+        "moments",
+        "parameters",
+        "pitch",
+        "profiles",
+        "self_affine",
+        "shape",
+        "undefined",
+    ];
     assert_eq!(keys, expected);
     assert_eq!((&info["format"], &info["shape"]), (&"x3p".into(), &serde_json::json!([64, 48])));
     assert_eq!((&info["pitch"], &info["undefined"]), (&serde_json::json!([0.5e-6, 1e-6]), &0.into()));
@@ -103,6 +125,67 @@ fn conversion_prepares_in_its_order() {
     assert_eq!(info("part.npy")["shape"], serde_json::json!([2, 2]));
     let error = refused(&at("surface convert z.txt part.x3p --window 2,0,2,2"));
     assert!(error.contains("needs a pitch") && error.contains("hint: give it: --pitch"), "{error}");
+}
+
+#[test]
+fn a_topography_is_described_by_its_families_of_parameters() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    ok(&at("surface generate self-affine --shape 96x80 --pitch 1um --sq 50nm --rolloff 40um --out z.x3p"));
+    let text = ok(&at("surface info z.x3p --cutoff 20um"));
+    for title in ["height", "spatial", "hybrid", "functional", "feature"] {
+        assert!(text.contains(&format!("\n{title} parameters, ISO 25178-2\n")), "{text}");
+    }
+    for row in ["Sq         50 nm", "Nayak's bandwidth", "Hurst exponent", "Rsm ", "along x | along y"] {
+        assert!(text.contains(row), "{row}: {text}");
+    }
+    let json = |arguments: &str| -> Value { serde_json::from_str(&ok(&at(arguments))).unwrap() };
+    let described = json("surface info z.x3p --json --cutoff 20um");
+    assert!((described["parameters"]["Sq"].as_f64().unwrap() - 50e-9).abs() < 1e-15);
+    assert!(described["moments"]["m2"][1].as_f64().unwrap() > 0.0);
+    assert!(described["profiles"]["y"]["Ra"].as_f64().unwrap() < 50e-9);
+    // Without a pitch there are heights, and no lengths along the surface.
+    ok(&at("surface convert z.x3p z.npy"));
+    let bare = json("surface info z.npy --json");
+    assert_eq!(bare["parameters"]["Sq"], described["parameters"]["Sq"]);
+    assert!(bare["parameters"]["Sdq"].is_null() && bare["parameters"]["Sal"].is_null());
+    assert!(bare.get("moments").is_none() && bare["profiles"].is_null());
+    let error = refused(&at("surface info z.npy --cutoff 20um"));
+    assert!(error.contains("--pitch 0.5um"), "{error}");
+    let error = refused(&at("surface info z.x3p --cutoff 1um"));
+    assert!(error.contains("cutoff is 1e-6, expected a length of at least two pitches"), "{error}");
+}
+
+#[test]
+fn a_topography_is_drawn_with_its_curves() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    ok(&at("surface generate self-affine --shape 96x80 --pitch 1um --sq 50nm --rolloff 40um --out z.x3p"));
+    ok(&at("surface plot z.x3p --out figures"));
+    let figures = folder.path().join("figures");
+    for name in [
+        "heights",
+        "hills",
+        "bearing",
+        "height-distribution",
+        "slope-distribution",
+        "spectrum",
+        "spectrum-map",
+        "autocorrelation",
+        "autocorrelation-map",
+    ] {
+        let picture = fs::read(figures.join(format!("{name}.png"))).unwrap();
+        assert!(picture.starts_with(b"\x89PNG"), "{name}");
+    }
+    let curves: Value = serde_json::from_slice(&fs::read(figures.join("curves.json")).unwrap()).unwrap();
+    let bearing = curves["bearing"]["ratio_height"].as_array().unwrap();
+    assert!(bearing[0][1].as_f64() > bearing[bearing.len() - 1][1].as_f64());
+    assert_eq!(curves["autocorrelation"]["x"][0], serde_json::json!([0.0, 1.0]));
+    assert!(curves["spectrum"]["radial"][0]["density"].as_f64().unwrap() > 0.0);
+    assert!(refused(&at("surface plot z.x3p --out figures")).contains("--overwrite"));
+    // A plane has no roughness to draw, and is drawn all the same.
+    ok(&at("surface generate flat --shape 16x16 --pitch 1um --out flat.x3p"));
+    ok(&at("surface plot flat.x3p --out figures --overwrite"));
 }
 
 #[test]
