@@ -1,9 +1,13 @@
-//! Random topographies: 256² to 4096² cells of a method each, with what its margin and its spectrum cost.
+//! Random topographies: what the noise, its transforms, the spectrum and the translation of the heights cost.
 
 use asperity::Grid;
-use asperity::surface::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
+use asperity::surface::{
+    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
+};
 
 const SIDES: [usize; 3] = [256, 1024, 4096];
+
+const HONED: HeightDistribution = HeightDistribution { ssk: -1.0, sku: 4.5 };
 
 fn main() {
     divan::main();
@@ -11,16 +15,31 @@ fn main() {
 
 #[divan::bench(args = SIDES, sample_count = 5)]
 fn low_pass(bencher: divan::Bencher, side: usize) {
-    measure(bencher, Generator::LowPass(LowPass { sq: 1.0, cutoff: [8.0; 2] }), side);
+    measure(bencher, Generator::LowPass(LowPass::new(1.0, [8.0; 2])), side);
+}
+
+#[divan::bench(args = SIDES, sample_count = 5)]
+fn low_pass_not_gaussian(bencher: divan::Bencher, side: usize) {
+    let method = LowPass { band: Band::Rectangular, heights: HONED, ..LowPass::new(1.0, [8.0; 2]) };
+    measure(bencher, Generator::LowPass(method), side);
 }
 
 #[divan::bench(args = SIDES, sample_count = 5)]
 fn autocorrelation(bencher: divan::Bencher, side: usize) {
-    measure(
-        bencher,
-        Generator::Autocorrelation(Autocorrelation { sq: 1.0, correlation_length: [16.0; 2] }),
-        side,
-    );
+    measure(bencher, Generator::Autocorrelation(Autocorrelation::new(1.0, [16.0; 2])), side);
+}
+
+#[divan::bench(args = SIDES, sample_count = 5)]
+fn autocorrelation_not_gaussian(bencher: divan::Bencher, side: usize) {
+    let method =
+        Autocorrelation { decay: Decay::Gaussian, heights: HONED, ..Autocorrelation::new(1.0, [16.0; 2]) };
+    measure(bencher, Generator::Autocorrelation(method), side);
+}
+
+#[divan::bench(args = SIDES, sample_count = 5)]
+fn ground(bencher: divan::Bencher, side: usize) {
+    let method = Autocorrelation { lay: 0.5, heights: HONED, ..Autocorrelation::new(1.0, [64.0, 8.0]) };
+    measure(bencher, Generator::Autocorrelation(method), side);
 }
 
 #[divan::bench(args = SIDES, sample_count = 5)]

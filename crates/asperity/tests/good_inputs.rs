@@ -26,7 +26,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     );
     assert_eq!((lower.level, lower.resample, lower.pitch), (Level::Plane, Some([256, 256]), None));
     let upper = &case.upper.topography;
-    let generate = Generator::LowPass(LowPass { sq: 0.2e-6, cutoff: [8e-6; 2] });
+    let generate = Generator::LowPass(LowPass::new(0.2e-6, [8e-6; 2]));
     assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
     assert_eq!(upper.pitch, Some([0.5e-6; 2]));
     assert_eq!(case.contact.prescribed, Prescribed::Load(2.0));
@@ -68,7 +68,7 @@ fn one_length_serves_both_directions_and_two_serve_each() {
     let case = load("rolling");
     assert_eq!(case.lower.topography.pitch, Some([0.5e-6, 1e-6]));
     let Source::Generate { generate, .. } = case.upper.topography.source else { panic!() };
-    let expected = Autocorrelation { sq: 1e-7, correlation_length: [10e-6, 20e-6] };
+    let expected = Autocorrelation::new(1e-7, [10e-6, 20e-6]);
     assert_eq!(generate, Generator::Autocorrelation(expected));
     let Source::Generate { generate, .. } = case.lower.topography.source else { panic!() };
     assert_eq!(
@@ -81,7 +81,7 @@ fn one_length_serves_both_directions_and_two_serve_each() {
         })
     );
     let Source::Generate { generate, .. } = load("grooves").lower.topography.source else { panic!() };
-    assert_eq!(generate, Generator::LowPass(LowPass { sq: 1e-7, cutoff: [8e-6, 16e-6] }));
+    assert_eq!(generate, Generator::LowPass(LowPass::new(1e-7, [8e-6, 16e-6])));
     let Source::Form { form, .. } = load("grooves").upper.topography.source else { panic!() };
     assert_eq!(form, Form::Sinusoid { amplitude: 1e-7, wavelength: [8e-6, f64::INFINITY] });
     let Source::Form { form, .. } = load("forms").upper.topography.source else { panic!() };

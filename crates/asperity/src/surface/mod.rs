@@ -9,8 +9,10 @@ mod parameters;
 mod process;
 mod topography;
 
-pub use form::{Axis, Form};
-pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
+pub use form::{Axis, Form, Profile};
+pub use generate::{
+    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
+};
 pub use parameters::Parameters;
 pub use process::{Fill, Level};
 pub use topography::Topography;
