@@ -78,25 +78,30 @@ impl LowPass {
             check("cutoff", length, good, "a wavelength from two pitches to the length of the surface")?;
         }
         let shape = shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length));
-        stationary(grid, shape, seed, self.sq, self.heights, || self.response(shape, grid.pitch))
+        stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
     }
 
-    /// Response of the filter, 0 or 1 and so its own square, `[l, k]` of a transform of `shape`.
-    fn response(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
-        // Wavenumbers over those of the cut-off.
+    /// Spectrum of the filter, `[l, k]` of a transform of `shape`: its response squared.
+    fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
             let part = |bin| {
                 let frequency = angular_frequency(bin, shape[axis], pitch[axis]);
-                (frequency * self.cutoff[axis] / std::f64::consts::TAU).powi(2)
+                let part = frequency * self.cutoff[axis] / std::f64::consts::TAU;
+                match self.band {
+                    Band::Elliptic => part * part,
+                    // How much of the bin is inside, as the edge may lie between two.
+                    Band::Rectangular => {
+                        let bins = shape[axis] as f64 * pitch[axis] / self.cutoff[axis];
+                        (0.5 + (1.0 - part.abs()) * bins).clamp(0.0, 1.0)
+                    }
+                }
             };
             (0..shape[axis]).map(part).collect::<Vec<f64>>()
         });
-        Field::from_shape_fn([shape[1] / 2 + 1, shape[0]], |(l, k)| {
-            let passes = match self.band {
-                Band::Elliptic => x[k] + y[l] < 1.0,
-                Band::Rectangular => x[k].max(y[l]) < 1.0,
-            };
-            if passes { 1.0 } else { 0.0 }
+        Field::from_shape_fn([shape[1] / 2 + 1, shape[0]], |(l, k)| match self.band {
+            Band::Elliptic if x[k] + y[l] < 1.0 => 1.0,
+            Band::Elliptic => 0.0,
+            Band::Rectangular => x[k] * y[l],
         })
     }
 }
@@ -115,8 +120,8 @@ mod tests {
         // On n² samples the transform sums the filter over all periods: the lattice points in a circle in
         // place of its area, right to n^(−1/2) of the height at the origin.
         let n = 512;
-        let response = LowPass::new(1.0, [16.0; 2]).response([n, n], [1.0; 2]);
-        let h = symmetric_transform(&response, [n, n]) / (n * n) as f64;
+        let spectrum = LowPass::new(1.0, [16.0; 2]).spectrum([n, n], [1.0; 2]);
+        let h = symmetric_transform(&spectrum, [n, n]) / (n * n) as f64;
         let cutoff = TAU / 16.0;
         let origin = cutoff * cutoff / (4.0 * PI);
         assert!((h[[0, 0]] / origin - 1.0).abs() < 0.01);

@@ -5,6 +5,7 @@
 //! surface of n independent spots, of the order of 1/n.
 
 use std::f64::consts::{FRAC_PI_4, LN_10, TAU};
+use std::sync::LazyLock;
 
 use super::noise::tests::covariance;
 use super::*;
@@ -44,8 +45,10 @@ fn asked() -> [Asked; 9] {
         0.0 => 1.0,
         s => 2.0 * libm::j1(s) / s,
     };
-    let sinc = |s: f64| if s == 0.0 { 1.0 } else { s.sin() / s };
-    let rectangle = move |[x, y]: [f64; 2]| sinc(TAU * x / 8.0) * sinc(TAU * y / 6.0);
+    let rectangle = |[x, y]: [f64; 2]| {
+        let sinc = |s: f64| if s == 0.0 { 1.0 } else { s.sin() / s };
+        sinc(TAU * x / 8.0) * sinc(TAU * y / 6.0)
+    };
     let exponential = |[x, y]: [f64; 2]| (-LN_10 * (x / 8.0).hypot(y / 5.0)).exp();
     let gaussian = |[x, y]: [f64; 2]| (-LN_10 * ((x / 8.0).powi(2) + (y / 5.0).powi(2))).exp();
     let lay = |[x, y]: [f64; 2]| (-LN_10 * ((x + y) / 16.0).hypot((y - x) / 4.0) / 2f64.sqrt()).exp();
@@ -96,12 +99,18 @@ fn asked() -> [Asked; 9] {
     ]
 }
 
-impl Asked {
-    fn surfaces(&self) -> impl Iterator<Item = Topography> {
-        let grid = Grid::new(SHAPE, [1.0; 2]).unwrap();
-        (0..SEEDS).map(move |seed| self.generator.generate(&grid, seed).unwrap())
-    }
+/// The surfaces of every case, made once for all tests.
+static SURFACES: LazyLock<Vec<Vec<Topography>>> = LazyLock::new(|| {
+    let grid = Grid::new(SHAPE, [1.0; 2]).unwrap();
+    let surface = |case: &Asked, seed| case.generator.generate(&grid, seed).unwrap();
+    asked().iter().map(|case| (0..SEEDS).map(|seed| surface(case, seed)).collect()).collect()
+});
 
+fn cases() -> impl Iterator<Item = (Asked, &'static [Topography])> {
+    asked().into_iter().zip(SURFACES.iter().map(Vec::as_slice))
+}
+
+impl Asked {
     /// Area over ∫ R²: the number of independent spots of a surface.
     fn spots(&self) -> f64 {
         let half = |n: usize| -(n as i32 / 2)..n as i32 / 2;
@@ -112,9 +121,9 @@ impl Asked {
 
 #[test]
 fn skewness_and_kurtosis_are_those_asked_for_over_a_hundred_seeds() {
-    for case in asked() {
+    for (case, surfaces) in cases() {
         let [mut skewness, mut kurtosis] = [Sample::default(), Sample::default()];
-        for surface in case.surfaces() {
+        for surface in surfaces {
             let parameters = surface.parameters();
             assert!((parameters.sq - 1.0).abs() < 1e-12 && surface.mean().abs() < 1e-13, "{}", case.name);
             skewness.add(parameters.ssk);
@@ -136,9 +145,9 @@ fn skewness_and_kurtosis_are_those_asked_for_over_a_hundred_seeds() {
 fn the_autocorrelation_is_the_one_asked_for_over_a_hundred_seeds() {
     const LAGS: [[i32; 2]; 10] =
         [[1, 0], [0, 1], [4, 0], [0, 4], [8, 0], [0, 10], [3, 3], [3, -3], [6, 5], [20, -12]];
-    for case in asked() {
+    for (case, surfaces) in cases() {
         let mut samples = LAGS.map(|_| Sample::default());
-        for surface in case.surfaces() {
+        for surface in surfaces {
             let mut mirrored = surface.heights().clone();
             mirrored.invert_axis(ndarray::Axis(1));
             for (sample, [i, j]) in samples.iter_mut().zip(LAGS) {
@@ -157,14 +166,14 @@ fn the_autocorrelation_is_the_one_asked_for_over_a_hundred_seeds() {
 fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
     const RINGS: usize = 10;
     let [nx, ny] = SHAPE;
-    // Four times the directions along x + y as the others: a lay at 45° shows.
+    // Waves along x + y and along x − y apart: a lay at 45° shows.
     let bin = |k: usize, l: usize| {
         let q = [angular_frequency(k, nx, 1.0), angular_frequency(l, ny, 1.0)];
         let ring = (q[0].hypot(q[1]) / (0.5 * TAU) * RINGS as f64) as usize;
         let sector = usize::from(q[0] * q[1] < 0.0);
         (ring < RINGS && (k, l) != (0, 0)).then_some([ring, sector])
     };
-    for case in asked() {
+    for (case, surfaces) in cases() {
         // The mean periodogram of a surface that ends at its edges: the transform of R times the pairs at each lag.
         let pairs = |i: usize, n: usize| [(i as f64, (n - i) as f64), (i as f64 - n as f64, i as f64)];
         let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| {
@@ -188,7 +197,7 @@ fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
         let total: f64 = rings.iter().flatten().sum();
         let fft = RealFft2::new(SHAPE);
         let mut samples = [0; RINGS].map(|_| [Sample::default(), Sample::default()]);
-        for surface in case.surfaces() {
+        for surface in surfaces {
             let mut power = [[0.0; 2]; RINGS];
             for ((k, l), value) in fft.forward(surface.heights()).indexed_iter() {
                 if let Some([ring, sector]) = bin(k, l) {
