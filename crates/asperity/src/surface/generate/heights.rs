@@ -12,7 +12,7 @@ use crate::math::fft::symmetric_transform;
 /// Heights are z = f(g), g a Gaussian process, f the curve of Johnson's system with these moments: a translation
 /// process (Grigoriu, *Applied Non-Gaussian Processes*, 1995), and free of the length of the filter. Translation of
 /// the noise before the filter, as Hu & Tonder have it, needs noise of kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴ instead,
-/// above 1000 for Sku = 4.5 and a cut-off of 32 samples, which no sample of it shows; and with it only
+/// 1070 for Sku = 4.5 and a cut-off of 32 samples, which no sample of it shows; and with it only
 /// Sku > 3 + 1.3 Ssk² can be reached.
 ///
 /// The translation changes the autocorrelation. That of g is chosen such that it becomes the one that is asked for,
