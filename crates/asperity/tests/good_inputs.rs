@@ -10,8 +10,8 @@ use asperity::io::prepare::bodies;
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
-    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, HeightDistribution, Level, LowPass, Profile,
-    SelfAffine,
+    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, HeightDistribution, Level, LowPass,
+    Profile, SelfAffine,
 };
 
 #[test]
@@ -124,8 +124,18 @@ fn what_has_no_meaning_on_the_grid_is_shown_at_its_place() {
     let text = std::fs::read_to_string(inputs("good").join("rough_ball.toml")).unwrap();
     for (good, bad, line, message) in [
         ("sku = 4.5", "sku = 2", 14, "'sku' is 2, expected a kurtosis from 1.1 (Ssk² + 1) to 50"),
-        ("period = \"20 um\"", "period = \"1 um\"", 18, "'period' is 1 µm, expected a length of at least two pitches"),
-        ("\"4 um\", decay", "\"90 um\", decay", 33, "'correlation_length' is 90 µm, expected a length from one pitch"),
+        (
+            "period = \"20 um\"",
+            "period = \"1 um\"",
+            18,
+            "'period' is 1 µm, expected a length of at least two pitches",
+        ),
+        (
+            "\"4 um\", decay",
+            "\"90 um\", decay",
+            33,
+            "'correlation_length' is 90 µm, expected a length from one pitch",
+        ),
     ] {
         let text = text.replace(good, bad);
         let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();

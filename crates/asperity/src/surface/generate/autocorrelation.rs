@@ -112,7 +112,8 @@ impl Autocorrelation {
                 Decay::Exponential => s,
                 Decay::Gaussian => s * s,
             };
-            (-std::f64::consts::LN_10 * exponent).exp()
+            // Below round-off from here on.
+            if exponent > 20.0 { 0.0 } else { (-std::f64::consts::LN_10 * exponent).exp() }
         });
         symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
     }

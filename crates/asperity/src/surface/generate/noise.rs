@@ -78,7 +78,7 @@ pub(super) mod tests {
         let moment = |p: i32| noise.iter().map(|z| z.powi(p)).sum::<f64>() / n;
         // Standard errors of the sample moments of a Gaussian: √(1, 2, 15, 96)/√n.
         for (p, expected, variance) in [(1, 0.0, 1.0), (2, 1.0, 2.0), (3, 0.0, 15.0), (4, 3.0, 96.0)] {
-            let error = (moment(p) - expected).abs() / (variance / n as f64).sqrt();
+            let error = (moment(p) - expected).abs() / (variance / n).sqrt();
             assert!(error < 4.0, "moment {p} is off by {error:.1} standard errors");
         }
         assert!(covariance(&noise, [1, 0]).abs() < 4.0 / n.sqrt());

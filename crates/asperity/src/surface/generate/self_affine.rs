@@ -92,17 +92,16 @@ impl SelfAffine {
             (0..grid.shape[axis]).map(number).collect::<Vec<f64>>()
         };
         let (along_x, along_y) = (numbers(0), numbers(1));
-        // A wave on the limit belongs to the surface, whatever the round-off.
-        let largest = (TAU / shortest * (1.0 + 1e-9)).powi(2);
         let mut spectrum = Array2::<Complex64>::zeros([ny / 2 + 1, nx]);
         let (mut height, mut slope) = (0.0, 0.0);
         for_each_wave([nx, ny], seed, |k, l, phase| {
             let wave = [along_x[k], along_y[l]];
-            let squared = wave[0] * wave[0] + wave[1] * wave[1];
-            if squared > largest {
+            let q = wave[0].hypot(wave[1]);
+            // A wave on the limit belongs to the surface, whatever the round-off.
+            if q * shortest > TAU * (1.0 + 1e-9) {
                 return;
             }
-            let magnitude = self.magnitude(squared);
+            let magnitude = self.magnitude(q);
             // The phase is that at the grid's corner, half a cell before the first centre.
             let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
             spectrum[[l, k]] = Complex64::from_polar(magnitude, phase + to_centre);
@@ -110,7 +109,7 @@ impl SelfAffine {
                 spectrum[[0, nx - k]] = spectrum[[0, k]].conj();
             }
             height += 2.0 * magnitude * magnitude;
-            slope += 2.0 * squared * magnitude * magnitude;
+            slope += 2.0 * (q * magnitude).powi(2);
         });
         if height == 0.0 {
             return Err(Error::OutOfRange {
@@ -129,9 +128,9 @@ impl SelfAffine {
         Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
     }
 
-    /// |ẑ(q)| up to a constant factor, of q².
-    fn magnitude(&self, squared: f64) -> f64 {
-        squared.max(self.rolloff.map_or(0.0, |length| (TAU / length).powi(2))).powf(-0.5 * (1.0 + self.hurst))
+    /// |ẑ(q)| up to a constant factor.
+    fn magnitude(&self, q: f64) -> f64 {
+        q.max(self.rolloff.map_or(0.0, |length| TAU / length)).powf(-1.0 - self.hurst)
     }
 
     /// The shortest wavelength on `grid`, if every parameter has a meaning there.
