@@ -54,7 +54,7 @@ fn steel() -> asperity::Result<Material> {
 
 /// A low-pass surface of n × n cells.
 fn surface(n: usize, cutoff: Metre, seed: u64) -> asperity::Result<Topography> {
-    LowPass { sq: SQ, cutoff: [cutoff; 2] }.generate(&Grid::new([n, n], [PITCH; 2])?, seed)
+    LowPass::new(SQ, [cutoff; 2]).generate(&Grid::new([n, n], [PITCH; 2])?, seed)
 }
 
 fn pair(n: usize) -> asperity::Result<Pair> {

@@ -25,7 +25,7 @@
 //! use asperity::{Grid, operator::Boundary, solver};
 //!
 //! let grid = Grid::new([64, 64], [1e-6; 2])?;
-//! let rough = LowPass { sq: 35e-9, cutoff: [8e-6; 2] };
+//! let rough = LowPass::new(35e-9, [8e-6; 2]);
 //! let steel = Material::new(210e9, 0.3, 2.8e9)?;
 //! let (lower, upper) = (rough.generate(&grid, 1)?, rough.generate(&grid, 2)?.underside());
 //! let pair = Pair::new(lower, upper, [&steel, &steel])?;

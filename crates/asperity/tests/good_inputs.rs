@@ -2,13 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use asperity::Grid;
 use asperity::io::case::{
-    Boundary, Case, ControlKind, Course, InPlane, Method, Mount, Prescribed, Side, Source,
+    Boundary, Case, ControlKind, Course, InPlane, Layer, Method, Mount, Prescribed, Side, Source,
 };
+use asperity::io::prepare::bodies;
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
-    Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine,
+    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, Groove, HeightDistribution, Level,
+    LowPass, SelfAffine,
 };
 
 #[test]
@@ -26,7 +29,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     );
     assert_eq!((lower.level, lower.resample, lower.pitch), (Level::Plane, Some([256, 256]), None));
     let upper = &case.upper.topography;
-    let generate = Generator::LowPass(LowPass { sq: 0.2e-6, cutoff: [8e-6; 2] });
+    let generate = Generator::LowPass(LowPass::new(0.2e-6, [8e-6; 2]));
     assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
     assert_eq!(upper.pitch, Some([0.5e-6; 2]));
     assert_eq!(case.contact.prescribed, Prescribed::Load(2.0));
@@ -68,7 +71,7 @@ fn one_length_serves_both_directions_and_two_serve_each() {
     let case = load("rolling");
     assert_eq!(case.lower.topography.pitch, Some([0.5e-6, 1e-6]));
     let Source::Generate { generate, .. } = case.upper.topography.source else { panic!() };
-    let expected = Autocorrelation { sq: 1e-7, correlation_length: [10e-6, 20e-6] };
+    let expected = Autocorrelation::new(1e-7, [10e-6, 20e-6]);
     assert_eq!(generate, Generator::Autocorrelation(expected));
     let Source::Generate { generate, .. } = case.lower.topography.source else { panic!() };
     assert_eq!(
@@ -81,11 +84,65 @@ fn one_length_serves_both_directions_and_two_serve_each() {
         })
     );
     let Source::Generate { generate, .. } = load("grooves").lower.topography.source else { panic!() };
-    assert_eq!(generate, Generator::LowPass(LowPass { sq: 1e-7, cutoff: [8e-6, 16e-6] }));
+    assert_eq!(generate, Generator::LowPass(LowPass::new(1e-7, [8e-6, 16e-6])));
     let Source::Form { form, .. } = load("grooves").upper.topography.source else { panic!() };
     assert_eq!(form, Form::Sinusoid { amplitude: 1e-7, wavelength: [8e-6, f64::INFINITY] });
     let Source::Form { form, .. } = load("forms").upper.topography.source else { panic!() };
     assert_eq!(form, Form::Cylinder { radius: 5e-3, axis: Axis::X });
+}
+
+#[test]
+fn topographies_are_added_in_the_order_of_the_file() {
+    let case = load("rough_ball");
+    let Source::Generate { generate, seed: 3, .. } = case.lower.topography.source else { panic!() };
+    let lay = 30f64.to_radians();
+    let heights = HeightDistribution { ssk: -1.0, sku: 4.5 };
+    let ground = Autocorrelation { lay, heights, ..Autocorrelation::new(1e-7, [40e-6, 4e-6]) };
+    assert_eq!(generate, Generator::Autocorrelation(ground));
+    let lay = 90f64.to_radians();
+    let form = Form::Grooves { period: 20e-6, depth: 0.2e-6, profile: Groove::Triangular, lay };
+    assert_eq!(case.lower.topography.plus, [Layer::Form { form }]);
+    let heights = HeightDistribution { ssk: 0.0, sku: 4.0 };
+    let rough = LowPass { band: Band::Rectangular, heights, ..LowPass::new(20e-9, [8e-6; 2]) };
+    let fine = Autocorrelation { decay: Decay::Gaussian, ..Autocorrelation::new(5e-9, [4e-6; 2]) };
+    let expected = [
+        Layer::Generate { generate: Generator::LowPass(rough), seed: 1 },
+        Layer::Generate { generate: Generator::Autocorrelation(fine), seed: 0 },
+    ];
+    assert_eq!(case.upper.topography.plus, expected);
+    let heights = bodies(&case).unwrap().upper.topography.into_heights();
+    let grid = Grid::new([64, 64], [1e-6; 2]).unwrap();
+    let mut sum = Form::Sphere { radius: 1e-3 }.on(&grid).unwrap();
+    for layer in expected {
+        sum = sum.plus(&layer.on(&grid).unwrap()).unwrap();
+    }
+    assert_eq!(heights, sum.underside().into_heights());
+}
+
+#[test]
+fn what_has_no_meaning_on_the_grid_is_shown_at_its_place() {
+    let text = std::fs::read_to_string(inputs("good").join("rough_ball.toml")).unwrap();
+    for (good, bad, line, message) in [
+        ("sku = 4.5", "sku = 2", 14, "'sku' is 2, expected a kurtosis from 1.1 (Ssk² + 1) to 50"),
+        (
+            "period = \"20 um\"",
+            "period = \"1 um\"",
+            18,
+            "'period' is 1 µm, expected a length of at least two pitches",
+        ),
+        (
+            "\"4 um\", decay",
+            "\"90 um\", decay",
+            33,
+            "'correlation_length' is 90 µm, expected a length from one pitch",
+        ),
+    ] {
+        let text = text.replace(good, bad);
+        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
+        let Err(asperity::Error::Case(error)) = bodies(&case) else { panic!("{bad}") };
+        assert!(error.message.starts_with(message), "{error:?}");
+        assert_eq!(error.line, line, "{error}");
+    }
 }
 
 #[test]

@@ -439,7 +439,7 @@ const PITCH: f64 = 1e-6;
 fn surface(shape: [usize; 2], seed: u64) -> Topography {
     let grid = Grid::new(shape, [PITCH, PITCH]).unwrap();
     let cutoff = 8e-6_f64.min(shape[0] as f64 * PITCH);
-    Generator::LowPass(LowPass { sq: 35e-9, cutoff: [cutoff, 8e-6] }).generate(&grid, seed).unwrap()
+    Generator::LowPass(LowPass::new(35e-9, [cutoff, 8e-6])).generate(&grid, seed).unwrap()
 }
 
 fn steel_pair(lower: Topography, upper: Topography) -> Pair {

@@ -2,18 +2,31 @@
 
 use std::path::PathBuf;
 
-use asperity::surface::{Amplitude, Autocorrelation, Axis, Form, Generator, LowPass, SelfAffine};
+use asperity::surface::{
+    Amplitude, Autocorrelation, Axis, Band, Decay, Form, Generator, Groove, HeightDistribution, LowPass,
+    SelfAffine,
+};
 use clap::{Args, Subcommand};
 
-use super::values::{Pair, Shape, angle, axis_parser, lengths, positive_length, shape, wavelengths};
+use super::values::{
+    Pair, Shape, angle, axis_parser, band_parser, decay_parser, groove_parser, lengths, positive_length,
+    shape, wavelengths,
+};
 
 /// Make a random topography or an ideal form
 ///
 /// Quantities are in SI or carry a unit: 0.5um, "0.5 um", 2e-7.
 #[derive(Debug, Args)]
 #[command(arg_required_else_help = true)]
-#[command(after_help = "Example:\n  asperity surface generate low-pass --shape 256x256 --pitch 0.5um \\
-    --sq 0.2um --cutoff 8um --seed 7 --out z.npy")]
+#[command(after_help = "Examples:\n  asperity surface generate low-pass --shape 256x256 --pitch 0.5um \\
+    --sq 0.2um --cutoff 8um --seed 7 --out z.npy\n
+A rough ball: a sphere, and roughness added to it:
+  asperity surface generate sphere --shape 256x256 --pitch 0.5um --radius 1mm --out ball.npy
+  asperity surface generate low-pass --shape 256x256 --pitch 0.5um \\
+    --sq 20nm --cutoff 8um --plus ball.npy --out rough.npy\n
+A ground surface, its lay 30 degrees from x, its valleys deeper than its peaks are high:
+  asperity surface generate autocorrelation --shape 256x256 --pitch 0.5um --sq 0.2um \\
+    --correlation-length 60um,4um --lay 30deg --ssk=-1 --sku 4.5 --out ground.npy")]
 pub(crate) struct Generate {
     #[command(subcommand)]
     pub(crate) source: Source,
@@ -29,19 +42,31 @@ pub(crate) enum Source {
         /// Shortest wavelength, one or along x and y: 8um, or 8um,16um
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         cutoff: Pair,
+        /// Shape of the pass band; elliptic is circular for one cut-off
+        #[arg(long, default_value = "elliptic", value_parser = band_parser())]
+        band: Band,
+        #[command(flatten)]
+        heights: Heights,
         #[command(flatten)]
         seed: Seed,
         #[command(flatten)]
         target: Target,
     },
-    /// Random: exponential autocorrelation, not periodic
+    /// Random: prescribed autocorrelation, not periodic; with --lay a ground surface
     Autocorrelation {
         /// Rms height
         #[arg(long, value_parser = positive_length)]
         sq: f64,
-        /// Where the autocorrelation falls to 10 %, one length or two along x and y
+        /// Where the autocorrelation falls to 10 %, one length or two, along and across the lay
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         correlation_length: Pair,
+        /// How the autocorrelation falls
+        #[arg(long, default_value = "exponential", value_parser = decay_parser())]
+        decay: Decay,
+        #[command(flatten)]
+        lay: Lay,
+        #[command(flatten)]
+        heights: Heights,
         #[command(flatten)]
         seed: Seed,
         #[command(flatten)]
@@ -108,6 +133,22 @@ pub(crate) enum Source {
         #[command(flatten)]
         target: Target,
     },
+    /// Form: parallel grooves, as of turning
+    Grooves {
+        /// Distance of the ridges; the feed of turning
+        #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+        period: f64,
+        /// Depth below the ridges; feed²/8r for a tool of nose radius r
+        #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+        depth: f64,
+        /// As a round or as a pointed tool leaves it
+        #[arg(long, default_value = "parabolic", value_parser = groove_parser())]
+        profile: Groove,
+        #[command(flatten)]
+        lay: Lay,
+        #[command(flatten)]
+        target: Target,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -119,6 +160,24 @@ pub(crate) struct Roughness {
     /// Rms slope
     #[arg(long, value_name = "NUMBER")]
     sdq: Option<f64>,
+}
+
+/// The distribution of heights.
+#[derive(Debug, Args)]
+pub(crate) struct Heights {
+    /// Skewness Ssk; by default 0
+    #[arg(long, value_name = "NUMBER", requires = "sku", allow_negative_numbers = true)]
+    ssk: Option<f64>,
+    /// Kurtosis Sku, from 1.1 (Ssk² + 1) to 50; by default 3, Gaussian
+    #[arg(long, value_name = "NUMBER")]
+    sku: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Lay {
+    /// Angle of the lay against x, towards y: 30deg, or in radians
+    #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
+    lay: f64,
 }
 
 #[derive(Debug, Args)]
@@ -136,6 +195,9 @@ pub(crate) struct Target {
     /// Size of a cell, one or along x and y: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
     pub(crate) pitch: Pair,
+    /// Add the heights of this topography, of the same shape; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plus: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) out: Out,
 }
@@ -159,11 +221,18 @@ pub(crate) enum Recipe {
 impl Source {
     pub(crate) fn recipe(self) -> (Recipe, Target) {
         match self {
-            Self::LowPass { sq, cutoff, seed, target } => {
-                (Recipe::Random(Generator::LowPass(LowPass { sq, cutoff: cutoff.0 }), seed.seed), target)
+            Self::LowPass { sq, cutoff, band, heights, seed, target } => {
+                let method = LowPass { sq, cutoff: cutoff.0, band, heights: heights.distribution() };
+                (Recipe::Random(Generator::LowPass(method), seed.seed), target)
             }
-            Self::Autocorrelation { sq, correlation_length, seed, target } => {
-                let method = Autocorrelation { sq, correlation_length: correlation_length.0 };
+            Self::Autocorrelation { sq, correlation_length, decay, lay, heights, seed, target } => {
+                let method = Autocorrelation {
+                    sq,
+                    correlation_length: correlation_length.0,
+                    decay,
+                    lay: lay.lay,
+                    heights: heights.distribution(),
+                };
                 (Recipe::Random(Generator::Autocorrelation(method), seed.seed), target)
             }
             Self::SelfAffine { amplitude, hurst, rolloff, shortest, seed, target } => {
@@ -180,7 +249,17 @@ impl Source {
             Self::Sinusoid { amplitude, wavelength, target } => {
                 (Recipe::Form(Form::Sinusoid { amplitude, wavelength: wavelength.0 }), target)
             }
+            Self::Grooves { period, depth, profile, lay, target } => {
+                (Recipe::Form(Form::Grooves { period, depth, profile, lay: lay.lay }), target)
+            }
         }
+    }
+}
+
+impl Heights {
+    fn distribution(&self) -> HeightDistribution {
+        let HeightDistribution { ssk, sku } = HeightDistribution::GAUSSIAN;
+        HeightDistribution { ssk: self.ssk.unwrap_or(ssk), sku: self.sku.unwrap_or(sku) }
     }
 }
 

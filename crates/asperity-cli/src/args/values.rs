@@ -1,6 +1,6 @@
 //! Values of arguments: quantities with units, pairs of them, shapes, words.
 
-use asperity::surface::{Axis, Fill, Level};
+use asperity::surface::{Axis, Band, Decay, Fill, Groove, Level};
 use asperity::units::{self, Dimension};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -89,6 +89,18 @@ pub(super) fn level_parser() -> impl TypedValueParser<Value = Level> {
 
 pub(super) fn fill_parser() -> impl TypedValueParser<Value = Fill> {
     words(&[("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)])
+}
+
+pub(super) fn band_parser() -> impl TypedValueParser<Value = Band> {
+    words(&[("elliptic", Band::Elliptic), ("rectangular", Band::Rectangular)])
+}
+
+pub(super) fn decay_parser() -> impl TypedValueParser<Value = Decay> {
+    words(&[("exponential", Decay::Exponential), ("gaussian", Decay::Gaussian)])
+}
+
+pub(super) fn groove_parser() -> impl TypedValueParser<Value = Groove> {
+    words(&[("parabolic", Groove::Parabolic), ("triangular", Groove::Triangular)])
 }
 
 pub(super) fn axis_parser() -> impl TypedValueParser<Value = Axis> {

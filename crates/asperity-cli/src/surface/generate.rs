@@ -4,17 +4,22 @@ use asperity::grid::Grid;
 use asperity::units::{self, Dimension};
 
 use super::output::Output;
-use crate::args::{Generate, Recipe};
+use super::read;
+use crate::args::{Generate, Reading, Recipe};
 use crate::report::{Outcome, note};
 
 pub(super) fn generate(arguments: Generate) -> Outcome {
     let (recipe, target) = arguments.source.recipe();
     let output = Output::new(&target.out.path, target.out.overwrite)?;
     let grid = Grid::new(target.shape.0, target.pitch.0)?;
-    let topography = match recipe {
+    let mut topography = match recipe {
         Recipe::Random(generator, seed) => generator.generate(&grid, seed)?,
         Recipe::Form(form) => form.on(&grid)?,
     };
+    for file in &target.plus {
+        let reading = Reading { channel: None, pitch: Some(target.pitch) };
+        topography = topography.plus(&read(file, &reading)?.topography)?;
+    }
     output.write(&topography, Some(grid.pitch))?;
     let [nx, ny] = grid.shape;
     let sq = units::format(topography.sq(), Dimension::Length);

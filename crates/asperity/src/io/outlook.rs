@@ -1,6 +1,6 @@
 //! What a case will take, and what to be wary of, told before anything is solved.
 
-use super::case::{Body, Boundary, Case, Course, Source};
+use super::case::{Body, Boundary, Case, Course, Layer, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -195,7 +195,10 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
     // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). Real contact is near it at any load.
     // A form's slope is that of its rim, far from the contact.
     let pressure = 0.5 * outlook.modulus * outlook.gap_slope;
-    let is_form = |body: &Body| matches!(body.topography.source, Source::Form { .. });
+    let is_form = |body: &Body| {
+        let TopographySpec { source, plus, .. } = &body.topography;
+        matches!(source, Source::Form { .. }) || plus.iter().any(|layer| matches!(layer, Layer::Form { .. }))
+    };
     if pressure > outlook.hardness && ![&case.lower, &case.upper].into_iter().any(is_form) {
         warnings.push(format!(
             "most of the contact will be plastic: slopes of {:.2} call for pressures of {}, the hardness is {}",

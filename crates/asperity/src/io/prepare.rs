@@ -88,7 +88,12 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
         }
         _ => Ok(topography),
     };
-    let topography = topography.map_err(|error| at.parameter(error))?;
+    let mut topography = topography.map_err(|error| at.parameter(error))?;
+    for (n, layer) in spec.plus.iter().enumerate() {
+        let added =
+            layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
+        topography = topography.plus(&added)?;
+    }
     let topography = match body.mount {
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
@@ -181,13 +186,19 @@ impl Place<'_> {
 
     /// A parameter that turned out to have no meaning on this grid, at its key.
     fn parameter(&self, error: Error) -> Error {
+        self.parameter_of("", error)
+    }
+
+    /// The same of a `table` within the topography's, `"plus.0."`.
+    fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
             Error::OutOfRange { quantity, value, expected } => {
                 let value = match quantity {
-                    "hurst" | "sdq" | "shape" | "resample" => value.to_string(),
+                    "hurst" | "sdq" | "ssk" | "sku" | "shape" | "resample" => value.to_string(),
                     _ => units::format(value, Dimension::Length),
                 };
-                self.error(quantity, format!("'{quantity}' is {value}, expected {expected}"), None)
+                let message = format!("'{quantity}' is {value}, expected {expected}");
+                self.error(&format!("{table}{quantity}"), message, None)
             }
             other => self.error("", other.to_string(), other.hint()),
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis, s};
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex64};
 use rustfft::{Fft, FftPlanner};
 
@@ -50,15 +50,11 @@ impl RealFft2 {
     /// If `field` is larger than the plans.
     pub fn forward(&self, field: &Field) -> Array2<Complex64> {
         assert!(field.nrows() <= self.shape[0] && field.ncols() <= self.shape[1], "shape of the field");
-        let mut columns = Array2::zeros([self.half(), self.shape[0]]);
-        let mut row = self.along_y.make_input_vec();
-        let mut spectrum = self.along_y.make_output_vec();
-        for (ix, values) in field.outer_iter().enumerate() {
+        let mut columns = self.rows_forward(field.nrows(), |ix, row| {
+            let values = field.row(ix);
             row.iter_mut().zip(values).for_each(|(r, v)| *r = *v);
             row[values.len()..].fill(0.0);
-            self.along_y.process(&mut row, &mut spectrum).expect("lengths come from the plan");
-            columns.column_mut(ix).iter_mut().zip(&spectrum).for_each(|(c, s)| *c = *s);
-        }
+        });
         self.along_x.process(columns.as_slice_mut().expect("standard layout"));
         columns.t().as_standard_layout().into_owned()
     }
@@ -76,25 +72,143 @@ impl RealFft2 {
     /// # Panics
     /// If `spectrum` has another shape than [`RealFft2::forward`] gives, or `shape` is larger than the plans.
     pub fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
-        assert!(shape[0] <= self.shape[0] && shape[1] <= self.shape[1], "shape of the field");
         assert_eq!(spectrum.dim(), (self.shape[0], self.half()), "shape of the spectrum");
-        let mut columns = spectrum.t().as_standard_layout().into_owned();
-        self.back_x.process(columns.as_slice_mut().expect("standard layout"));
-        let mut field = Field::zeros(shape);
-        let mut half = self.back_y.make_input_vec();
-        let mut row = self.back_y.make_output_vec();
-        let scale = 1.0 / (self.shape[0] * self.shape[1]) as f64;
-        for (ix, mut values) in field.outer_iter_mut().enumerate() {
-            half.iter_mut().zip(columns.column(ix)).for_each(|(h, c)| *h = *c);
-            // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
-            half[0].im = 0.0;
-            if self.shape[1].is_multiple_of(2) {
-                half[self.shape[1] / 2].im = 0.0;
+        self.inverse_transposed(spectrum.t().as_standard_layout().into_owned(), shape)
+    }
+
+    /// As [`RealFft2::inverse_leading`], of a spectrum `[l, k]`. Frequencies l without any wave cost nothing.
+    ///
+    /// # Panics
+    /// If `columns` has another shape than `[ny/2 + 1, nx]`, or `shape` is larger than the plans.
+    pub(crate) fn inverse_transposed(&self, mut columns: Array2<Complex64>, shape: [usize; 2]) -> Field {
+        assert!(shape[0] <= self.shape[0] && shape[1] <= self.shape[1], "shape of the field");
+        assert_eq!(columns.dim(), (self.half(), self.shape[0]), "shape of the spectrum");
+        let mut scratch = vec![Complex64::default(); self.back_x.get_inplace_scratch_len()];
+        for mut column in columns.outer_iter_mut() {
+            if column.iter().any(|value| *value != Complex64::default()) {
+                let column = column.as_slice_mut().expect("standard layout");
+                self.back_x.process_with_scratch(column, &mut scratch);
             }
-            self.back_y.process(&mut half, &mut row).expect("lengths come from the plan");
-            values.iter_mut().zip(&row).for_each(|(v, r)| *v = *r * scale);
+        }
+        let mut field = Field::zeros(shape);
+        let mut block = Array2::zeros([BLOCK, self.half()]);
+        let mut row = self.back_y.make_output_vec();
+        let mut scratch = self.back_y.make_scratch_vec();
+        let scale = 1.0 / (self.shape[0] * self.shape[1]) as f64;
+        for (n, mut rows) in field.axis_chunks_iter_mut(Axis(0), BLOCK).enumerate() {
+            let first = n * BLOCK;
+            for (mut to, from) in block.axis_iter_mut(Axis(1)).zip(columns.outer_iter()) {
+                to.iter_mut().zip(from.slice(s![first..])).for_each(|(to, from)| *to = *from);
+            }
+            for (mut values, mut half) in rows.outer_iter_mut().zip(block.outer_iter_mut()) {
+                let half = half.as_slice_mut().expect("standard layout");
+                make_hermitian(half, self.shape[1]);
+                let back = self.back_y.process_with_scratch(half, &mut row, &mut scratch);
+                back.expect("lengths come from the plan");
+                values.iter_mut().zip(&row).for_each(|(v, r)| *v = *r * scale);
+            }
         }
         field
+    }
+
+    /// The first rows and columns, so many as `shape` says, of a field whose waves are multiplied by `response`,
+    /// indexed `[l, k]`, l = 0 … ny/2.
+    ///
+    /// `row` is called for one row of the field after another and sets its values: the field itself is never held.
+    ///
+    /// # Panics
+    /// If `response` has another shape than `[ny/2 + 1, nx]`, or `shape` is larger than the plans.
+    pub(crate) fn filter(
+        &self,
+        mut row: impl FnMut(&mut [f64]),
+        response: &Field,
+        shape: [usize; 2],
+    ) -> Field {
+        assert_eq!(response.dim(), (self.half(), self.shape[0]), "shape of the response");
+        let mut columns = self.rows_forward(self.shape[0], |_, values| row(values));
+        let mut scratch = vec![Complex64::default(); self.along_x.get_inplace_scratch_len()];
+        for (mut column, response) in columns.outer_iter_mut().zip(response.outer_iter()) {
+            if response.iter().all(|r| *r == 0.0) {
+                column.fill(Complex64::default());
+                continue;
+            }
+            let values = column.as_slice_mut().expect("standard layout");
+            self.along_x.process_with_scratch(values, &mut scratch);
+            values.iter_mut().zip(response).for_each(|(v, r)| *v *= *r);
+        }
+        self.inverse_transposed(columns, shape)
+    }
+
+    /// Transforms along y of the first `rows` rows, the others 0, indexed `[l, ix]`.
+    fn rows_forward(&self, rows: usize, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
+        let mut columns = Array2::zeros([self.half(), self.shape[0]]);
+        transform_rows(&*self.along_y, rows, &mut row, &mut columns);
+        columns
+    }
+}
+
+/// Transform of a real field that is point-symmetric, z[−i, −j] = z[i, j]: real and point-symmetric itself.
+///
+/// Of the field of `shape` = [nx, ny], `half` holds the rows i = 0 … nx/2; of the transform, which is
+/// unnormalised, the result holds the frequencies `[l, k]`, l = 0 … ny/2. So it undoes itself, called with the
+/// shape reversed, up to the factor nx ny. A quarter of a complex transform's work.
+///
+/// # Panics
+/// If `half` has another shape than `[nx/2 + 1, ny]`.
+pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
+    assert_eq!(half.dim(), (nx / 2 + 1, ny), "shape of the half field");
+    let mut planner = RealFftPlanner::new();
+    let (along_y, along_x) = (planner.plan_fft_forward(ny), planner.plan_fft_inverse(nx));
+    let mut columns = Array2::zeros([ny / 2 + 1, nx / 2 + 1]);
+    let mut row = |ix: usize, values: &mut [f64]| {
+        values.iter_mut().zip(half.row(ix)).for_each(|(v, z)| *v = *z);
+    };
+    transform_rows(&*along_y, nx / 2 + 1, &mut row, &mut columns);
+    let mut transform = Field::zeros([ny / 2 + 1, nx]);
+    let mut scratch = along_x.make_scratch_vec();
+    for (mut column, mut values) in columns.outer_iter_mut().zip(transform.outer_iter_mut()) {
+        let column = column.as_slice_mut().expect("standard layout");
+        // The rows −i have the conjugate transforms of the rows i; so has the inverse plan the sign of the forward one.
+        column.iter_mut().for_each(|value| *value = value.conj());
+        make_hermitian(column, nx);
+        let values = values.as_slice_mut().expect("standard layout");
+        along_x.process_with_scratch(column, values, &mut scratch).expect("lengths come from the plan");
+    }
+    transform
+}
+
+/// Rows transposed at a time: two cache lines of complex numbers.
+const BLOCK: usize = 8;
+
+/// Transforms the first `rows` rows, which `row` sets, into the first entries of the columns.
+fn transform_rows(
+    plan: &dyn RealToComplex<f64>,
+    rows: usize,
+    row: &mut dyn FnMut(usize, &mut [f64]),
+    columns: &mut Array2<Complex64>,
+) {
+    let mut values = plan.make_input_vec();
+    let mut scratch = plan.make_scratch_vec();
+    let mut block = Array2::zeros([BLOCK, columns.nrows()]);
+    for first in (0..rows).step_by(BLOCK) {
+        let count = BLOCK.min(rows - first);
+        for (n, mut spectrum) in block.outer_iter_mut().take(count).enumerate() {
+            row(first + n, &mut values);
+            let spectrum = spectrum.as_slice_mut().expect("standard layout");
+            plan.process_with_scratch(&mut values, spectrum, &mut scratch)
+                .expect("lengths come from the plan");
+        }
+        for (mut to, from) in columns.outer_iter_mut().zip(block.axis_iter(Axis(1))) {
+            to.slice_mut(s![first..first + count]).assign(&from.slice(s![..count]));
+        }
+    }
+}
+
+/// The transform of `n` real numbers is real at zero and, for even n, at the Nyquist frequency.
+fn make_hermitian(half: &mut [Complex64], n: usize) {
+    half[0].im = 0.0;
+    if n.is_multiple_of(2) {
+        half[n / 2].im = 0.0;
     }
 }
 
@@ -139,5 +253,45 @@ mod tests {
         assert_eq!(spectrum, fft.forward(&padded));
         let whole = fft.inverse(&spectrum);
         assert_eq!(fft.inverse_leading(&spectrum, [2, 5]), whole.slice(ndarray::s![..2, ..5]));
+    }
+
+    #[test]
+    fn a_filter_multiplies_every_wave() {
+        for shape in [[6, 8], [5, 9]] {
+            let fft = RealFft2::new(shape);
+            let field = Field::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j * j) % 11) as f64 - 4.0);
+            let response =
+                |k: usize, l: usize| if l == 1 { 0.0 } else { (1 + k.min(shape[0] - k) + l) as f64 };
+            let mut spectrum = fft.forward(&field);
+            spectrum.indexed_iter_mut().for_each(|((k, l), value)| *value *= response(k, l));
+            let expected = fft.inverse_leading(&spectrum, [3, 4]);
+            let mut rows = field.outer_iter();
+            let row = |values: &mut [f64]| values.copy_from_slice(rows.next().unwrap().as_slice().unwrap());
+            let table = Field::from_shape_fn([fft.half(), shape[0]], |(l, k)| response(k, l));
+            let filtered = fft.filter(row, &table, [3, 4]);
+            assert!(filtered.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{filtered}");
+        }
+    }
+
+    #[test]
+    fn a_symmetric_field_has_a_real_transform_which_gives_it_back() {
+        for [nx, ny] in [[6, 8], [5, 9], [8, 5], [1, 4], [4, 1]] {
+            let waves = [(1, 0, 0.4), (0, 1, 0.7), (1, 2, 1.0), (2, -1, -0.3)];
+            let field = Field::from_shape_fn([nx, ny], |(i, j)| {
+                let wave = |(k, l, height): (i32, i32, f64)| {
+                    let turns = f64::from(k) * i as f64 / nx as f64 + f64::from(l) * j as f64 / ny as f64;
+                    height * (std::f64::consts::TAU * turns).cos()
+                };
+                0.2 + waves.map(wave).iter().sum::<f64>()
+            });
+            let half = field.slice(s![..nx / 2 + 1, ..]).to_owned();
+            let transform = symmetric_transform(&half, [nx, ny]);
+            let expected = RealFft2::new([nx, ny]).forward(&field);
+            for ((l, k), value) in transform.indexed_iter() {
+                assert!((expected[[k, l]] - value).norm() < 1e-12, "[{nx}, {ny}] at {k}, {l}");
+            }
+            let back = symmetric_transform(&transform, [ny, nx]) / (nx * ny) as f64;
+            assert!(back.iter().zip(&half).all(|(a, b)| (a - b).abs() < 1e-13), "[{nx}, {ny}]");
+        }
     }
 }

@@ -208,7 +208,7 @@ mod tests {
     use crate::surface::{Autocorrelation, Form, Spectrum, Window};
 
     fn rough(shape: [usize; 2], pitch: [f64; 2], length: [f64; 2], seed: u64) -> Topography {
-        let method = Autocorrelation { sq: 1.0, correlation_length: length };
+        let method = Autocorrelation::new(1.0, length);
         method.generate(&Grid::new(shape, pitch).unwrap(), seed).unwrap()
     }
 

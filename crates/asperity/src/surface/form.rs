@@ -41,6 +41,34 @@ pub enum Form {
         #[serde(default = "no_variation")]
         wavelength: [Metre; 2],
     },
+    /// z = −d p(u), parallel grooves with ridges of height 0 between them: u is the distance from a ridge over the
+    /// period, one ridge runs through the centre.
+    ///
+    /// Turned with a feed f by a tool of nose radius r they are parabolic, of period f and depth d = f²/8r, of
+    /// which Sa is 4/(9√3) = 0.257 and Sq 2/(3√5) = 0.298.
+    Grooves {
+        /// Distance of the ridges, ≥ 2 pitches.
+        period: Metre,
+        /// Depth d below the ridges, > 0.
+        depth: Metre,
+        /// Across the groove.
+        #[serde(default)]
+        profile: Groove,
+        /// Angle of the grooves against x, towards y, in radians.
+        #[serde(default)]
+        lay: f64,
+    },
+}
+
+/// The profile p(u) of a groove, 0 ≤ u ≤ 1 from ridge to ridge.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Groove {
+    /// 4u(1 − u), as a round tool leaves it.
+    #[default]
+    Parabolic,
+    /// 1 − |1 − 2u|, as a pointed tool leaves it.
+    Triangular,
 }
 
 /// A direction in the plane of the surface.
@@ -85,6 +113,14 @@ impl Form {
                 let wave = |s: Metre, length: Metre| (std::f64::consts::TAU * s / length).cos();
                 amplitude * (wave(x, wavelength[0]) * wave(y, wavelength[1]) - 1.0)
             }
+            Self::Grooves { period, depth, profile, lay } => {
+                let u = ((y * lay.cos() - x * lay.sin()) / period).rem_euclid(1.0);
+                -depth
+                    * match profile {
+                        Groove::Parabolic => 4.0 * u * (1.0 - u),
+                        Groove::Triangular => 1.0 - (1.0 - 2.0 * u).abs(),
+                    }
+            }
         }
     }
 
@@ -106,13 +142,22 @@ impl Form {
                     check("wavelength", length, good, "at least two pitches, or inf for no variation")
                 })
             }
+            Self::Grooves { period, depth, lay, .. } => {
+                let good = period >= 2.0 * grid.pitch[0].max(grid.pitch[1]) && period.is_finite();
+                check("period", period, good, "a length of at least two pitches")?;
+                check("depth", depth, positive(depth), "a depth above 0")?;
+                check("lay", lay, lay.is_finite(), "an angle")
+            }
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_relative_eq;
+
     use super::*;
+    use crate::surface::HeightParameters;
 
     fn grid() -> Grid {
         Grid::new([9, 5], [0.5, 1.0]).unwrap()
@@ -126,6 +171,7 @@ mod tests {
             Form::Cylinder { radius: 3.0, axis: Axis::X },
             Form::Cone { angle: 0.1 },
             Form::Sinusoid { amplitude: 0.2, wavelength: [3.0, 4.0] },
+            Form::Grooves { period: 3.0, depth: 0.2, profile: Groove::Triangular, lay: 0.3 },
         ];
         for form in forms {
             let topography = form.on(&grid()).unwrap();
@@ -155,13 +201,44 @@ mod tests {
     }
 
     #[test]
+    fn turned_grooves_have_the_roughness_of_their_parabolas_at_any_lay() {
+        for (lay, shape) in [(0.0, [3, 4000]), (std::f64::consts::FRAC_PI_2, [4000, 3]), (0.6, [1000, 1000])]
+        {
+            let form = Form::Grooves { period: 100.0, depth: 2.0, profile: Groove::Parabolic, lay };
+            let parameters = HeightParameters::of(&form.on(&Grid::new(shape, [1.0; 2]).unwrap()).unwrap());
+            // Whole periods are right to the square of pitch/period; across the grid a period more or less counts.
+            let tolerance = if lay == 0.6 { 0.02 } else { 1e-3 };
+            assert_relative_eq!(parameters.sa, 2.0 * 4.0 / 243f64.sqrt(), max_relative = tolerance);
+            assert_relative_eq!(parameters.sq, 2.0 * 2.0 / 45f64.sqrt(), max_relative = tolerance);
+            // A sample is up to half a pitch from the ridge.
+            assert_relative_eq!(parameters.sz, 2.0, max_relative = 4.0 * 0.5 / 100.0);
+        }
+    }
+
+    #[test]
+    fn grooves_do_not_vary_along_their_lay() {
+        let grid = Grid::new([41, 41], [1.0, 0.5]).unwrap();
+        for profile in [Groove::Parabolic, Groove::Triangular] {
+            let lay = 1f64.atan2(2.0);
+            let z = Form::Grooves { period: 7.3, depth: 1.0, profile, lay }.on(&grid).unwrap().into_heights();
+            // Along (2, 1): a step of one sample in x and, of half the pitch, one in y.
+            let same = (0..40).all(|i| (0..40).all(|j| (z[[i, j]] - z[[i + 1, j + 1]]).abs() < 1e-12));
+            assert!(same && (z[[20, 20]] - z[[20, 24]]).abs() > 0.1, "{profile:?}");
+        }
+    }
+
+    #[test]
     fn parameters_without_meaning_are_refused() {
+        let grooves = |period, depth, lay| Form::Grooves { period, depth, profile: Groove::Parabolic, lay };
         let bad = [
             (Form::Sphere { radius: 0.0 }, "radius is 0e0"),
             (Form::Cylinder { radius: -1.0, axis: Axis::Y }, "radius is -1e0"),
             (Form::Cone { angle: 2.0 }, "angle is 2e0"),
             (Form::Sinusoid { amplitude: f64::NAN, wavelength: [3.0, 3.0] }, "amplitude is NaN"),
             (Form::Sinusoid { amplitude: 1.0, wavelength: [3.0, 1.5] }, "wavelength is 1.5e0"),
+            (grooves(1.9, 1.0, 0.0), "period is 1.9e0"),
+            (grooves(2.0, -1.0, 0.0), "depth is -1e0"),
+            (grooves(2.0, 1.0, f64::NAN), "lay is NaN"),
         ];
         for (form, message) in bad {
             let error = form.on(&grid()).unwrap_err().to_string();

@@ -17,9 +17,11 @@ mod summits;
 mod topography;
 
 pub use correlation::Correlation;
-pub use form::{Axis, Form};
+pub use form::{Axis, Form, Groove};
 pub use fractal::SelfAffinity;
-pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
+pub use generate::{
+    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
+};
 pub use moments::SpectralMoments;
 pub use parameters::{
     BearingCurve, Classes, Core, Distribution, FeatureParameters, FunctionalParameters, HeightParameters,

@@ -183,7 +183,7 @@ mod tests {
         // C constant up to q_c: ⟨qx²⟩ = q_c²/4 and ⟨qx⁴⟩ = q_c⁴/8. Waves: π (L/λ)², half of them independent; the
         // moments of each scatter by less than twice its power. Hann's window leaves 1 in (35/18)² of them.
         let grid = Grid::new([256, 256], [1.0; 2]).unwrap();
-        let heights = LowPass { sq: 1.0, cutoff: [8.0; 2] }.generate(&grid, 3).unwrap();
+        let heights = LowPass::new(1.0, [8.0; 2]).generate(&grid, 3).unwrap();
         let moments = Spectrum::of(&heights, Window::Hann).moments();
         let q = TAU / 8.0;
         let error = 35.0 / 18.0 * (2.0 / (PI * (256.0f64 / 8.0).powi(2))).sqrt();

@@ -215,7 +215,7 @@ mod tests {
         let mut all = Summits { summits: Vec::new(), area: 0.0 };
         let mut predicted = Vec::new();
         for seed in 0..seeds {
-            let z = LowPass { sq: 1.0, cutoff: [wavelength; 2] }.generate(&grid, seed).unwrap();
+            let z = LowPass::new(1.0, [wavelength; 2]).generate(&grid, seed).unwrap();
             let Summits { summits, area } = Summits::of(&z);
             all.summits.extend(summits);
             all.area += area;

@@ -54,6 +54,22 @@ impl Topography {
         self.heights
     }
 
+    /// The sum of two topographies on one grid, roughness on a form for example; undefined where one of them is.
+    ///
+    /// # Errors
+    /// [`Error::GridMismatch`] if their shapes differ, or their pitches by more than 10⁻⁹.
+    pub fn plus(mut self, other: &Self) -> Result<Self> {
+        let (one, two) = (self.grid, other.grid);
+        let same = (0..2).all(|axis| (one.pitch[axis] / two.pitch[axis] - 1.0).abs() <= 1e-9);
+        if one.shape != two.shape || !same {
+            let name = |grid: Grid| format!("{:?} cells of {:?} m", grid.shape, grid.pitch);
+            let what = "grids of the two topographies";
+            return Err(Error::GridMismatch { what, left: name(one), right: name(two) });
+        }
+        self.heights += &other.heights;
+        Ok(self)
+    }
+
     /// Number of undefined samples.
     pub fn undefined(&self) -> usize {
         self.heights.iter().filter(|z| z.is_nan()).count()
@@ -82,6 +98,20 @@ mod tests {
         let topography = Topography::new(grid, heights).unwrap();
         assert_eq!((topography.undefined(), topography.defined()), (1, 3));
         assert_eq!(topography.mean(), 3.0);
+    }
+
+    #[test]
+    fn heights_add_where_both_are_defined() {
+        let topography = |pitch, heights| {
+            Topography::new(Grid::new([1, 2], [pitch, 1.0]).unwrap(), ndarray::arr2(&[heights])).unwrap()
+        };
+        let sum = topography(1.0, [1.0, f64::NAN]).plus(&topography(1.0, [0.5, 2.0])).unwrap();
+        assert_eq!((sum.heights()[[0, 0]], sum.undefined()), (1.5, 1));
+        let error = topography(1.0, [0.0; 2]).plus(&topography(2.0, [0.0; 2])).unwrap_err().to_string();
+        assert!(
+            error.starts_with("grids of the two topographies: [1, 2] cells of [1.0, 1.0] m and "),
+            "{error}"
+        );
     }
 
     #[test]

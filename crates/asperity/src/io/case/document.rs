@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::error::{CaseError, Error};
 
@@ -38,7 +38,20 @@ impl Document {
         for (key, value) in table {
             let path = join(path, key.get_ref());
             self.spans.insert(path.clone(), value.span());
-            if let Some(table) = value.get_ref().as_table() {
+            match value.get_ref() {
+                DeValue::Table(table) => self.note(table, &path),
+                DeValue::Array(items) => self.note_items(items, &path),
+                _ => {}
+            }
+        }
+    }
+
+    /// The tables of an array of tables: `path.0`, `path.1`, …
+    fn note_items(&mut self, items: &DeArray<'_>, path: &str) {
+        for (n, item) in items.iter().enumerate() {
+            if let DeValue::Table(table) = item.get_ref() {
+                let path = join(path, &n.to_string());
+                self.spans.insert(path.clone(), item.span());
                 self.note(table, &path);
             }
         }

@@ -16,7 +16,7 @@ use serde::{Serialize, Serializer};
 
 use self::document::Document;
 pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
-pub use self::source::{Source, TopographySpec};
+pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 use crate::error::{Error, Result};
 use crate::material::Material;

@@ -7,13 +7,16 @@ use super::document::{Document, join};
 use super::friction::friction;
 use super::subsurface::subsurface;
 use super::{
-    Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Method, MotionSpec, Mount, Output, Prescribed,
-    Source, StageSpec, TopographySpec,
+    Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
+    Prescribed, Source, StageSpec, TopographySpec,
 };
 use crate::error::Result;
 use crate::material::{self, Material};
 use crate::motion::{PlasticUpdate, Strategy};
-use crate::surface::{Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine};
+use crate::surface::{
+    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, Groove, HeightDistribution, Level,
+    LowPass, SelfAffine,
+};
 use crate::units::Dimension;
 
 /// The keys of each table, to tell where a misplaced one belongs.
@@ -54,10 +57,13 @@ const TABLES: [(&str, &[&str]); 7] = [
 ];
 
 /// The keys that each kind of topography has beyond the common ones.
-const SOURCES: [(&str, &[&str]); 9] = [
+const SOURCES: [(&str, &[&str]); 10] = [
     ("file", &["file", "channel", "fill"]),
-    ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff"]),
-    ("generate = \"autocorrelation\"", &["generate", "shape", "seed", "sq", "correlation_length"]),
+    ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
+    (
+        "generate = \"autocorrelation\"",
+        &["generate", "shape", "seed", "sq", "correlation_length", "decay", "lay", "ssk", "sku"],
+    ),
     (
         "generate = \"self-affine\"",
         &["generate", "shape", "seed", "sq", "sdq", "hurst", "rolloff", "shortest"],
@@ -67,10 +73,11 @@ const SOURCES: [(&str, &[&str]); 9] = [
     ("form = \"cone\"", &["form", "shape", "angle"]),
     ("form = \"flat\"", &["form", "shape"]),
     ("form = \"sinusoid\"", &["form", "shape", "amplitude", "wavelength"]),
+    ("form = \"grooves\"", &["form", "shape", "period", "depth", "profile", "lay"]),
 ];
 
 /// The keys of every topography.
-const PREPARATION: [&str; 4] = ["pitch", "level", "resample", "window"];
+const PREPARATION: [&str; 5] = ["pitch", "level", "resample", "window", "plus"];
 
 const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
 
@@ -198,6 +205,7 @@ fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
         level: table.get("level").map(|entry| entry.choice(&level_choices)).transpose()?.unwrap_or_default(),
         resample: table.get("resample").map(|entry| shape(&entry)).transpose()?,
         window: table.get("window").map(window).transpose()?,
+        plus: table.get("plus").map(|entry| layers(&entry)).transpose()?.unwrap_or_default(),
     })
 }
 
@@ -216,7 +224,35 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
     })
 }
 
+fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {
+    let layer = |table: &Table<'_>| {
+        let all: Vec<&str> =
+            SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
+        table.known(&all, |key| belongs(key, table.path()))?;
+        let hint = "for example `generate = \"low-pass\"` or `form = \"sphere\"`";
+        match table.exactly_one(&["generate", "form"], hint)? {
+            "generate" => Ok(Layer::Generate { generate: generator(table)?, seed: seed(table)? }),
+            _ => Ok(Layer::Form { form: ideal_form(table)? }),
+        }
+    };
+    entry.tables()?.iter().map(layer).collect()
+}
+
 fn generate(table: &Table<'_>) -> Result<Source> {
+    let (generate, seed) = (generator(table)?, seed(table)?);
+    Ok(Source::Generate { generate, shape: shape(&table.required("shape", "[256, 256]")?)?, seed })
+}
+
+fn form(table: &Table<'_>) -> Result<Source> {
+    let form = ideal_form(table)?;
+    Ok(Source::Form { form, shape: shape(&table.required("shape", "[256, 256]")?)? })
+}
+
+fn seed(table: &Table<'_>) -> Result<u64> {
+    Ok(table.get("seed").map(|entry| entry.whole(0)).transpose()?.unwrap_or(0))
+}
+
+fn generator(table: &Table<'_>) -> Result<Generator> {
     #[derive(Clone, Copy)]
     enum Kind {
         LowPass,
@@ -233,14 +269,29 @@ fn generate(table: &Table<'_>) -> Result<Source> {
     suits(table, &format!("generate = \"{}\"", method.text()?))?;
     let sq = || table.required("sq", "\"0.2 um\"")?.positive(Dimension::Length);
     let optional = |key| table.get(key).map(|entry| entry.positive(Dimension::Length)).transpose();
-    let generate = match kind {
+    Ok(match kind {
         Kind::LowPass => Generator::LowPass(LowPass {
             sq: sq()?,
             cutoff: lengths(&table.required("cutoff", "\"8 um\"")?)?,
+            band: choice_or(
+                table,
+                "band",
+                &[("elliptic", Band::Elliptic), ("rectangular", Band::Rectangular)],
+                Band::default(),
+            )?,
+            heights: heights(table)?,
         }),
         Kind::Autocorrelation => Generator::Autocorrelation(Autocorrelation {
             sq: sq()?,
             correlation_length: lengths(&table.required("correlation_length", "\"8 um\"")?)?,
+            decay: choice_or(
+                table,
+                "decay",
+                &[("exponential", Decay::Exponential), ("gaussian", Decay::Gaussian)],
+                Decay::default(),
+            )?,
+            lay: lay(table)?,
+            heights: heights(table)?,
         }),
         Kind::SelfAffine => {
             let amplitude = match table.exactly_one(
@@ -265,12 +316,26 @@ fn generate(table: &Table<'_>) -> Result<Source> {
             }
             Generator::SelfAffine(SelfAffine { hurst, rolloff, shortest, amplitude })
         }
-    };
-    let seed = table.get("seed").map(|entry| entry.whole(0)).transpose()?.unwrap_or(0);
-    Ok(Source::Generate { generate, shape: shape(&table.required("shape", "[256, 256]")?)?, seed })
+    })
 }
 
-fn form(table: &Table<'_>) -> Result<Source> {
+/// Skewness and kurtosis; a skewness needs its kurtosis, of which it bounds the range.
+fn heights(table: &Table<'_>) -> Result<HeightDistribution> {
+    let number = |entry: Entry<'_>| entry.number(|_| true, "a number");
+    let mut heights = HeightDistribution::GAUSSIAN;
+    if let Some(ssk) = table.get("ssk") {
+        heights = HeightDistribution { ssk: number(ssk)?, sku: number(table.required("sku", "4.5")?)? };
+    } else if let Some(sku) = table.get("sku") {
+        heights.sku = number(sku)?;
+    }
+    Ok(heights)
+}
+
+fn lay(table: &Table<'_>) -> Result<f64> {
+    table.get("lay").map_or(Ok(0.0), |entry| entry.quantity(Dimension::Angle))
+}
+
+fn ideal_form(table: &Table<'_>) -> Result<Form> {
     #[derive(Clone, Copy)]
     enum Kind {
         Sphere,
@@ -278,6 +343,7 @@ fn form(table: &Table<'_>) -> Result<Source> {
         Cone,
         Flat,
         Sinusoid,
+        Grooves,
     }
     let kinds = [
         ("sphere", Kind::Sphere),
@@ -285,12 +351,13 @@ fn form(table: &Table<'_>) -> Result<Source> {
         ("cone", Kind::Cone),
         ("flat", Kind::Flat),
         ("sinusoid", Kind::Sinusoid),
+        ("grooves", Kind::Grooves),
     ];
     let name = table.required("form", "\"sphere\"")?;
     let kind = name.choice(&kinds)?;
     suits(table, &format!("form = \"{}\"", name.text()?))?;
     let radius = || table.required("radius", "\"1 mm\"")?.positive(Dimension::Length);
-    let form = match kind {
+    Ok(match kind {
         Kind::Sphere => Form::Sphere { radius: radius()? },
         Kind::Cylinder => Form::Cylinder {
             radius: radius()?,
@@ -315,8 +382,18 @@ fn form(table: &Table<'_>) -> Result<Source> {
                 item.positive_or_infinite(Dimension::Length, "no variation in that direction")
             })?,
         },
-    };
-    Ok(Source::Form { form, shape: shape(&table.required("shape", "[256, 256]")?)? })
+        Kind::Grooves => Form::Grooves {
+            period: table.required("period", "\"0.1 mm\"")?.positive(Dimension::Length)?,
+            depth: table.required("depth", "\"1 um\"")?.positive(Dimension::Length)?,
+            profile: choice_or(
+                table,
+                "profile",
+                &[("parabolic", Groove::Parabolic), ("triangular", Groove::Triangular)],
+                Groove::default(),
+            )?,
+            lay: lay(table)?,
+        },
+    })
 }
 
 fn contact(table: &Table<'_>) -> Result<Contact> {
@@ -457,8 +534,15 @@ pub(super) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)
 /// An error if a key belongs to another kind of topography.
 fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
     let own = SOURCES.iter().find(|(name, _)| *name == kind).map_or(&[][..], |(_, keys)| keys);
-    let known: Vec<&str> = own.iter().chain(&PREPARATION).copied().collect();
+    let is_layer = table.path().ends_with("plus]");
+    let of_the_whole = |key: &str| key == "shape" || PREPARATION.contains(&key);
+    let known = own.iter().chain(&PREPARATION).copied();
+    let known: Vec<&str> = known.filter(|key| !(is_layer && of_the_whole(key))).collect();
     table.known(&known, |key| {
+        if is_layer && of_the_whole(key) {
+            let hint = "what is added stands on the grid of the topography, as prepared".to_owned();
+            return Some((format!("'{key}' has no meaning in {}", table.name()), Some(hint)));
+        }
         let owners: Vec<_> = SOURCES
             .iter()
             .filter(|(_, keys)| keys.contains(&key))

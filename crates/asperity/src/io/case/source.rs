@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use serde::{Serialize, Serializer};
 
 use super::Number;
-use crate::surface::{Fill, Form, Generator, Level};
+use crate::grid::Grid;
+use crate::surface::{Fill, Form, Generator, Level, Topography};
 use crate::units::Metre;
 
 /// A topography as the case file describes it.
 ///
-/// Its parts act in this order: the source; `window`; `fill`; `level`; `resample`, or `pitch` where that resamples.
+/// Its parts act in this order: the source; `window`; `fill`; `level`; `resample`, or `pitch` where that resamples;
+/// `plus`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TopographySpec {
     /// File, generator or form.
@@ -28,6 +30,9 @@ pub struct TopographySpec {
     /// The part to keep, `[x0, y0, nx, ny]` in samples of the source.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[usize; 4]>,
+    /// What is added on the grid that all this leads to.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub plus: Vec<Layer>,
 }
 
 /// One of the keys `file`, `generate`, `form`.
@@ -63,6 +68,39 @@ pub enum Source {
         /// Number of cells along x and y.
         shape: [usize; 2],
     },
+}
+
+/// Heights that are added: a random topography or a form, made on the grid of what they are added to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Layer {
+    /// A random topography.
+    Generate {
+        /// The method, with its parameters.
+        #[serde(flatten)]
+        generate: Generator,
+        /// Same seed, same heights.
+        seed: u64,
+    },
+    /// A smooth body.
+    Form {
+        /// The form, with its parameters.
+        #[serde(flatten, serialize_with = "with_infinities")]
+        form: Form,
+    },
+}
+
+impl Layer {
+    /// Its heights on `grid`.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
+    pub fn on(&self, grid: &Grid) -> crate::error::Result<Topography> {
+        match self {
+            Self::Generate { generate, seed } => generate.generate(grid, *seed),
+            Self::Form { form } => form.on(grid),
+        }
+    }
 }
 
 fn with_infinities<S: Serializer>(form: &Form, serializer: S) -> Result<S::Ok, S::Error> {

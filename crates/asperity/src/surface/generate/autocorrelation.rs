@@ -2,19 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::noise::{filtered_noise, shape_with_margin};
-use super::{check_sq, one_or_two};
+use super::noise::{shape_with_margin, stationary};
+use super::{HeightDistribution, check_sq, one_or_two};
 use crate::error::{Result, check};
 use crate::grid::{Field, Grid};
-use crate::math::RealFft2;
+use crate::math::fft::symmetric_transform;
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// Heights of exponential autocorrelation, R(x, y) = Sq² exp(−ln 10 √((x/βx)² + (y/βy)²)).
+/// Heights of a prescribed autocorrelation, Sq² R(s), which falls to 10 % at the correlation lengths:
 ///
-/// It falls to 10 % at the correlation lengths βx and βy: the definition of Hu & Tonder, Int. J. Mach. Tools
-/// Manuf. 32, 83 (1992), whose exp(−2.3 …) this is; the length to 1/e is β/ln 10. The filter's response is
-/// the square root of the wanted spectrum, the transform of R.
+/// s = √((x/βx)² + (y/βy)²), R = exp(−ln 10 s) or exp(−ln 10 s²).
+///
+/// With a lay, the axes of the ellipse s = 1 are turned by its angle: so is a ground surface, with a long
+/// correlation along the lay and a short one across.
+///
+/// The definition of the lengths is that of Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), whose exp(−2.3 …)
+/// the exponential is; its length to 1/e is β/ln 10, that of the Gaussian β/√ln 10. The filter's response is the
+/// square root of the wanted spectrum, the transform of R.
 ///
 /// The noise field is three correlation lengths longer than the surface, which is cut out of it, so that it
 /// is not periodic and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface; R
@@ -24,43 +29,110 @@ use crate::units::Metre;
 pub struct Autocorrelation {
     /// Rms height, > 0.
     pub sq: Metre,
-    /// Lengths βx and βy where the autocorrelation falls to 10 %, from a pitch to the length of the surface;
-    /// read from one or two.
+    /// Lengths where the autocorrelation falls to 10 %, along and across the lay, which is along x and y without one;
+    /// read from one or two. The ellipse of these semi-axes reaches beyond the neighbouring samples, but not beyond
+    /// the length of the surface.
     #[serde(deserialize_with = "one_or_two")]
     pub correlation_length: [Metre; 2],
+    /// How it falls.
+    #[serde(default, skip_serializing_if = "Decay::is_exponential")]
+    pub decay: Decay,
+    /// Angle of the first length's direction against x, towards y, in radians.
+    #[serde(default, skip_serializing_if = "is_along_x")]
+    pub lay: f64,
+    /// Skewness and kurtosis of the heights.
+    #[serde(flatten)]
+    pub heights: HeightDistribution,
+}
+
+/// How an autocorrelation falls with the distance.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Decay {
+    /// R = exp(−ln 10 s): a surface with edges on the smallest scale, as of grinding (Whitehouse & Archard, Proc. R.
+    /// Soc. A 316, 97 (1970)).
+    #[default]
+    Exponential,
+    /// R = exp(−ln 10 s²): a smooth surface.
+    Gaussian,
+}
+
+impl Decay {
+    fn is_exponential(&self) -> bool {
+        *self == Self::Exponential
+    }
+}
+
+fn is_along_x(lay: &f64) -> bool {
+    *lay == 0.0
 }
 
 impl Autocorrelation {
+    /// Gaussian heights, an exponential autocorrelation, its lengths along x and y.
+    pub const fn new(sq: Metre, correlation_length: [Metre; 2]) -> Self {
+        let heights = HeightDistribution::GAUSSIAN;
+        Self { sq, correlation_length, decay: Decay::Exponential, lay: 0.0, heights }
+    }
+
     /// A topography on `grid`.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         check_sq(self.sq)?;
+        check("lay", self.lay, self.lay.is_finite(), "an angle")?;
+        let (distance, reach) = (self.distance(), self.reach());
+        let neighbours = [[grid.pitch[0], 0.0], [0.0, grid.pitch[1]]];
+        for length in self.correlation_length {
+            let good = length > 0.0 && length.is_finite();
+            check("correlation_length", length, good, "a length above 0")?;
+        }
         for axis in 0..2 {
-            let length = self.correlation_length[axis];
             // Lengths that differ from a limit by round-off alone are meant to equal it.
             let good =
-                length >= grid.pitch[axis] * (1.0 - 1e-9) && length <= grid.extent()[axis] * (1.0 + 1e-9);
+                distance(neighbours[axis]) <= 1.0 + 1e-9 && reach[axis] <= grid.extent()[axis] * (1.0 + 1e-9);
+            let length = self.correlation_length[axis];
             check("correlation_length", length, good, "a length from one pitch to that of the surface")?;
         }
-        let shape = shape_with_margin(grid, self.correlation_length.map(|length| 3.0 * length));
-        let spectrum = self.spectrum(shape, grid.pitch);
-        filtered_noise(grid, shape, seed, self.sq, |k, l| spectrum[[k, l]].sqrt())
+        let shape = shape_with_margin(grid, reach.map(|length| 3.0 * length));
+        stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
     }
 
-    /// Spectrum of the autocorrelation, of variance 1, on a period of `shape` samples.
+    /// Spectrum of the autocorrelation, of variance 1, on a period of `shape` samples, as [`symmetric_transform`] has
+    /// it.
     ///
     /// Where the period is short, its ends meet in a kink and give the spectrum slightly negative values: 0
     /// here.
-    fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
-        let distance = |axis: usize, index: usize| {
-            index.min(shape[axis] - index) as f64 * pitch[axis] / self.correlation_length[axis]
-        };
-        let autocorrelation = Field::from_shape_fn(shape, |(i, j)| {
-            (-std::f64::consts::LN_10 * distance(0, i).hypot(distance(1, j))).exp()
+    fn spectrum(&self, shape @ [nx, ny]: [usize; 2], pitch: [Metre; 2]) -> Field {
+        let distance = self.distance();
+        let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| {
+            let j = if 2 * j > ny { j as f64 - ny as f64 } else { j as f64 };
+            let s = distance([i as f64 * pitch[0], j * pitch[1]]);
+            let exponent = match self.decay {
+                Decay::Exponential => s,
+                Decay::Gaussian => s * s,
+            };
+            // Below round-off from here on.
+            if exponent > 20.0 { 0.0 } else { (-std::f64::consts::LN_10 * exponent).exp() }
         });
-        RealFft2::new(shape).forward(&autocorrelation).mapv(|value| value.re.max(0.0))
+        symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
+    }
+
+    /// s of a step along x and y.
+    fn distance(&self) -> impl Fn([Metre; 2]) -> f64 {
+        let [along, across] = self.correlation_length;
+        let (sin, cos) = self.lay.sin_cos();
+        move |[x, y]| {
+            let [a, b] = [(x * cos + y * sin) / along, (y * cos - x * sin) / across];
+            (a * a + b * b).sqrt()
+        }
+    }
+
+    /// How far the ellipse s = 1 extends along x and y.
+    fn reach(&self) -> [Metre; 2] {
+        let [along, across] = self.correlation_length;
+        let (sin, cos) = self.lay.sin_cos();
+        [(along * cos).hypot(across * sin), (along * sin).hypot(across * cos)]
     }
 }
 
@@ -73,7 +145,7 @@ mod tests {
     #[test]
     fn it_falls_to_a_tenth_at_the_correlation_length_of_each_direction() {
         let grid = Grid::new([400, 600], [0.5, 0.25]).unwrap();
-        let method = Autocorrelation { sq: 1.0, correlation_length: [6.0, 3.0] };
+        let method = Autocorrelation::new(1.0, [6.0, 3.0]);
         let seeds = 12;
         let fields: Vec<Field> =
             (0..seeds).map(|seed| method.generate(&grid, seed).unwrap().into_heights()).collect();
@@ -98,10 +170,10 @@ mod tests {
     fn the_spectrum_holds_the_variance_asked_for() {
         // Its negative values, left out, are few even where the surface is no longer than the correlation.
         for (shape, limit) in [([256, 256], 2e-4), ([64, 64], 0.02)] {
-            let method = Autocorrelation { sq: 1.0, correlation_length: [16.0, 16.0] };
+            let method = Autocorrelation::new(1.0, [16.0; 2]);
             let half = method.spectrum(shape, [1.0; 2]);
             let weight = |l: usize| if l == 0 || 2 * l == shape[1] { 1.0 } else { 2.0 };
-            let variance: f64 = half.indexed_iter().map(|((_, l), s)| weight(l) * s).sum();
+            let variance: f64 = half.indexed_iter().map(|((l, _), s)| weight(l) * s).sum();
             let excess = variance / (shape[0] * shape[1]) as f64 - 1.0;
             assert!((-1e-12..limit).contains(&excess), "{excess:e}");
         }
@@ -110,7 +182,7 @@ mod tests {
     #[test]
     fn heights_are_gaussian() {
         let grid = Grid::new([512, 512], [1.0; 2]).unwrap();
-        let method = Autocorrelation { sq: 1.0, correlation_length: [6.0; 2] };
+        let method = Autocorrelation::new(1.0, [6.0; 2]);
         // Standard errors √6 and √24 per independent spot, 2πβ²/(2 ln 10)² and less for higher powers of R.
         let spots = 512.0 * 512.0 * 4.605f64.powi(2) / (std::f64::consts::TAU * 36.0);
         for seed in 0..4 {

@@ -1,12 +1,17 @@
 //! Random topographies of prescribed statistics, reproducible from a seed.
 
 mod autocorrelation;
+mod heights;
+mod johnson;
 mod low_pass;
 mod noise;
 mod self_affine;
+#[cfg(test)]
+mod statistics;
 
-pub use autocorrelation::Autocorrelation;
-pub use low_pass::LowPass;
+pub use autocorrelation::{Autocorrelation, Decay};
+pub use heights::HeightDistribution;
+pub use low_pass::{Band, LowPass};
 pub use self_affine::{Amplitude, SelfAffine};
 
 use serde::{Deserialize, Deserializer, Serialize};
@@ -22,7 +27,7 @@ use crate::units::Metre;
 pub enum Generator {
     /// White noise without its short waves; not periodic.
     LowPass(LowPass),
-    /// Exponential autocorrelation; not periodic.
+    /// Prescribed autocorrelation, also of a ground lay; not periodic.
     Autocorrelation(Autocorrelation),
     /// Power-law spectrum; periodic.
     SelfAffine(SelfAffine),
@@ -69,8 +74,8 @@ mod tests {
 
     fn generators() -> [Generator; 3] {
         [
-            Generator::LowPass(LowPass { sq: 2e-7, cutoff: [4e-6, 4e-6] }),
-            Generator::Autocorrelation(Autocorrelation { sq: 2e-7, correlation_length: [2e-6, 4e-6] }),
+            Generator::LowPass(LowPass::new(2e-7, [4e-6, 4e-6])),
+            Generator::Autocorrelation(Autocorrelation::new(2e-7, [2e-6, 4e-6])),
             Generator::SelfAffine(SelfAffine {
                 hurst: 0.8,
                 rolloff: Some(8e-6),
@@ -130,9 +135,8 @@ mod tests {
     #[test]
     fn parameters_without_meaning_are_refused_by_their_keys() {
         let grid = Grid::new([64, 32], [1e-6, 1e-6]).unwrap();
-        let low_pass = |sq, cutoff| Generator::LowPass(LowPass { sq, cutoff });
-        let exponential =
-            |correlation_length| Generator::Autocorrelation(Autocorrelation { sq: 1e-7, correlation_length });
+        let low_pass = |sq, cutoff| Generator::LowPass(LowPass::new(sq, cutoff));
+        let exponential = |length| Generator::Autocorrelation(Autocorrelation::new(1e-7, length));
         let self_affine = |hurst, rolloff, shortest, amplitude| {
             Generator::SelfAffine(SelfAffine { hurst, rolloff, shortest, amplitude })
         };

@@ -1,20 +1,19 @@
-//! White noise and its filtering.
+//! White noise, filtered and translated.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
+use super::HeightDistribution;
 use crate::error::{Result, check};
 use crate::grid::{Field, Grid};
 use crate::math::{RealFft2, good_size};
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// Independent Gaussian numbers of mean 0 and variance 1: the stream of ChaCha8 for `seed`, in the order of
-/// memory.
-pub(super) fn white_noise(shape: [usize; 2], seed: u64) -> Field {
-    let mut stream = ChaCha8Rng::seed_from_u64(seed);
-    Field::from_shape_simple_fn(shape, || StandardNormal.sample(&mut stream))
+/// Independent Gaussian numbers of mean 0 and variance 1: the stream of ChaCha8 for `seed`.
+pub(super) fn white_noise(seed: u64) -> impl Iterator<Item = f64> {
+    StandardNormal.sample_iter(ChaCha8Rng::seed_from_u64(seed))
 }
 
 /// A shape of fast transforms that is longer than the grid by `margin` or more.
@@ -27,23 +26,32 @@ pub(super) fn shape_with_margin(grid: &Grid, margin: [Metre; 2]) -> [usize; 2] {
     })
 }
 
-/// White noise of `shape`, filtered, cut to the grid, its mean removed, and scaled to the rms height `sq`.
+/// White noise of `shape`, filtered to a spectrum, translated to a distribution of `heights`, cut to the grid, its
+/// mean removed, and scaled to the rms height `sq`.
 ///
-/// `response(k, l)` is the filter's, at the wave of k periods along x and l ≤ n/2 along y, k ≤ n counted
-/// upwards through the negative ones as the transform counts them.
-pub(super) fn filtered_noise(
+/// `spectrum`, ≥ 0 and of any variance, is that of the heights: indexed `[l, k]` by the periods along y,
+/// l = 0 … ny/2, and along x, k counted upwards through the negative ones as the transform counts them.
+pub(super) fn stationary(
     grid: &Grid,
     shape: [usize; 2],
     seed: u64,
     sq: Metre,
-    response: impl Fn(usize, usize) -> f64,
+    heights: HeightDistribution,
+    spectrum: impl FnOnce() -> Field,
 ) -> Result<Topography> {
     check("shape", grid.cells() as f64, grid.cells() > 1, "at least two cells, for heights to differ")?;
-    let fft = RealFft2::new(shape);
-    let mut spectrum = fft.forward(&white_noise(shape, seed));
-    spectrum.indexed_iter_mut().for_each(|((k, l), value)| *value *= response(k, l));
-    let periodic = fft.inverse(&spectrum);
-    let mut heights = Field::from_shape_fn(grid.shape, |at| periodic[at]);
+    let translation = heights.translation()?;
+    let mut spectrum = spectrum();
+    if let Some(translation) = &translation {
+        spectrum = translation.underlying(spectrum, shape);
+    }
+    spectrum.mapv_inplace(f64::sqrt);
+    let mut noise = white_noise(seed);
+    let row = |values: &mut [f64]| values.iter_mut().zip(&mut noise).for_each(|(value, n)| *value = n);
+    let mut heights = RealFft2::new(shape).filter(row, &spectrum, grid.shape);
+    if let Some(translation) = &translation {
+        heights.mapv_inplace(|g| translation.height(g));
+    }
     let cells = grid.cells() as f64;
     let mean = heights.sum() / cells;
     heights -= mean;
@@ -65,12 +73,12 @@ pub(super) mod tests {
 
     #[test]
     fn noise_has_the_moments_of_a_gaussian_and_no_correlation() {
-        let noise = white_noise([512, 512], 1);
+        let noise = Field::from_shape_vec([512, 512], white_noise(1).take(512 * 512).collect()).unwrap();
         let n = noise.len() as f64;
         let moment = |p: i32| noise.iter().map(|z| z.powi(p)).sum::<f64>() / n;
         // Standard errors of the sample moments of a Gaussian: √(1, 2, 15, 96)/√n.
         for (p, expected, variance) in [(1, 0.0, 1.0), (2, 1.0, 2.0), (3, 0.0, 15.0), (4, 3.0, 96.0)] {
-            let error = (moment(p) - expected).abs() / (variance / n as f64).sqrt();
+            let error = (moment(p) - expected).abs() / (variance / n).sqrt();
             assert!(error < 4.0, "moment {p} is off by {error:.1} standard errors");
         }
         assert!(covariance(&noise, [1, 0]).abs() < 4.0 / n.sqrt());

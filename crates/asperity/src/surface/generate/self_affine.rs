@@ -87,10 +87,15 @@ impl SelfAffine {
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         let shortest = self.check(grid)?;
         let [nx, ny] = grid.shape;
-        let mut spectrum = Array2::<Complex64>::zeros([nx, ny / 2 + 1]);
+        let numbers = |axis: usize| {
+            let number = |bin| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
+            (0..grid.shape[axis]).map(number).collect::<Vec<f64>>()
+        };
+        let (along_x, along_y) = (numbers(0), numbers(1));
+        let mut spectrum = Array2::<Complex64>::zeros([ny / 2 + 1, nx]);
         let (mut height, mut slope) = (0.0, 0.0);
         for_each_wave([nx, ny], seed, |k, l, phase| {
-            let wave = [angular_frequency(k, nx, grid.pitch[0]), angular_frequency(l, ny, grid.pitch[1])];
+            let wave = [along_x[k], along_y[l]];
             let q = wave[0].hypot(wave[1]);
             // A wave on the limit belongs to the surface, whatever the round-off.
             if q * shortest > TAU * (1.0 + 1e-9) {
@@ -99,9 +104,9 @@ impl SelfAffine {
             let magnitude = self.magnitude(q);
             // The phase is that at the grid's corner, half a cell before the first centre.
             let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
-            spectrum[[k, l]] = Complex64::from_polar(magnitude, phase + to_centre);
+            spectrum[[l, k]] = Complex64::from_polar(magnitude, phase + to_centre);
             if l == 0 {
-                spectrum[[nx - k, 0]] = spectrum[[k, 0]].conj();
+                spectrum[[0, nx - k]] = spectrum[[0, k]].conj();
             }
             height += 2.0 * magnitude * magnitude;
             slope += 2.0 * (q * magnitude).powi(2);
@@ -120,7 +125,7 @@ impl SelfAffine {
                 Amplitude::Sdq(sdq) => sdq / slope.sqrt(),
             };
         spectrum.mapv_inplace(|value| value * scale);
-        Topography::new(*grid, RealFft2::new(grid.shape).inverse(&spectrum))
+        Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
     }
 
     /// |ẑ(q)| up to a constant factor.

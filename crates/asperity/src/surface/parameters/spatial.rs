@@ -112,7 +112,7 @@ mod tests {
     fn an_exponential_surface_decays_as_it_was_made() {
         // R = 10^(−√((x/βx)² + (y/βy)²)): Sal = βx log 5 where βx is the shorter, Str = βx/βy.
         let (beta, shape) = ([8.0, 16.0], [512, 512]);
-        let method = Autocorrelation { sq: 1.0, correlation_length: beta };
+        let method = Autocorrelation::new(1.0, beta);
         let grid = Grid::new(shape, [1.0; 2]).unwrap();
         let seeds = 4;
         let (mut sal, mut aspect) = (0.0, 0.0);
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn holes_change_them_by_their_scatter_only() {
-        let method = Autocorrelation { sq: 1.0, correlation_length: [16.0, 16.0] };
+        let method = Autocorrelation::new(1.0, [16.0, 16.0]);
         let whole = method.generate(&Grid::new([256, 256], [1.0; 2]).unwrap(), 3).unwrap();
         let mut holed = whole.clone();
         let heights = holed.heights_mut().iter_mut().enumerate();
