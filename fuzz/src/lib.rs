@@ -9,8 +9,11 @@ use std::path::{Path, PathBuf};
 use asperity::io::topography::{self, Scan};
 use asperity::{Error, Field, Grid};
 
+/// Takes any bytes.
+pub type Target = fn(&[u8]);
+
 /// The targets by their names, which are those of the corpora too.
-pub const TARGETS: [(&str, fn(&[u8])); 18] = [
+pub const TARGETS: [(&str, Target); 18] = [
     ("al3d", al3d),
     ("bcr", bcr),
     ("csv", csv),

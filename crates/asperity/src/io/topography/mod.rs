@@ -88,19 +88,25 @@ fn contents(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    if bytes.starts_with(&[0x1f, 0x8b]) { unpack(bytes, channel) } else { decode_plain(bytes, channel) }
+    if bytes.starts_with(&[0x1f, 0x8b]) {
+        decode_plain(&unpacked(bytes, MAX_UNPACKED)?, channel)
+    } else {
+        decode_plain(bytes, channel)
+    }
 }
 
-fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
+/// What the gzipped `bytes` hold, if it is no more than `most`.
+fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
+    let fault = |defect| Fault::defect("gzip", defect);
     let mut unpacked = Vec::new();
-    let result = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1).read_to_end(&mut unpacked);
-    result.map_err(|error| Fault::defect("gzip", Defect::Container(error.to_string())))?;
-    if unpacked.len() as u64 > MAX_UNPACKED {
-        let found = unpacked.len() as u64;
-        let defect = Defect::Length { what: "the unpacked file", expected: MAX_UNPACKED, found };
-        return Err(Fault::defect("gzip", defect));
+    let result = flate2::read::MultiGzDecoder::new(bytes).take(most + 1).read_to_end(&mut unpacked);
+    result.map_err(|error| fault(Defect::Container(error.to_string())))?;
+    match unpacked.len() as u64 {
+        found if found > most => {
+            Err(fault(Defect::Length { what: "the unpacked file", expected: most, found }))
+        }
+        _ => Ok(unpacked),
     }
-    decode_plain(&unpacked, channel)
 }
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -251,21 +257,20 @@ fn finite(height: Metre) -> Metre {
 
 /// Heights stored with x fastest, as almost every instrument does: `heights` writes those that follow a number of others.
 fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
-    // A tile at a time, which stays in the first cache while it is turned.
+    // A tile at a time, which stays in the first cache while it is turned; columns that are begun are filled first.
     const TILE: usize = 32;
     let [nx, ny] = shape;
     let mut field = Field::zeros(shape);
     let cells = field.as_slice_mut().expect("a new field is in standard layout");
     let mut tile = [[0.0; TILE]; TILE];
-    for y in (0..ny).step_by(TILE) {
-        let lines = &mut tile[..TILE.min(ny - y)];
-        for x in (0..nx).step_by(TILE) {
-            let columns = TILE.min(nx - x);
+    for (strip, columns) in cells.chunks_mut(TILE * ny).enumerate() {
+        for y in (0..ny).step_by(TILE) {
+            let lines = &mut tile[..TILE.min(ny - y)];
             for (iy, line) in lines.iter_mut().enumerate() {
-                heights(x + nx * (y + iy), &mut line[..columns]);
+                heights(TILE * strip + nx * (y + iy), &mut line[..columns.len() / ny]);
             }
-            for ix in 0..columns {
-                for (cell, line) in cells[(x + ix) * ny + y..].iter_mut().zip(&*lines) {
+            for (ix, column) in columns.chunks_mut(ny).enumerate() {
+                for (cell, line) in column[y..].iter_mut().zip(&*lines) {
                     *cell = line[ix];
                 }
             }

@@ -52,14 +52,15 @@ fn heights(bytes: &[u8], page: usize) -> Result<Field, Defect> {
     }
     let (nx, ny) = file.dimensions().map_err(container)?;
     let shape = shape([nx, ny])?;
-    let colour = file.colortype().map_err(container)?;
-    if !matches!(colour, ColorType::Gray(_)) {
-        return Err(unlike_heights(format!("{colour:?}")));
-    }
+    let bits = match file.colortype().map_err(container)? {
+        ColorType::Gray(bits) => bits,
+        colour => return Err(unlike_heights(format!("{colour:?}"))),
+    };
     match file.read_image().map_err(container)? {
         DecodingResult::F32(pixels) => turned(shape, &pixels),
         DecodingResult::F64(pixels) => turned(shape, &pixels),
-        _ => Err(unlike_heights("integers".to_owned())),
+        DecodingResult::F16(_) => Err(unlike_heights("floating point of 16 bits".to_owned())),
+        _ => Err(unlike_heights(format!("integers of {bits} bits"))),
     }
 }
 
@@ -75,7 +76,9 @@ fn turned<T: Copy + Into<f64>>(shape: [usize; 2], pixels: &[T]) -> Result<Field,
 }
 
 fn unlike_heights(found: String) -> Defect {
-    Defect::Value { what: "the kind of pixels", found, expected: "floating point, heights in metres" }
+    let expected =
+        "heights in metres, floating point of 32 or 64 bits: nothing tells the height of a level of grey";
+    Defect::Value { what: "the kind of pixels", found, expected }
 }
 
 fn container(error: tiff::TiffError) -> Defect {

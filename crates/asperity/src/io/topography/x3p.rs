@@ -126,7 +126,11 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if archive.index_for_name(MAIN).is_none() {
         return Err(Fault::NotATopography("it is a zip archive without main.xml"));
     }
-    let main = entry(&mut archive, MAIN, "main.xml", MAX_MAIN).map_err(fault)?;
+    let main = entry(&mut archive, MAIN, MAIN, MAX_MAIN).map_err(fault)?;
+    if main.len() as u64 > MAX_MAIN {
+        let found = main.len() as u64;
+        return Err(fault(Defect::Length { what: MAIN, expected: MAX_MAIN, found }));
+    }
     let text = std::str::from_utf8(&main).map_err(|error| fault(container("main.xml", error)))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
