@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::str::FromStr;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -17,9 +17,7 @@ use crate::grid::Field;
 pub(super) const MAGIC: &[u8] = b"AliconaImaging\0\r\n";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("al3d", defect))?;
-    Ok(Scan { format: "al3d", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    only("al3d", channel, || heights(bytes))
 }
 
 fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
@@ -40,7 +38,7 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     // The value is printed, so that the height may differ from it by a rounding.
     let is_missing = |height: f64| (height - invalid).abs() <= 1e-6 * invalid.abs();
     let heights = padded.heights(|height| if is_missing(height) { f64::NAN } else { height });
-    let heights = heights.slice(ndarray::s![..shape[0], ..]).to_owned();
+    let heights = heights.slice_move(ndarray::s![..shape[0], ..]);
     Ok(([value(&tags, "PixelSizeXMeter")?, value(&tags, "PixelSizeYMeter")?], heights))
 }
 

@@ -7,7 +7,7 @@
 
 use super::binary::{Cursor, Number, Order, Raster, shape, unit_of_length};
 use super::header::Header;
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -16,9 +16,7 @@ pub(super) const MAGICS: [&[u8]; 2] =
     [b"fileformat = bcr", b"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0 \0=\0 \0b\0c\0r\0"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("bcr", defect))?;
-    Ok(Scan { format: "bcr", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    only("bcr", channel, || heights(bytes))
 }
 
 fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {

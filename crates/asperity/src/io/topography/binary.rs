@@ -1,6 +1,6 @@
 //! What binary formats share: numbers in a header, and heights stored as numbers of one kind.
 
-use super::cells;
+use super::{cells, finite, x_fastest};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -17,9 +17,11 @@ pub(super) enum Number {
     Uint8,
     Uint16,
     Uint32,
+    Uint64,
     Int8,
     Int16,
     Int32,
+    Int64,
     Float32,
     Float64,
 }
@@ -30,7 +32,7 @@ impl Number {
             Self::Uint8 | Self::Int8 => 1,
             Self::Uint16 | Self::Int16 => 2,
             Self::Uint32 | Self::Int32 | Self::Float32 => 4,
-            Self::Float64 => 8,
+            Self::Uint64 | Self::Int64 | Self::Float64 => 8,
         }
     }
 
@@ -38,28 +40,40 @@ impl Number {
         !matches!(self, Self::Float32 | Self::Float64)
     }
 
-    /// The number that has `index` others of its kind before it.
-    pub(super) fn at(self, order: Order, data: &[u8], index: usize) -> f64 {
+    /// Reads into `numbers` those that have `first` others of their kind before them.
+    fn read(self, order: Order, data: &[u8], first: usize, numbers: &mut [f64]) {
+        use Order::{Big, Little};
         match (self, order) {
-            (Self::Uint8, _) => f64::from(data[index]),
-            (Self::Int8, _) => f64::from(data[index].cast_signed()),
-            (Self::Uint16, Order::Little) => f64::from(u16::from_le_bytes(data.as_chunks().0[index])),
-            (Self::Uint16, Order::Big) => f64::from(u16::from_be_bytes(data.as_chunks().0[index])),
-            (Self::Uint32, Order::Little) => f64::from(u32::from_le_bytes(data.as_chunks().0[index])),
-            (Self::Uint32, Order::Big) => f64::from(u32::from_be_bytes(data.as_chunks().0[index])),
-            (Self::Int16, Order::Little) => f64::from(i16::from_le_bytes(data.as_chunks().0[index])),
-            (Self::Int16, Order::Big) => f64::from(i16::from_be_bytes(data.as_chunks().0[index])),
-            (Self::Int32, Order::Little) => f64::from(i32::from_le_bytes(data.as_chunks().0[index])),
-            (Self::Int32, Order::Big) => f64::from(i32::from_be_bytes(data.as_chunks().0[index])),
-            (Self::Float32, Order::Little) => f64::from(f32::from_le_bytes(data.as_chunks().0[index])),
-            (Self::Float32, Order::Big) => f64::from(f32::from_be_bytes(data.as_chunks().0[index])),
-            (Self::Float64, Order::Little) => f64::from_le_bytes(data.as_chunks().0[index]),
-            (Self::Float64, Order::Big) => f64::from_be_bytes(data.as_chunks().0[index]),
+            (Self::Uint8, _) => convert(data, first, numbers, |[byte]| f64::from(byte)),
+            (Self::Int8, _) => convert(data, first, numbers, |[byte]| f64::from(byte.cast_signed())),
+            (Self::Uint16, Little) => convert(data, first, numbers, |n| f64::from(u16::from_le_bytes(n))),
+            (Self::Uint16, Big) => convert(data, first, numbers, |n| f64::from(u16::from_be_bytes(n))),
+            (Self::Uint32, Little) => convert(data, first, numbers, |n| f64::from(u32::from_le_bytes(n))),
+            (Self::Uint32, Big) => convert(data, first, numbers, |n| f64::from(u32::from_be_bytes(n))),
+            // Beyond 2⁵³ the nearest number that f64 has: a height in metres is not that large.
+            (Self::Uint64, Little) => convert(data, first, numbers, |n| u64::from_le_bytes(n) as f64),
+            (Self::Uint64, Big) => convert(data, first, numbers, |n| u64::from_be_bytes(n) as f64),
+            (Self::Int16, Little) => convert(data, first, numbers, |n| f64::from(i16::from_le_bytes(n))),
+            (Self::Int16, Big) => convert(data, first, numbers, |n| f64::from(i16::from_be_bytes(n))),
+            (Self::Int32, Little) => convert(data, first, numbers, |n| f64::from(i32::from_le_bytes(n))),
+            (Self::Int32, Big) => convert(data, first, numbers, |n| f64::from(i32::from_be_bytes(n))),
+            (Self::Int64, Little) => convert(data, first, numbers, |n| i64::from_le_bytes(n) as f64),
+            (Self::Int64, Big) => convert(data, first, numbers, |n| i64::from_be_bytes(n) as f64),
+            (Self::Float32, Little) => convert(data, first, numbers, |n| f64::from(f32::from_le_bytes(n))),
+            (Self::Float32, Big) => convert(data, first, numbers, |n| f64::from(f32::from_be_bytes(n))),
+            (Self::Float64, Little) => convert(data, first, numbers, f64::from_le_bytes),
+            (Self::Float64, Big) => convert(data, first, numbers, f64::from_be_bytes),
         }
     }
 }
 
-/// Heights as they are stored: numbers of one kind, x fastest.
+fn convert<const N: usize>(data: &[u8], first: usize, numbers: &mut [f64], number: impl Fn([u8; N]) -> f64) {
+    for (cell, bytes) in numbers.iter_mut().zip(&data.as_chunks().0[first..]) {
+        *cell = number(*bytes);
+    }
+}
+
+/// Heights as they are stored: numbers of one kind.
 pub(super) struct Raster<'a> {
     pub(super) shape: [usize; 2],
     number: Number,
@@ -90,12 +104,28 @@ impl<'a> Raster<'a> {
         self.data.len()
     }
 
-    /// The heights that the numbers stand for; what is not finite is missing.
+    /// The heights that the numbers, x fastest, stand for; what is not finite is missing.
     pub(super) fn heights(&self, height: impl Fn(f64) -> f64) -> Field {
-        super::x_fastest(self.shape, |cell| {
-            let height = height(self.number.at(self.order, self.data, cell));
-            if height.is_finite() { height } else { f64::NAN }
-        })
+        x_fastest(self.shape, |first, heights| self.read(first, heights, &height))
+    }
+
+    /// As `heights`, of numbers with y fastest.
+    pub(super) fn heights_with_y_fastest(&self, height: impl Fn(f64) -> f64) -> Field {
+        // A part at a time, which stays in the first cache between the two loops over it.
+        const PART: usize = 1024;
+        let mut field = Field::zeros(self.shape);
+        let cells = field.as_slice_mut().expect("a new field is in standard layout");
+        for (index, part) in cells.chunks_mut(PART).enumerate() {
+            self.read(PART * index, part, &height);
+        }
+        field
+    }
+
+    fn read(&self, first: usize, heights: &mut [f64], height: impl Fn(f64) -> f64) {
+        self.number.read(self.order, self.data, first, heights);
+        for cell in heights {
+            *cell = finite(height(*cell));
+        }
     }
 }
 

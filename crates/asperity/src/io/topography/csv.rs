@@ -7,7 +7,7 @@
 use super::binary::unit_of_length;
 use super::header::excerpt;
 use super::text::{grid_of_points, matrix};
-use super::{Decoded, Fault, Scan, choose, distinct};
+use super::{Decoded, Fault, Scan, choose, distinct, usable_pitch};
 use crate::error::Defect;
 
 /// The heights, if the content begins with such a line of names.
@@ -43,7 +43,7 @@ fn table(names: &[&str], lines: &[u8], channel: Option<&str>) -> Decoded {
             expected: "a full regular grid of at least 2 × 2 points",
         })
     })?;
-    let pitch = Some([pitch[0] * x, pitch[1] * y]);
+    let pitch = usable_pitch([pitch[0] * x, pitch[1] * y]);
     Ok(Scan { format: "csv", channel: channels[column - 2].clone(), channels, pitch, heights: heights * z })
 }
 

@@ -13,7 +13,7 @@
 //! kind is a topography (4), and images of a thickness (0x80).
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, Scan, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
 use crate::error::Defect;
 
 /// How the file begins.
@@ -30,8 +30,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let chosen = choose(&channels, channel)?;
     let unit = file.unit.ok_or(fault(Defect::Missing("block of the unit of the heights")))?;
     let raster = &rasters[chosen].1;
-    let upwards = raster.heights(|number| if number == 1.0 { f64::NAN } else { number * unit });
-    let heights = upwards.slice(ndarray::s![.., ..;-1]).as_standard_layout().into_owned();
+    let mut heights = raster.heights(|number| if number == 1.0 { f64::NAN } else { number * unit });
+    from_last_y_to_first(&mut heights);
     let [nx, ny] = raster.shape;
     let pitch = usable_pitch([file.lengths[0] / nx as f64, file.lengths[1] / ny as f64]);
     Ok(Scan { format: "frt", channel: channels[chosen].clone(), channels, pitch, heights })

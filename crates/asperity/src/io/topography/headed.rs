@@ -12,7 +12,7 @@
 use super::binary::{shape, unit_of_length};
 use super::header::{Header, excerpt};
 use super::text::matrix;
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -115,7 +115,7 @@ fn zygo(bytes: &[u8]) -> Result<Heights, Defect> {
         let (Some(at), Some(height)) = (at, height) else {
             return Err(Defect::NotANumber { line: index + 1, token: excerpt(line) });
         };
-        heights[at] = height * 1e-6;
+        heights[at] = finite(height * 1e-6);
     }
     Ok(Heights { channel: ONLY_CHANNEL.to_owned(), pitch: [pitch; 2], heights })
 }
@@ -154,7 +154,7 @@ impl Lines {
     }
 
     fn over(self, channel: &str, lengths: [f64; 2], unit: f64) -> Heights {
-        let height = |number: f64| if number.abs() < 1e38 { number * unit } else { f64::NAN };
+        let height = |number: f64| if number.abs() < 1e38 { finite(number * unit) } else { f64::NAN };
         let heights = self.0.t().map(|number| height(*number)).as_standard_layout().into_owned();
         let pitch = [lengths[0] / heights.nrows() as f64, lengths[1] / heights.ncols() as f64];
         Heights { channel: channel.to_owned(), pitch, heights }

@@ -12,7 +12,7 @@
 //! for 0, 1, 2; where the phase is 2147483640 or more it is missing.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -20,18 +20,10 @@ use crate::grid::Field;
 pub(super) const MAGICS: [&[u8]; 3] = [b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("metropro", defect))?;
-    Ok(Scan {
-        format: "metropro",
-        channel: channels[0].clone(),
-        channels,
-        pitch: usable_pitch([pitch; 2]),
-        heights,
-    })
+    only("metropro", channel, || heights(bytes))
 }
 
-fn heights(bytes: &[u8]) -> Result<(f64, Field), Defect> {
+fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     let file = |at| {
         let mut file = Cursor::new(bytes, Order::Big, "the file");
         file.seek(at).map(|()| file)
@@ -55,5 +47,5 @@ fn heights(bytes: &[u8]) -> Result<(f64, Field), Defect> {
     let data = file((header as usize).saturating_add(intensities as usize))?;
     let raster = Raster::new(shape([nx, ny])?, Number::Int32, Order::Big, data.rest())?;
     let unit = scale * wavelength * obliquity / resolution;
-    Ok((pitch, raster.heights(|phase| if phase >= 2_147_483_640.0 { f64::NAN } else { phase * unit })))
+    Ok(([pitch; 2], raster.heights(|phase| if phase >= 2_147_483_640.0 { f64::NAN } else { phase * unit })))
 }

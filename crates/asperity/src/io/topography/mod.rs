@@ -28,8 +28,6 @@ use std::collections::HashSet;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-use ndarray::Axis;
-
 use crate::error::{Defect, Error, Result};
 use crate::grid::Field;
 use crate::units::Metre;
@@ -60,14 +58,22 @@ pub struct Scan {
 /// [`Error::CorruptTopography`] if it is damaged or uses what is not read, [`Error::NoChannel`].
 pub fn read(path: &Path, channel: Option<&str>) -> Result<Scan> {
     let bytes = contents(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
-    decode(&bytes, channel).map_err(|fault| fault.at(path, channel))
+    from_bytes(path, &bytes, channel)
+}
+
+/// As [`read`], from `bytes`, the content of a file that errors call `name`.
+///
+/// # Errors
+/// As [`read`], without [`Error::File`].
+pub fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>) -> Result<Scan> {
+    decode(bytes, channel).map_err(|fault| fault.at(name, channel))
 }
 
 /// The most heights that are read: 2 GiB of them.
 const MAX_CELLS: usize = 1 << 28;
 
-/// The most that a gzipped file is unpacked to.
-const MAX_UNPACKED: u64 = 1 << 32;
+/// The most that a gzipped file is unpacked to: the most heights, and a header.
+const MAX_UNPACKED: u64 = 8 * MAX_CELLS as u64 + (1 << 16);
 
 fn contents(path: &Path) -> io::Result<Vec<u8>> {
     // A pipe or a device has no end, and opening one may wait for ever.
@@ -82,19 +88,25 @@ fn contents(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    if bytes.starts_with(&[0x1f, 0x8b]) { unpack(bytes, channel) } else { decode_plain(bytes, channel) }
+    if bytes.starts_with(&[0x1f, 0x8b]) {
+        decode_plain(&unpacked(bytes, MAX_UNPACKED)?, channel)
+    } else {
+        decode_plain(bytes, channel)
+    }
 }
 
-fn unpack(bytes: &[u8], channel: Option<&str>) -> Decoded {
+/// What the gzipped `bytes` hold, if it is no more than `most`.
+fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
+    let fault = |defect| Fault::defect("gzip", defect);
     let mut unpacked = Vec::new();
-    let result = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1).read_to_end(&mut unpacked);
-    result.map_err(|error| Fault::defect("gzip", Defect::Container(error.to_string())))?;
-    if unpacked.len() as u64 > MAX_UNPACKED {
-        let found = unpacked.len() as u64;
-        let defect = Defect::Length { what: "the unpacked file", expected: MAX_UNPACKED, found };
-        return Err(Fault::defect("gzip", defect));
+    let result = flate2::read::MultiGzDecoder::new(bytes).take(most + 1).read_to_end(&mut unpacked);
+    result.map_err(|error| fault(Defect::Container(error.to_string())))?;
+    match unpacked.len() as u64 {
+        found if found > most => {
+            Err(fault(Defect::Length { what: "the unpacked file", expected: most, found }))
+        }
+        _ => Ok(unpacked),
     }
-    decode_plain(&unpacked, channel)
 }
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -188,9 +200,10 @@ fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<us
 /// The names, of which those that stood before get their place as a number.
 fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     let mut seen = HashSet::new();
-    let number = |(index, name): (usize, String)| {
-        let name = if seen.contains(&name) { format!("{name} {}", index + 1) } else { name };
-        seen.insert(name.clone());
+    let number = |(index, mut name): (usize, String)| {
+        while !seen.insert(name.clone()) {
+            name = format!("{name} {}", index + 1);
+        }
         name
     };
     names.enumerate().map(number).collect()
@@ -203,6 +216,17 @@ fn only_channel(channel: Option<&str>) -> std::result::Result<Vec<String>, Fault
     let channels = vec![ONLY_CHANNEL.to_owned()];
     choose(&channels, channel)?;
     Ok(channels)
+}
+
+/// The scan of a file that has one channel and its pitch, which `read` finds in its content.
+fn only(
+    format: &'static str,
+    channel: Option<&str>,
+    read: impl FnOnce() -> std::result::Result<([Metre; 2], Field), Defect>,
+) -> Decoded {
+    let channels = only_channel(channel)?;
+    let (pitch, heights) = read().map_err(|defect| Fault::defect(format, defect))?;
+    Ok(Scan { format, channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
 }
 
 /// The product of the sizes that a header announces, if heights of that number are read at all.
@@ -219,19 +243,40 @@ fn usable_pitch(pitch: [Metre; 2]) -> Option<[Metre; 2]> {
     pitch.iter().all(|p| p.is_finite() && *p > 0.0).then_some(pitch)
 }
 
-/// Heights stored with x fastest, as almost every instrument does.
-fn x_fastest(shape: [usize; 2], height: impl Fn(usize) -> f64) -> Field {
-    // A strip of y at a time, so that the lines of memory that are written are full before they are left.
-    const STRIP: usize = 32;
-    let mut heights = Field::zeros(shape);
-    for (strip, mut cells) in heights.axis_chunks_iter_mut(Axis(1), STRIP).enumerate() {
-        for (ix, mut column) in cells.rows_mut().into_iter().enumerate() {
-            for (iy, cell) in column.iter_mut().enumerate() {
-                *cell = height(ix + shape[0] * (STRIP * strip + iy));
+/// Turns the order of the lines, where a file has the last one first.
+fn from_last_y_to_first(heights: &mut Field) {
+    for mut column in heights.rows_mut() {
+        column.as_slice_mut().expect("heights are in standard layout").reverse();
+    }
+}
+
+/// `height`, if it is finite; else there is none.
+fn finite(height: Metre) -> Metre {
+    if height.is_finite() { height } else { f64::NAN }
+}
+
+/// Heights stored with x fastest, as almost every instrument does: `heights` writes those that follow a number of others.
+fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
+    // A tile at a time, which stays in the first cache while it is turned; columns that are begun are filled first.
+    const TILE: usize = 32;
+    let [nx, ny] = shape;
+    let mut field = Field::zeros(shape);
+    let cells = field.as_slice_mut().expect("a new field is in standard layout");
+    let mut tile = [[0.0; TILE]; TILE];
+    for (strip, columns) in cells.chunks_mut(TILE * ny).enumerate() {
+        for y in (0..ny).step_by(TILE) {
+            let lines = &mut tile[..TILE.min(ny - y)];
+            for (iy, line) in lines.iter_mut().enumerate() {
+                heights(TILE * strip + nx * (y + iy), &mut line[..columns.len() / ny]);
+            }
+            for (ix, column) in columns.chunks_mut(ny).enumerate() {
+                for (cell, line) in column[y..].iter_mut().zip(&*lines) {
+                    *cell = line[ix];
+                }
             }
         }
     }
-    heights
+    field
 }
 
 #[cfg(test)]

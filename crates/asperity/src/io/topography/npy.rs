@@ -4,9 +4,9 @@
 
 use std::path::Path;
 
-use ndarray::ShapeBuilder;
-use npyz::{DType, NpyFile, NpyHeader, TypeChar, WriterBuilder};
+use npyz::{DType, Endianness, NpyHeader, TypeChar, WriterBuilder};
 
+use super::binary::{Number, Order, Raster};
 use super::{Decoded, Fault, Scan, cells, only_channel};
 use crate::error::{Defect, Result};
 use crate::grid::Field;
@@ -54,30 +54,25 @@ fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
     if data.len() as u64 != expected {
         return Err(Defect::Length { what: "the array", expected, found: data.len() as u64 });
     }
-    let shape = [nx as usize, ny as usize].set_f(header.order() == npyz::Order::Fortran);
-    let file = NpyFile::with_header(header, data);
-    let values = match (number.type_char(), number.size_field()) {
-        (TypeChar::Float, 8) => file.into_vec::<f64>(),
-        (TypeChar::Float, 4) => widened::<f32>(file),
-        (TypeChar::Int, 1) => widened::<i8>(file),
-        (TypeChar::Int, 2) => widened::<i16>(file),
-        (TypeChar::Int, 4) => widened::<i32>(file),
-        (TypeChar::Uint, 1) => widened::<u8>(file),
-        (TypeChar::Uint, 2) => widened::<u16>(file),
-        (TypeChar::Uint, 4) => widened::<u32>(file),
-        // Beyond 2⁵³ the nearest number that f64 has: a height in metres is not that large.
-        (TypeChar::Int, 8) => file.into_vec::<i64>().map(|v| v.into_iter().map(|h| h as f64).collect()),
-        (TypeChar::Uint, 8) => file.into_vec::<u64>().map(|v| v.into_iter().map(|h| h as f64).collect()),
+    let order = if number.endianness() == Endianness::Big { Order::Big } else { Order::Little };
+    let number = match (number.type_char(), number.size_field()) {
+        (TypeChar::Float, 8) => Number::Float64,
+        (TypeChar::Float, 4) => Number::Float32,
+        (TypeChar::Int, 1) => Number::Int8,
+        (TypeChar::Int, 2) => Number::Int16,
+        (TypeChar::Int, 4) => Number::Int32,
+        (TypeChar::Int, 8) => Number::Int64,
+        (TypeChar::Uint, 1) => Number::Uint8,
+        (TypeChar::Uint, 2) => Number::Uint16,
+        (TypeChar::Uint, 4) => Number::Uint32,
+        (TypeChar::Uint, 8) => Number::Uint64,
         _ => return Err(unreadable),
     };
-    let values = values.map_err(container)?;
-    let heights =
-        Field::from_shape_vec(shape, values).map_err(|error| Defect::Container(error.to_string()))?;
-    Ok(heights.as_standard_layout().into_owned())
-}
-
-fn widened<T: npyz::Deserialize + Into<f64>>(file: NpyFile<&[u8]>) -> std::io::Result<Vec<f64>> {
-    Ok(file.into_vec::<T>()?.into_iter().map(Into::into).collect())
+    let raster = Raster::new([nx as usize, ny as usize], number, order, data)?;
+    Ok(match header.order() {
+        npyz::Order::C => raster.heights_with_y_fastest(|height| height),
+        npyz::Order::Fortran => raster.heights(|height| height),
+    })
 }
 
 fn container(error: std::io::Error) -> Defect {

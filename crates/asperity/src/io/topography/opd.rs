@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
-use super::{Decoded, Fault, Scan, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -94,7 +94,9 @@ fn heights(data: &[u8], numbers: &HashMap<&str, f64>) -> Result<Field, Defect> {
             return Err(Defect::Value { what: "the bytes of a height", found, expected: "2 or 4" });
         }
     };
-    let raster = Raster::new(shape([ny, nx])?, number, Order::Little, array.rest())?;
-    let heights = raster.heights(|number| if number >= missing { f64::NAN } else { number * unit });
-    Ok(heights.slice(ndarray::s![..;-1, ..]).t().as_standard_layout().into_owned())
+    let raster = Raster::new(shape([nx, ny])?, number, Order::Little, array.rest())?;
+    let height = |number| if number >= missing { f64::NAN } else { number * unit };
+    let mut heights = raster.heights_with_y_fastest(height);
+    from_last_y_to_first(&mut heights);
+    Ok(heights)
 }

@@ -11,7 +11,7 @@
 //! A missing height is 1000001. Of several layers the first is read.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -27,9 +27,7 @@ pub(super) fn is_one(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("plu", defect))?;
-    Ok(Scan { format: "plu", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    only("plu", channel, || heights(bytes))
 }
 
 const MICROMETRE: f64 = 1e-6;

@@ -19,7 +19,7 @@ use std::path::Path;
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::header::{Header, excerpt};
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch, x_fastest};
+use super::{Decoded, finite, only, x_fastest};
 use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
@@ -63,10 +63,7 @@ pub(super) const MAGICS: [&[u8]; 8] =
     [b"aISO-1.0", b"bISO-1.0", b"aISO-2.0", b"bISO-2.0", b"aBCR-1.0", b"bBCR-1.0", b"aNIST-1.", b"bNIST-1."];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let read = if bytes[0] == b'a' { in_text } else { in_binary };
-    let (pitch, heights) = read(bytes).map_err(|defect| Fault::defect("sdf", defect))?;
-    Ok(Scan { format: "sdf", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    only("sdf", channel, || if bytes[0] == b'a' { in_text(bytes) } else { in_binary(bytes) })
 }
 
 type Outcome<T> = std::result::Result<T, Defect>;
@@ -96,7 +93,7 @@ fn in_binary(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
         Number::Int8 => -128.0,
         Number::Int16 => -32_768.0,
         Number::Int32 => -2_147_483_648.0,
-        Number::Float32 | Number::Float64 => f64::NAN,
+        _ => f64::NAN,
     };
     let raster = Raster::new(shape, number, Order::Little, data)?;
     Ok(([dx, dy], raster.heights(|number| if number == missing { f64::NAN } else { number * dz })))
@@ -123,7 +120,7 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
                 line: first_line + index,
                 token: excerpt(&String::from_utf8_lossy(token)),
             };
-            heights.push(number.ok_or_else(unreadable)? * dz);
+            heights.push(finite(number.ok_or_else(unreadable)? * dz));
         }
     }
     if heights.len() != shape[0] * shape[1] {
@@ -131,8 +128,8 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
         let expected = "NumPoints · NumProfiles";
         return Err(Defect::Value { what: "the number of heights", found, expected });
     }
-    let height = |cell: usize| if heights[cell].is_finite() { heights[cell] } else { f64::NAN };
-    Ok(([header.number("Xscale")?, header.number("Yscale")?], x_fastest(shape, height)))
+    let heights = x_fastest(shape, |first, part| part.copy_from_slice(&heights[first..first + part.len()]));
+    Ok(([header.number("Xscale")?, header.number("Yscale")?], heights))
 }
 
 /// The kind of number, if heights can be read with these entries of the header.

@@ -17,8 +17,8 @@
 
 use std::io::Read;
 
-use super::binary::{text, unit_of_length};
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, distinct, usable_pitch, x_fastest};
+use super::binary::{Number, Order, Raster, text, unit_of_length};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, distinct, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 use crate::units::Metre;
@@ -54,12 +54,12 @@ fn objects(bytes: &[u8]) -> Result<Vec<Object<'_>>, Defect> {
 struct Object<'a> {
     name: String,
     shape: [usize; 2],
-    bytes_per_height: usize,
+    number: Number,
     pitch: [Metre; 2],
     /// Of one unit of the raw heights.
     height: Metre,
     offset: Metre,
-    missing: Option<i64>,
+    missing: Option<f64>,
     data: Data<'a>,
 }
 
@@ -94,10 +94,14 @@ impl<'a> Object<'a> {
             });
         }
         let bits = header_i16(bytes, 98)?;
-        if bits != 16 && bits != 32 {
-            let found = bits.to_string();
-            return Err(Defect::Value { what: "the number of bits per height", found, expected: "16 or 32" });
-        }
+        let number = match bits {
+            16 => Number::Int16,
+            32 => Number::Int32,
+            _ => {
+                let (what, found) = ("the number of bits per height", bits.to_string());
+                return Err(Defect::Value { what, found, expected: "16 or 32" });
+            }
+        };
         let mut shape = [0; 2];
         for (size, (at, what)) in shape.iter_mut().zip([(108, "the size along x"), (112, "the size along y")])
         {
@@ -117,11 +121,11 @@ impl<'a> Object<'a> {
         let mut object = Object {
             name: if name.is_empty() { ONLY_CHANNEL.to_owned() } else { name },
             shape,
-            bytes_per_height: bits as usize / 8,
+            number,
             pitch: [dx? * x, dy? * y],
             height: dz? * z,
             offset: header_f32(bytes, 474)? * z,
-            missing: missing.then_some(i64::from(header_i32(bytes, 100)?) - 2),
+            missing: missing.then_some(f64::from(header_i32(bytes, 100)?) - 2.0),
             data: Data::Plain(&[]),
         };
 
@@ -129,7 +133,7 @@ impl<'a> Object<'a> {
             usize::from(header_i16(bytes, 334)? as u16) + usize::from(header_i16(bytes, 336)? as u16);
         let start = HEADER + comments;
         let data = bytes.get(start..).ok_or_else(|| length("the file", start as u64, bytes.len()))?;
-        let needed = cells * object.bytes_per_height;
+        let needed = cells * number.bytes();
         let rest;
         (object.data, rest) = if compressed {
             streams(data)?
@@ -143,7 +147,7 @@ impl<'a> Object<'a> {
     }
 
     fn heights(&self) -> Result<Field, Defect> {
-        let needed = self.shape[0] * self.shape[1] * self.bytes_per_height;
+        let needed = self.shape[0] * self.shape[1] * self.number.bytes();
         let unpacked;
         let raw = match &self.data {
             Data::Plain(raw) => raw,
@@ -152,19 +156,9 @@ impl<'a> Object<'a> {
                 unpacked.as_slice()
             }
         };
-        let height = |raw: i64| {
-            if self.missing == Some(raw) { f64::NAN } else { raw as f64 * self.height + self.offset }
-        };
-        Ok(match self.bytes_per_height {
-            2 => {
-                let raw = raw.as_chunks().0;
-                x_fastest(self.shape, |cell| height(i64::from(i16::from_le_bytes(raw[cell]))))
-            }
-            _ => {
-                let raw = raw.as_chunks().0;
-                x_fastest(self.shape, |cell| height(i64::from(i32::from_le_bytes(raw[cell]))))
-            }
-        })
+        let raster = Raster::new(self.shape, self.number, Order::Little, raw)?;
+        let is_missing = |raw| self.missing == Some(raw);
+        Ok(raster.heights(|raw| if is_missing(raw) { f64::NAN } else { raw * self.height + self.offset }))
     }
 }
 

@@ -7,7 +7,9 @@ use arbtest::arbtest;
 use super::*;
 use crate::grid::Grid;
 
+mod bombs;
 mod csv;
+mod files;
 mod gwy;
 mod headed;
 mod instruments;
@@ -123,6 +125,16 @@ fn assert_same(found: &Field, expected: &Field) {
     assert_eq!(found.dim(), expected.dim());
     for (found, expected) in found.iter().zip(expected) {
         assert!(found == expected || (found.is_nan() && expected.is_nan()), "{found:e} is not {expected:e}");
+    }
+}
+
+#[test]
+fn heights_with_x_fastest_are_turned_whatever_their_shape() {
+    for shape in [[1, 1], [1, 100], [100, 1], [32, 64], [70, 45]] {
+        let turned = x_fastest(shape, |first, part| {
+            part.iter_mut().enumerate().for_each(|(index, height)| *height = (first + index) as f64);
+        });
+        assert_same(&turned, &Field::from_shape_fn(shape, |(ix, iy)| (ix + shape[0] * iy) as f64));
     }
 }
 
@@ -297,32 +309,21 @@ fn an_npy_written_reads_back_to_the_last_bit() {
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x93NUMPY\x01\0"));
 }
 
-fn npy_of(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
-    let fortran = if fortran { "True" } else { "False" };
-    let header = format!("{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}");
-    let header = format!("{header:<117}\n");
-    let mut file = b"\x93NUMPY\x01\0".to_vec();
-    file.extend((header.len() as u16).to_le_bytes());
-    file.extend(header.as_bytes());
-    file.extend(data);
-    file
-}
-
 #[test]
 fn an_npy_may_hold_any_real_numbers_in_either_order() {
     let data: Vec<u8> = (1..=6u8).collect();
-    let c = decode(&npy_of("'|u1'", false, "(2, 3)", &data), None).unwrap().heights;
+    let c = decode(&files::npy("'|u1'", false, "(2, 3)", &data), None).unwrap().heights;
     assert_eq!(c, ndarray::array![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-    let fortran = decode(&npy_of("'|i1'", true, "(2, 3)", &data), None).unwrap().heights;
+    let fortran = decode(&files::npy("'|i1'", true, "(2, 3)", &data), None).unwrap().heights;
     assert_eq!(fortran, ndarray::array![[1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
     assert!(fortran.is_standard_layout());
     let big: Vec<u8> = [1.5f32, -2.5].iter().flat_map(|h| h.to_be_bytes()).collect();
     assert_eq!(
-        decode(&npy_of("'>f4'", false, "(1, 2)", &big), None).unwrap().heights,
+        decode(&files::npy("'>f4'", false, "(1, 2)", &big), None).unwrap().heights,
         ndarray::array![[1.5, -2.5]]
     );
     let long: Vec<u8> = [-7i64, 1 << 40].iter().flat_map(|h| h.to_le_bytes()).collect();
-    let long = decode(&npy_of("'<i8'", false, "(2, 1)", &long), None).unwrap().heights;
+    let long = decode(&files::npy("'<i8'", false, "(2, 1)", &long), None).unwrap().heights;
     assert_eq!(long, ndarray::array![[-7.0], [1_099_511_627_776.0]]);
 }
 
@@ -341,42 +342,19 @@ fn an_npy_that_is_no_matrix_of_numbers_is_an_error() {
             "29999999999400000000003 heights, at most 268435456 are read",
         ),
     ] {
-        assert_eq!(defect(&npy_of(descr, false, shape, &[0; 40])), format!("npy: {message}"));
+        assert_eq!(defect(&files::npy(descr, false, shape, &[0; 40])), format!("npy: {message}"));
     }
     assert_eq!(defect(b"\x93NUMPY\x01\0\xff\xff{"), "npy: the header holds 11 bytes, expected 65545");
     let nested = format!("({})", "(".repeat(10_000));
-    assert!(defect(&npy_of("'<f8'", false, &nested, &[])).starts_with("npy: the header is "));
+    assert!(defect(&files::npy("'<f8'", false, &nested, &[])).starts_with("npy: the header is "));
 }
 
 // ---- sur -------------------------------------------------------------------------------------------------
 
 /// A surface of 3 × 2 heights, of which the last is missing, in µm.
 fn sur_of(bits: u16, name: &str, objects: u16) -> Vec<u8> {
-    let mut file = vec![0u8; 512];
-    let mut put = |at: usize, bytes: &[u8]| file[at..at + bytes.len()].copy_from_slice(bytes);
-    put(0, b"DIGITAL SURF");
-    put(14, &objects.to_le_bytes());
-    put(18, &2i16.to_le_bytes());
-    put(20, name.as_bytes());
-    put(86, &1i16.to_le_bytes());
-    put(98, &bits.to_le_bytes());
-    put(100, &(-5i32).to_le_bytes());
-    put(108, &3i32.to_le_bytes());
-    put(112, &2i32.to_le_bytes());
-    put(120, &0.5f32.to_le_bytes());
-    put(124, &0.25f32.to_le_bytes());
-    put(128, &2f32.to_le_bytes());
-    for at in [180, 196] {
-        put(at, b"mm              ");
-    }
-    put(212, b"\xb5m");
-    put(334, &3i16.to_le_bytes());
-    put(474, &0.5f32.to_le_bytes());
-    file.extend(b"abc");
-    for raw in [-5i32, 0, 1, 2, 3, -7] {
-        file.extend(&raw.to_le_bytes()[..usize::from(bits / 8)]);
-    }
-    file
+    let raw = [-5i32, 0, 1, 2, 3, -7].map(|raw| raw.to_le_bytes()[..usize::from(bits / 8)].to_vec());
+    files::sur(bits, name, objects, [3, 2], &raw.concat())
 }
 
 #[test]
@@ -417,23 +395,7 @@ fn objects_of_a_sur_are_channels() {
 #[test]
 fn a_compressed_sur_is_read_as_a_plain_one() {
     let plain = sur_of(16, "", 1);
-    let mut file = plain.clone();
-    file[..12].copy_from_slice(b"DSCOMPRESSED");
-    file.truncate(515);
-    let packed: Vec<Vec<u8>> = [&plain[515..520], &plain[520..]]
-        .iter()
-        .map(|part| {
-            let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
-            encoder.write_all(part).unwrap();
-            encoder.finish().unwrap()
-        })
-        .collect();
-    file.extend(2u32.to_le_bytes());
-    for (raw, packed) in [5u32, 7].iter().zip(&packed) {
-        file.extend(raw.to_le_bytes());
-        file.extend((packed.len() as u32).to_le_bytes());
-    }
-    file.extend(packed.concat());
+    let mut file = files::sur_compressed(&plain);
     assert_same(&decode(&file, None).unwrap().heights, &decode(&plain, None).unwrap().heights);
     file[515..519].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(defect(&file).starts_with("sur: the directory holds "));
@@ -547,15 +509,13 @@ fn samples() -> Vec<Vec<u8>> {
     let text = b"# heights\n1,5; 2; ***\n3;4;5\n".to_vec();
     let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
     gzip.write_all(&text).unwrap();
-    let mut compressed = sur_of(32, "Height", 1);
-    compressed[..12].copy_from_slice(b"DSCOMPRESSED");
     let mut samples = vec![
         x3p,
         x3p_with("I", &[1; 20], Some(&[0x95, 0xfd]), ""),
         npy,
-        npy_of("'<f8'", true, "(3, 1)", &[1; 24]),
+        files::npy("'<f8'", true, "(3, 1)", &[1; 24]),
         sur_of(16, "Height", 2),
-        compressed,
+        files::sur_compressed(&sur_of(32, "Height", 1)),
         text,
         b"0 0 1\n0 1 2\n1 0 3\n1 1 4\n".to_vec(),
         gzip.finish().unwrap(),

@@ -10,7 +10,7 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
 use super::binary::shape;
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, x_fastest};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, finite, x_fastest};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -52,24 +52,33 @@ fn heights(bytes: &[u8], page: usize) -> Result<Field, Defect> {
     }
     let (nx, ny) = file.dimensions().map_err(container)?;
     let shape = shape([nx, ny])?;
-    let colour = file.colortype().map_err(container)?;
-    if !matches!(colour, ColorType::Gray(_)) {
-        return Err(unlike_heights(format!("{colour:?}")));
-    }
-    let height = |height: f64| if height.is_finite() { height } else { f64::NAN };
-    let pixels: Vec<f64> = match file.read_image().map_err(container)? {
-        DecodingResult::F32(pixels) => pixels.into_iter().map(f64::from).collect(),
-        DecodingResult::F64(pixels) => pixels,
-        _ => return Err(unlike_heights("integers".to_owned())),
+    let bits = match file.colortype().map_err(container)? {
+        ColorType::Gray(bits) => bits,
+        colour => return Err(unlike_heights(format!("{colour:?}"))),
     };
+    match file.read_image().map_err(container)? {
+        DecodingResult::F32(pixels) => turned(shape, &pixels),
+        DecodingResult::F64(pixels) => turned(shape, &pixels),
+        DecodingResult::F16(_) => Err(unlike_heights("floating point of 16 bits".to_owned())),
+        _ => Err(unlike_heights(format!("integers of {bits} bits"))),
+    }
+}
+
+fn turned<T: Copy + Into<f64>>(shape: [usize; 2], pixels: &[T]) -> Result<Field, Defect> {
     if pixels.len() != shape[0] * shape[1] {
         return Err(Defect::Missing("height for each pixel"));
     }
-    Ok(x_fastest(shape, |cell| height(pixels[cell])))
+    Ok(x_fastest(shape, |first, heights| {
+        for (height, pixel) in heights.iter_mut().zip(&pixels[first..]) {
+            *height = finite((*pixel).into());
+        }
+    }))
 }
 
 fn unlike_heights(found: String) -> Defect {
-    Defect::Value { what: "the kind of pixels", found, expected: "floating point, heights in metres" }
+    let expected =
+        "heights in metres, floating point of 32 or 64 bits: nothing tells the height of a level of grey";
+    Defect::Value { what: "the kind of pixels", found, expected }
 }
 
 fn container(error: tiff::TiffError) -> Defect {

@@ -4,7 +4,7 @@
 //! and y (2 i32), the lengths and offsets along x and y (4 f32), and the heights (f32, x fastest). Lengths are in mm.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, Scan, only_channel, usable_pitch};
+use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -12,9 +12,7 @@ use crate::grid::Field;
 pub(super) const MAGIC: &[u8] = b"Binary TrueMap Data File v2.0\r\n\0";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let channels = only_channel(channel)?;
-    let (pitch, heights) = heights(bytes).map_err(|defect| Fault::defect("tmd", defect))?;
-    Ok(Scan { format: "tmd", channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    only("tmd", channel, || heights(bytes))
 }
 
 const MILLIMETRE: f64 = 1e-3;

@@ -9,12 +9,12 @@ use std::io::{Cursor, Read, Write as _};
 use std::path::Path;
 
 use md5::{Digest, Md5};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use zip::ZipArchive;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
-use super::binary::{Number, Order};
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, usable_pitch, x_fastest};
+use super::binary::{Number, Order, Raster};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, finite, usable_pitch, x_fastest};
 use crate::error::{Defect, Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
@@ -113,8 +113,12 @@ fn checksum(bytes: &[u8]) -> String {
     })
 }
 
-/// The most that is read of `main.xml`, which may hold the heights themselves.
-const MAX_MAIN: u64 = 1 << 28;
+/// The most that is read of `main.xml`, which may hold the heights themselves, and the most of its elements and texts.
+const MAX_MAIN: u64 = 1 << 26;
+const MAX_NODES: u32 = 1 << 23;
+
+/// The most layers, each of which is a channel.
+const MAX_LAYERS: usize = 1 << 16;
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let fault = |defect| Fault::defect("x3p", defect);
@@ -122,10 +126,16 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if archive.index_for_name(MAIN).is_none() {
         return Err(Fault::NotATopography("it is a zip archive without main.xml"));
     }
-    let main = entry(&mut archive, MAIN, "main.xml", MAX_MAIN).map_err(fault)?;
+    let main = entry(&mut archive, MAIN, MAIN, MAX_MAIN).map_err(fault)?;
+    if main.len() as u64 > MAX_MAIN {
+        let found = main.len() as u64;
+        return Err(fault(Defect::Length { what: MAIN, expected: MAX_MAIN, found }));
+    }
     let text = std::str::from_utf8(&main).map_err(|error| fault(container("main.xml", error)))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let document = Document::parse(text).map_err(|error| fault(container("main.xml", error)))?;
+    let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
+    let document =
+        Document::parse_with_options(text, options).map_err(|error| fault(container("main.xml", error)))?;
     let root = document.root_element();
     if root.tag_name().name() != "ISO5436_2" {
         return Err(Fault::NotATopography("it is a zip archive, but its main.xml is not that of an x3p"));
@@ -191,6 +201,10 @@ impl Header {
         let [x_size, y_size, z_size] = ["SizeX", "SizeY", "SizeZ"].map(|name| size(matrix, name));
         let sizes = [x_size?, y_size?, z_size?];
         cells(&sizes.map(|size| size as u64))?;
+        if sizes[2] > MAX_LAYERS {
+            let found = sizes[2].to_string();
+            return Err(Defect::Value { what: "SizeZ", found, expected: "at most 65536" });
+        }
         Ok(Self {
             sizes,
             increments: [decimal(x, "Increment", f64::NAN)?, decimal(y, "Increment", f64::NAN)?],
@@ -206,7 +220,11 @@ impl Header {
         let first = layer * shape[0] * shape[1];
         if let Some(list) = child(record, "DataList") {
             let numbers = self.listed(list)?;
-            return Ok(x_fastest(shape, |cell| self.offset + self.increment * numbers[first + cell]));
+            return Ok(x_fastest(shape, |cell, heights| {
+                for (height, number) in heights.iter_mut().zip(&numbers[first + cell..]) {
+                    *height = finite(self.offset + self.increment * number);
+                }
+            }));
         }
         let link = child(record, "DataLink").ok_or(Defect::Missing("DataLink or DataList in Record3"))?;
         let all = self.sizes.iter().product::<usize>();
@@ -224,17 +242,21 @@ impl Header {
             let (expected, found) = (bits as u64, mask.len() as u64);
             return Err(Defect::Length { what: "the mask of valid points", expected, found });
         }
-        let valid = |point: usize| match &mask {
-            None => true,
-            Some(mask) if mask.len() == bits => mask[point / 8] >> (point % 8) & 1 == 1,
-            Some(mask) => mask[point] != 0,
-        };
-        Ok(x_fastest(shape, |cell| {
-            let point = first + cell;
-            let number = if valid(point) { self.number.at(Order::Little, &data, point) } else { f64::NAN };
-            // Infinite heights do not exist: they are one more way to say that there is none.
-            if number.is_finite() { self.offset + self.increment * number } else { f64::NAN }
-        }))
+        let data = &data[first * self.number.bytes()..];
+        let raster = Raster::new(shape, self.number, Order::Little, data)?;
+        let mut heights = raster.heights(|number| self.offset + self.increment * number);
+        if let Some(mask) = mask {
+            let is_valid = |point: usize| match mask.len() == bits {
+                true => mask[point / 8] >> (point % 8) & 1 == 1,
+                false => mask[point] != 0,
+            };
+            for ((ix, iy), height) in heights.indexed_iter_mut() {
+                if !is_valid(first + ix + shape[0] * iy) {
+                    *height = f64::NAN;
+                }
+            }
+        }
+        Ok(heights)
     }
 
     /// The numbers of a list in the XML: of each point the coordinates, of which z is the last, or nothing.

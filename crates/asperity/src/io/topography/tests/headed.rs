@@ -1,3 +1,4 @@
+use super::files::bcr;
 use super::*;
 
 /// Reads 3 × 2 heights: 1, 2, 3, and 4, none, 6 in the next line, times `unit`.
@@ -23,7 +24,9 @@ const ZYGO: &str = "Zygo XYZ Data File - Format 1\n0 3 0 0 \"now\"\n0 0 3 2 1 25
 
 pub(super) fn samples() -> Vec<Vec<u8>> {
     let text = [SPIP, GWYDDION, KOALA, ZYGO].map(|text| text.as_bytes().to_vec());
-    text.into_iter().chain([bcr("bcrstm", false, &SHORTS), bcr("bcrf_unicode", true, &floats())]).collect()
+    text.into_iter()
+        .chain([bcr("bcrstm", false, [3, 2], &SHORTS), bcr("bcrf_unicode", true, [3, 2], &floats())])
+        .collect()
 }
 
 #[test]
@@ -67,21 +70,6 @@ fn a_text_that_does_not_keep_to_its_header_is_an_error() {
     assert_eq!(with(ZYGO, "5e-5", "x"), "zygo xyz: no camera resolution in line 8");
 }
 
-/// 3 × 2 heights that are 0.5 nm of their numbers.
-fn bcr(kind: &str, big: bool, data: &[u8]) -> Vec<u8> {
-    let intel = i32::from(!big);
-    let header = format!(
-        "fileformat = {kind}\nxpixels = 3\nypixels = 2\nxlength = 1.5\nylength = 500\nxunit = um\nbit2nm = 0.5\n\
-         intelmode = {intel}\n% end\n"
-    );
-    let header = format!("{header:<2048}");
-    let header = match kind.ends_with("unicode") {
-        true => header.encode_utf16().flat_map(u16::to_le_bytes).collect(),
-        false => header.into_bytes(),
-    };
-    [header.as_slice(), data].concat()
-}
-
 const SHORTS: [u8; 12] = [1, 0, 2, 0, 3, 0, 4, 0, 0xff, 0x7f, 6, 0];
 
 /// Big-endian.
@@ -92,11 +80,11 @@ fn floats() -> Vec<u8> {
 #[test]
 fn a_bcr_has_a_header_in_text_and_heights_in_binary() {
     let pitch = [5e-7, 2.5e-7];
-    assert_six(&bcr("bcrstm", false, &SHORTS), "bcr", "height", pitch, 0.5 * 1e-9);
-    assert_six(&bcr("bcrstm_unicode", false, &SHORTS), "bcr", "height", pitch, 0.5 * 1e-9);
-    assert_six(&bcr("bcrf", true, &floats()), "bcr", "height", pitch, 0.5 * 1e-9);
+    assert_six(&bcr("bcrstm", false, [3, 2], &SHORTS), "bcr", "height", pitch, 0.5 * 1e-9);
+    assert_six(&bcr("bcrstm_unicode", false, [3, 2], &SHORTS), "bcr", "height", pitch, 0.5 * 1e-9);
+    assert_six(&bcr("bcrf", true, [3, 2], &floats()), "bcr", "height", pitch, 0.5 * 1e-9);
     let with = |old: &str, new: &str| {
-        let text = String::from_utf8(bcr("bcrstm", false, &[0; 12])).unwrap();
+        let text = String::from_utf8(bcr("bcrstm", false, [3, 2], &[0; 12])).unwrap();
         defect(text.replacen(old, new, 1).as_bytes())
     };
     assert_eq!(with("bit2nm = 0.5", "bitonm = 0.5"), "bcr: no bit2nm");
@@ -105,7 +93,7 @@ fn a_bcr_has_a_header_in_text_and_heights_in_binary() {
     assert_eq!(with("xunit = um\n", "current= 1\n"), "bcr: current is `1`, expected 0: heights");
     assert_eq!(with("ypixels = 2", "ypixels = x"), "bcr: ypixels is `x`, expected at least 1");
     assert_eq!(
-        defect(&bcr("bcrf", true, &SHORTS)),
+        defect(&bcr("bcrf", true, [3, 2], &SHORTS)),
         "bcr: the part of the heights holds 12 bytes, expected 24"
     );
     assert_eq!(defect(b"fileformat = bcrf\n"), "bcr: the file holds 18 bytes, expected 2048");

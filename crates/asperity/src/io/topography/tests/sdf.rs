@@ -1,3 +1,4 @@
+use super::files::sdf;
 use super::*;
 
 #[test]
@@ -23,20 +24,8 @@ fn an_sdf_written_reads_back_to_the_last_bit() {
     assert_same(&read(&path, None).unwrap().heights, &heights);
 }
 
-/// A binary file of 3 × 1 heights: `data`.
-fn binary(kind: u8, data: &[u8]) -> Vec<u8> {
-    let mut file = b"bISO-1.0tester    010120250000010120250000".to_vec();
-    file.extend([3, 0, 1, 0]);
-    for scale in [0.5f64, 0.25, 2.0, 0.0] {
-        file.extend(scale.to_le_bytes());
-    }
-    file.extend([0, kind, 0]);
-    file.extend(data);
-    file
-}
-
 pub(super) fn samples() -> [Vec<u8>; 2] {
-    [binary(5, &[1, 0, 0, 0x80, 0xfe, 0xff]), TEXT.as_bytes().to_vec()]
+    [sdf(5, [3, 1], &[1, 0, 0, 0x80, 0xfe, 0xff]), TEXT.as_bytes().to_vec()]
 }
 
 const TEXT: &str = "aISO-1.0\r\nManufacID = me\r\nNumPoints = 3 ; of each\r\nNumProfiles = 2\r\nXscale = 0.5\r\nYscale=0.25\r\n\
@@ -54,11 +43,11 @@ fn an_sdf_may_hold_any_numbers_of_which_one_stands_for_none() {
         (5, all([&[1, 0], &[0, 0x80], &[0xff, 0xff]]), [2.0, f64::NAN, -2.0]),
         (6, all([&[1, 0, 0, 0], &i32::MIN.to_le_bytes(), &[255; 4]]), [2.0, f64::NAN, -2.0]),
     ] {
-        let scan = decode(&binary(kind, &data), None).unwrap();
+        let scan = decode(&sdf(kind, [3, 1], &data), None).unwrap();
         assert_eq!(scan.pitch, Some([0.5, 0.25]));
         assert_same(&scan.heights, &Field::from_shape_vec([3, 1], expected.to_vec()).unwrap());
         let longer = [&[9; 8], data.as_slice()].concat();
-        assert_same(&decode(&binary(kind, &longer), None).unwrap().heights, &scan.heights);
+        assert_same(&decode(&sdf(kind, [3, 1], &longer), None).unwrap().heights, &scan.heights);
     }
 }
 
@@ -79,7 +68,7 @@ fn a_damaged_sdf_is_an_error() {
     assert_eq!(with("Zscale = 2", "Zscale = 0"), "sdf: Zscale is `0`, expected a length in metres");
     assert_eq!(with("Compression = 0", "Compression = 1"), "sdf: Compression is `1`, expected 0, none");
     assert_eq!(with("*", ""), "sdf: no asterisk that ends the header");
-    assert_eq!(defect(&binary(5, &[0; 5])), "sdf: the part of the heights holds 5 bytes, expected 6");
-    assert_eq!(defect(&binary(9, &[0; 6])), "sdf: DataType is `9`, expected 0 to 7");
-    assert_eq!(defect(&binary(5, &[])[..60]), "sdf: the file holds 60 bytes, expected 62");
+    assert_eq!(defect(&sdf(5, [3, 1], &[0; 5])), "sdf: the part of the heights holds 5 bytes, expected 6");
+    assert_eq!(defect(&sdf(9, [3, 1], &[0; 6])), "sdf: DataType is `9`, expected 0 to 7");
+    assert_eq!(defect(&sdf(5, [3, 1], &[])[..60]), "sdf: the file holds 60 bytes, expected 62");
 }

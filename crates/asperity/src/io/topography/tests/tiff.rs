@@ -18,6 +18,10 @@ pub(super) fn sample() -> Vec<u8> {
     tiff::<colortype::Gray32Float>(&[&[1.0, 2.0, 3.0, 4.0, f32::NAN, 6.0], &[0.5; 6]], Compression::Lzw)
 }
 
+pub(super) fn deflated_page() -> Vec<u8> {
+    tiff::<colortype::Gray32Float>(&[&[1.0; 6]], Compression::Deflate(DeflateLevel::Best))
+}
+
 #[test]
 fn floats_of_a_tiff_are_heights_and_pages_are_channels() {
     let expected = ndarray::array![[1.0, 4.0], [2.0, f64::NAN], [3.0, 6.0]];
@@ -38,10 +42,11 @@ fn floats_of_a_tiff_are_heights_and_pages_are_channels() {
 #[test]
 fn a_tiff_of_something_else_than_heights_is_an_error() {
     let grey = tiff::<colortype::Gray16>(&[&[1; 6]], Compression::Uncompressed);
-    let message = "tiff: the kind of pixels is `integers`, expected floating point, heights in metres";
+    let message = "tiff: the kind of pixels is `integers of 16 bits`, expected heights in metres, floating point of 32 or \
+                   64 bits: nothing tells the height of a level of grey";
     assert_eq!(defect(&grey), message);
     let colours = tiff::<colortype::RGB8>(&[&[1; 18]], Compression::Uncompressed);
-    assert!(defect(&colours).starts_with("tiff: the kind of pixels is `RGB(8)`, expected floating"));
+    assert!(defect(&colours).starts_with("tiff: the kind of pixels is `RGB(8)`, expected heights in metres"));
     let mut wide = tiff::<colortype::Gray32Float>(&[&[1.0; 6]], Compression::Uncompressed);
     assert!(decode(&wide, None).is_ok());
     // The width is the first entry of the directory.

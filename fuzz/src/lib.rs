@@ -1,0 +1,246 @@
+//! What the fuzz targets do: each makes a file of one format of any bytes, reads it, and checks what is read.
+//!
+//! A file of a corpus need not be one of the format: what the format begins with, and what a mutation would hardly find
+//! (archives, compression, lengths), is put around it here.
+
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+
+use asperity::io::topography::{self, Scan};
+use asperity::{Error, Field, Grid};
+
+/// Takes any bytes.
+pub type Target = fn(&[u8]);
+
+/// The targets by their names, which are those of the corpora too.
+pub const TARGETS: [(&str, Target); 18] = [
+    ("al3d", al3d),
+    ("bcr", bcr),
+    ("csv", csv),
+    ("frt", frt),
+    ("gwy", gwy),
+    ("gzip", gzip),
+    ("headed", headed),
+    ("metropro", metropro),
+    ("npy", npy),
+    ("opd", opd),
+    ("plu", plu),
+    ("sdf_binary", sdf_binary),
+    ("sdf_text", sdf_text),
+    ("sur", sur),
+    ("text", text),
+    ("tiff", tiff),
+    ("tmd", tmd),
+    ("x3p", x3p),
+];
+
+/// AL3D.
+pub fn al3d(data: &[u8]) {
+    check(&["al3d"], &beginning_with(&[b"AliconaImaging\0\r\n"], data));
+}
+
+/// BCR: the header, which ends at a zero and is padded here, in UTF-16 if it says so; then the heights.
+pub fn bcr(data: &[u8]) {
+    let data = beginning_with(&[b"fileformat = bcr"], data);
+    let (header, heights) = split_at_zero(&data);
+    let mut header = header.to_vec();
+    header.resize(2048, b' ');
+    if header.windows(8).any(|word| word == b"_unicode") {
+        header = header.iter().flat_map(|byte| [*byte, 0]).collect();
+    }
+    check(&["bcr"], &[&header, heights].concat());
+}
+
+/// CSV.
+pub fn csv(data: &[u8]) {
+    check(&["csv", "text", "xyz"], &beginning_with(&[b"x,y", b"X", b"x"], data));
+}
+
+/// FRT.
+pub fn frt(data: &[u8]) {
+    check(&["frt"], &beginning_with(&[b"FRTM_GLIDERV1.00"], data));
+}
+
+/// GWY: a file, or the components of the container.
+pub fn gwy(data: &[u8]) {
+    if data.starts_with(b"GWYP") {
+        return check(&["gwy"], data);
+    }
+    let size = (data.len() as u32).to_le_bytes();
+    check(&["gwy"], &[b"GWYPGwyContainer\0", size.as_slice(), data].concat());
+}
+
+/// Gzip: a file, or what it unpacks to.
+pub fn gzip(data: &[u8]) {
+    if data.starts_with(&[0x1f, 0x8b]) {
+        return check(&[], data);
+    }
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    encoder.write_all(data).expect("memory takes all");
+    check(&[], &encoder.finish().expect("memory takes all"));
+}
+
+/// Text with a header of SPIP, Gwyddion, Koala or Zygo.
+pub fn headed(data: &[u8]) {
+    let magics: [&[u8]; 4] = [b"# File Format = ASCII", b"# Channel:", b"h=", b"Zygo XYZ Data File"];
+    let formats = ["spip", "gwyddion text", "koala", "zygo xyz"];
+    check(&formats, &beginning_with(&magics, data));
+}
+
+/// MetroPro.
+pub fn metropro(data: &[u8]) {
+    check(&["metropro"], &beginning_with(&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03"], data));
+}
+
+/// NPY.
+pub fn npy(data: &[u8]) {
+    check(&["npy"], &beginning_with(&[b"\x93NUMPY"], data));
+}
+
+/// OPD.
+pub fn opd(data: &[u8]) {
+    check(&["opd"], &beginning_with(&[b"\x01\0Directory"], data));
+}
+
+/// PLU.
+pub fn plu(data: &[u8]) {
+    check(&["plu"], &beginning_with(&[b"Tue Mar  7 16:35:59 2023\0"], data));
+}
+
+/// SDF in binary.
+pub fn sdf_binary(data: &[u8]) {
+    check(&["sdf"], &beginning_with(&[b"bISO-1.0", b"bISO-2.0", b"bBCR-1.0", b"bNIST-1."], data));
+}
+
+/// SDF in text.
+pub fn sdf_text(data: &[u8]) {
+    check(&["sdf"], &beginning_with(&[b"aISO-1.0", b"aISO-2.0", b"aBCR-1.0", b"aNIST-1."], data));
+}
+
+/// SUR.
+pub fn sur(data: &[u8]) {
+    check(&["sur"], &beginning_with(&[b"DIGITAL SURF", b"DSCOMPRESSED"], data));
+}
+
+/// A matrix or a table, or text that begins as another format does.
+pub fn text(data: &[u8]) {
+    check(&[], data);
+}
+
+/// TIFF.
+pub fn tiff(data: &[u8]) {
+    check(&["tiff"], &beginning_with(&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], data));
+}
+
+/// TMD.
+pub fn tmd(data: &[u8]) {
+    check(&["tmd"], &beginning_with(&[b"Binary TrueMap Data File v2.0\r\n\0"], data));
+}
+
+/// X3P: an archive, or `main.xml` and, after a zero, the length of the mask, the mask and the heights.
+pub fn x3p(data: &[u8]) {
+    if data.starts_with(b"PK\x03\x04") {
+        return check(&["x3p"], data);
+    }
+    let (main, rest) = split_at_zero(data);
+    let (length, rest) = rest.split_first().unwrap_or((&0, &[]));
+    let (mask, heights) = rest.split_at(rest.len().min(usize::from(*length)));
+    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, content) in [("main.xml", main), ("bindata/data.bin", heights), ("bindata/valid.bin", mask)] {
+        archive.start_file(name, zip::write::SimpleFileOptions::default()).expect("a new name");
+        archive.write_all(content).expect("memory takes all");
+    }
+    check(&["x3p"], archive.finish().expect("memory takes all").get_ref());
+}
+
+fn beginning_with(magics: &[&[u8]], data: &[u8]) -> Vec<u8> {
+    let there = magics.iter().any(|magic| data.starts_with(magic));
+    [if there { &[] } else { magics[0] }, data].concat()
+}
+
+fn split_at_zero(data: &[u8]) -> (&[u8], &[u8]) {
+    let zero = data.iter().position(|byte| *byte == 0).unwrap_or(data.len());
+    (&data[..zero], data.get(zero + 1..).unwrap_or_default())
+}
+
+/// Reads every channel of `file`, which is of one of `formats` (of any, if that is empty).
+fn check(formats: &[&str], file: &[u8]) {
+    let is_one = |format: &str| formats.is_empty() || formats.contains(&format);
+    let read = |channel: Option<&str>| topography::from_bytes(Path::new("file"), file, channel);
+    match read(None) {
+        Ok(scan) => {
+            assert!(is_one(scan.format), "taken for {}", scan.format);
+            check_scan(&scan);
+            assert_eq!(scan.channel, scan.channels[0]);
+            for channel in scan.channels.iter().take(4) {
+                // Another channel may be damaged.
+                if let Ok(scan) = read(Some(channel)) {
+                    assert_eq!(scan.channel, *channel);
+                    check_scan(&scan);
+                }
+            }
+            check_written(&scan);
+        }
+        Err(Error::CorruptTopography { format, .. }) => assert!(is_one(format), "taken for {format}"),
+        Err(Error::NotATopography { .. }) => {}
+        Err(other) => panic!("{other}"),
+    }
+    assert!(!matches!(read(Some("none such")), Err(Error::File { .. })));
+}
+
+/// What holds for whatever is read.
+fn check_scan(scan: &Scan) {
+    assert!(scan.channels.contains(&scan.channel));
+    let mut names = scan.channels.clone();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), scan.channels.len(), "{:?} are not distinct", scan.channels);
+    assert!((1..=1 << 28).contains(&scan.heights.len()));
+    assert!(scan.heights.is_standard_layout());
+    assert!(scan.heights.iter().all(|height| height.is_nan() || height.is_finite()));
+    assert!(scan.pitch.iter().flatten().all(|pitch| pitch.is_finite() && *pitch > 0.0));
+}
+
+/// What is written and read again is what was read.
+fn check_written(scan: &Scan) {
+    let (nx, ny) = scan.heights.dim();
+    let grid = Grid::new([nx, ny], scan.pitch.unwrap_or([1e-6; 2])).expect("a grid");
+    let path = temporary();
+    let again = |format: &str| {
+        let again = topography::read(&path, None).expect("a topography");
+        assert_eq!((again.format, again.channels.as_slice()), (format, &["height".to_owned()][..]));
+        assert!(same(&again.heights, &scan.heights), "{format}: {} became {}", scan.heights, again.heights);
+        again.pitch
+    };
+    topography::npy::write(&path, &scan.heights).expect("a file");
+    assert_eq!(again("npy"), None);
+    topography::sdf::write(&path, &grid, &scan.heights).expect("a file");
+    assert_eq!(again("sdf"), Some(grid.pitch));
+    topography::x3p::write(&path, &grid, &scan.heights).expect("a file");
+    assert_eq!(again("x3p"), Some(grid.pitch));
+    topography::gwy::write(&path, &grid, &scan.heights).expect("a file");
+    let pitch = again("gwy");
+    // The format has the lengths of the sides instead: rounded, and beyond the range of numbers for pitches near its end.
+    if grid.pitch.iter().all(|pitch| (1e-300..1e+290).contains(pitch)) {
+        for (found, expected) in pitch.expect("a pitch").iter().zip(grid.pitch) {
+            assert!(
+                (found / expected - 1.0).abs() < 4.0 * f64::EPSILON,
+                "gwy: {expected:e} became {found:e}"
+            );
+        }
+    }
+    let _ = std::fs::remove_file(path);
+}
+
+fn same(left: &Field, right: &Field) -> bool {
+    let same = |(left, right): (&f64, &f64)| left == right || left.is_nan() && right.is_nan();
+    left.dim() == right.dim() && left.iter().zip(right).all(same)
+}
+
+fn temporary() -> PathBuf {
+    std::env::temp_dir().join(format!(
+        "asperity-fuzz-{}-{:?}",
+        std::process::id(),
+        std::thread::current().id()
+    ))
+}
