@@ -112,7 +112,9 @@ mod tests {
     #[test]
     fn one_row_and_one_sample_are_surfaces_too() {
         let row = topography([64, 1], |ix, _| 1e-7 * (0.3 * ix as f64).sin()).parameters();
-        assert!(row.rows().iter().all(|row| row.value.is_finite()), "{row:?}");
+        let everywhere = [row.height.rows(), row.hybrid.rows(), row.functional.rows()].concat();
+        assert!(everywhere.iter().all(|row| row.value.is_finite()), "{row:?}");
+        assert!(row.spatial.sal.is_finite() && row.spatial.str.is_nan() && row.feature.spd > 0.0);
         let one = topography([1, 1], |_, _| 3.0).parameters();
         assert_eq!((one.height.sz, one.functional.smc, one.functional.vmp), (0.0, 0.0, 0.0));
         assert!(one.hybrid.sdq.is_finite() && one.functional.sk.is_nan());
@@ -134,7 +136,10 @@ mod tests {
         let json = serde_json::to_value(parameters).unwrap();
         let rows = parameters.rows();
         assert_eq!(json.as_object().unwrap().len(), rows.len());
-        assert!(rows.iter().all(|row| json[row.symbol] == row.value), "{json}");
+        let same = |row: &Parameter| {
+            if row.value.is_nan() { json[row.symbol].is_null() } else { json[row.symbol] == row.value }
+        };
+        assert!(rows.iter().all(same), "{json}");
         let sq = rows.iter().find(|row| row.symbol == "Sq").unwrap();
         assert_eq!(
             (sq.unit, sq.family, sq.meaning),
