@@ -8,7 +8,8 @@ use asperity::io::case::{
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
-    Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, SelfAffine,
+    Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, Preparation, Resample,
+    SelfAffine,
 };
 
 #[test]
@@ -20,11 +21,14 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(case.upper.material.hardness, f64::INFINITY);
     assert_eq!((case.lower.mount, case.upper.mount), (Mount::AsIs, Mount::TurnedOver));
     let lower = &case.lower.topography;
-    assert_eq!(
-        lower.source,
-        Source::File { path: inputs("good").join("disc.x3p"), channel: None, fill: Fill::Harmonic }
-    );
-    assert_eq!((lower.level, lower.resample, lower.pitch), (Level::Plane, Some([256, 256]), None));
+    assert_eq!(lower.source, Source::File { path: inputs("good").join("disc.x3p"), channel: None });
+    let preparation = Preparation {
+        fill: Fill::Harmonic,
+        level: Level::Plane,
+        resample: Some(Resample::Shape([256, 256])),
+        ..Preparation::default()
+    };
+    assert_eq!((lower.preparation, lower.pitch), (preparation, None));
     let upper = &case.upper.topography;
     let generate = Generator::LowPass(LowPass { sq: 0.2e-6, cutoff: [8e-6; 2] });
     assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
@@ -42,7 +46,7 @@ fn what_is_left_out_takes_its_default() {
     let case = load("smallest");
     assert_eq!(case.title, "smallest");
     assert_eq!(case.lower.material.young, f64::INFINITY);
-    assert_eq!(case.lower.topography.level, Level::None);
+    assert_eq!(case.lower.topography.preparation, Preparation::default());
     let contact = case.contact;
     assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
     assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));

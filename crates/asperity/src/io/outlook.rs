@@ -175,7 +175,7 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
         [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
     {
         coarse(name, body, &mut warnings);
-        if matches!(spec.source, Source::File { .. }) && spec.level == Level::None {
+        if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
             tilted(name, body, &mut warnings);
         }
         let wraps = case.contact.boundary == Boundary::Periodic
@@ -293,7 +293,8 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
 /// A measured surface that stands askew.
 fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
     let rms = |topography: &Topography| topography.parameters().sq;
-    let (as_is, levelled) = (rms(&body.topography), rms(&body.topography.clone().level(Level::Plane)));
+    let without_plane = body.topography.clone().level(Level::Plane).expect("a plane has an order");
+    let (as_is, levelled) = (rms(&body.topography), rms(&without_plane));
     if as_is > 1.5 * levelled {
         warnings.push(format!(
             "the {name} surface is tilted: Sq is {}, without its plane {}; `level = \"plane\"` removes it",

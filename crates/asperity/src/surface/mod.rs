@@ -12,5 +12,5 @@ mod topography;
 pub use form::{Axis, Form};
 pub use generate::{Amplitude, Autocorrelation, Generator, LowPass, SelfAffine};
 pub use parameters::Parameters;
-pub use process::{Fill, Level};
+pub use process::{Fill, Filter, Findings, Interpolation, Level, LevelError, Preparation, Resample, Round};
 pub use topography::Topography;

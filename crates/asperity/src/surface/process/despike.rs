@@ -1,0 +1,113 @@
+//! Removal of spikes.
+
+use rayon::prelude::*;
+
+use super::median::median;
+use crate::error::{Result, check};
+use crate::grid::Field;
+use crate::surface::Topography;
+
+/// Samples to each side of the one judged: 5 × 5 in all.
+const REACH: usize = 2;
+
+impl Topography {
+    /// With the spikes undefined: the samples that deviate from the median of the 5 × 5 samples around by more than
+    /// `factor` standard deviations of such deviations; 5 to 10 is usual.
+    ///
+    /// The standard deviation is the robust one, 1.4826 times the median of the absolute deviations of the whole
+    /// topography, which spikes do not widen; 1.2533 times their mean where that median is 0 because more than half of
+    /// the samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). The neighbourhood
+    /// takes defined samples alone and shrinks towards a rim so that it stays symmetric: no plane has spikes.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] unless the factor is above 0.
+    pub fn despike(mut self, factor: f64) -> Result<Self> {
+        check("despike", factor, factor > 0.0 && factor.is_finite(), "a number above 0 such as 6")?;
+        let deviation = deviations(self.heights());
+        let mut sizes: Vec<f64> = deviation.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
+        if sizes.is_empty() {
+            return Ok(self);
+        }
+        let sigma = match 1.4826 * median(&mut sizes) {
+            0.0 => 1.2533 * sizes.iter().sum::<f64>() / sizes.len() as f64,
+            sigma => sigma,
+        };
+        for (z, deviation) in self.heights_mut().iter_mut().zip(&deviation) {
+            if deviation.abs() > factor * sigma {
+                *z = f64::NAN;
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// Height of each sample above the median of its neighbourhood.
+fn deviations(z: &Field) -> Field {
+    let (nx, ny) = z.dim();
+    let mut deviations = z.clone();
+    let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(ny);
+    rows.enumerate().for_each(|(ix, row)| {
+        let reach_x = REACH.min(ix).min(nx - 1 - ix);
+        let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
+        for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
+            let reach_y = REACH.min(iy).min(ny - 1 - iy);
+            around.clear();
+            for jx in ix - reach_x..=ix + reach_x {
+                let near = (iy - reach_y..=iy + reach_y).map(|jy| z[[jx, jy]]);
+                around.extend(near.filter(|z| !z.is_nan()));
+            }
+            *deviation -= median(&mut around);
+        }
+    });
+    deviations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Grid;
+
+    fn with_heights(height: impl Fn(usize, usize) -> f64) -> Topography {
+        let grid = Grid::new([60, 50], [1.0, 1.0]).unwrap();
+        Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, j)| height(i, j))).unwrap()
+    }
+
+    /// Tilted, with waves of amplitude 1.
+    fn rough(i: usize, j: usize) -> f64 {
+        0.4 * i as f64 - 0.1 * j as f64 + (0.9 * i as f64).sin() * (1.1 * j as f64).cos()
+    }
+
+    fn undefined(topography: &Topography) -> Vec<(usize, usize)> {
+        topography.heights().indexed_iter().filter(|(_, z)| z.is_nan()).map(|(at, _)| at).collect()
+    }
+
+    #[test]
+    fn spikes_become_undefined_and_nothing_else_does() {
+        let spikes = [(0, 17), (12, 49), (30, 20), (30, 21), (31, 20), (45, 8)];
+        let height = |i, j| rough(i, j) + if spikes.contains(&(i, j)) { 15.0 } else { 0.0 };
+        let cleared = with_heights(height).despike(6.0).unwrap();
+        assert_eq!(undefined(&cleared), spikes);
+        let pits = with_heights(|i, j| -height(i, j)).despike(6.0).unwrap();
+        assert_eq!(undefined(&pits), spikes);
+        assert_eq!(with_heights(rough).despike(6.0).unwrap().undefined(), 0);
+    }
+
+    #[test]
+    fn a_spike_on_a_flat_is_found_although_the_median_deviation_is_nought() {
+        let flat = with_heights(|i, j| if (i, j) == (7, 9) { 1e-9 } else { 0.0 });
+        assert_eq!(undefined(&flat.despike(10.0).unwrap()), [(7, 9)]);
+        // Steps of the last digit are no spikes.
+        let quantised = with_heights(|i, j| if (7 * i + 3 * j * j) % 10 == 0 { 1.0 } else { 0.0 });
+        assert_eq!(quantised.despike(10.0).unwrap().undefined(), 0);
+    }
+
+    #[test]
+    fn a_plane_has_no_spikes_and_holes_stay() {
+        let mut plane = with_heights(|i, j| 2.0 * i as f64 - 3.0 * j as f64);
+        assert_eq!(plane.clone().despike(1e-6).unwrap().undefined(), 0);
+        plane.heights_mut().column_mut(4).fill(f64::NAN);
+        plane.heights_mut()[[30, 30]] = 1e3;
+        assert_eq!(plane.despike(10.0).unwrap().undefined(), 61);
+        assert!(with_heights(rough).despike(0.0).is_err());
+    }
+}
