@@ -23,6 +23,33 @@ fn every_command_has_help_with_an_exit_code() {
 }
 
 #[test]
+fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    ok(&at("surface generate sphere --radius 2mm --shape 60x40 --pitch 5um --out ball.x3p"));
+    let steps = "--window 4,0,50,40 --level sphere --rotate 90deg --resample 20x25";
+    let converted = at(&format!("surface convert ball.x3p left.x3p {steps}"));
+    ok(&converted);
+    assert!(stderr(&converted).contains("convex sphere of radius 2"), "{}", stderr(&converted));
+    let info = |arguments: &str| -> Value {
+        serde_json::from_str(&ok(&at(&format!("surface info {arguments} --json")))).unwrap()
+    };
+    let (looked_at, written) = (info(&format!("ball.x3p {steps}")), info("left.x3p"));
+    for key in ["shape", "pitch", "parameters"] {
+        assert_eq!(looked_at[key], written[key], "{key}");
+    }
+    // A paraboloid is not quite its sphere: it leaves r⁴/8R³, here 5 nm.
+    assert!(written["max"].as_f64().unwrap() < 5e-9);
+    ok(&at("surface convert ball.x3p ball.npy"));
+    let error = refused(&at("surface info ball.npy --s-filter 20um"));
+    assert!(error.contains("--s-filter needs a pitch"), "{error}");
+    let error = refused(&at("surface info ball.x3p --s-filter 2um"));
+    assert!(error.contains("s_filter is 2e-6, expected a wavelength of at least two pitches"), "{error}");
+    let error = refused(&at("surface info ball.x3p --level polynomial-99"));
+    assert!(error.contains("from 0 to 16"), "{error}");
+}
+
+#[test]
 fn bad_usage_is_exit_code_2() {
     let folder = folder();
     for arguments in [

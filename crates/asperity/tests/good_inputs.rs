@@ -8,8 +8,8 @@ use asperity::io::case::{
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
-    Amplitude, Autocorrelation, Axis, Fill, Form, Generator, Level, LowPass, Preparation, Resample,
-    SelfAffine,
+    Amplitude, Autocorrelation, Axis, Fill, Filter, Form, Generator, Interpolation, Level, LowPass,
+    Preparation, Resample, SelfAffine,
 };
 
 #[test]
@@ -39,6 +39,28 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!((motion.strategy, motion.passes, motion.stride), (Strategy::Overlap, 5, 1));
     assert_eq!(case.output.pressure_every, 8);
     assert_eq!(case.files().count(), 1);
+}
+
+#[test]
+fn every_step_of_a_preparation_is_read_in_si() {
+    let case = load("prepared");
+    let expected = Preparation {
+        window: Some([10, 20, 100, 50]),
+        despike: Some(6.0),
+        fill: Fill::Harmonic,
+        level: Level::Polynomial(4),
+        mirror: Some(Axis::Y),
+        rotate: std::f64::consts::FRAC_PI_2,
+        s_filter: Some(2.5e-6),
+        l_filter: Some(0.8e-3),
+        filter: Filter::Robust,
+        resample: Some(Resample::Shape([128, 64])),
+        interpolate: Interpolation::Spline,
+        taper: Some(10e-6),
+    };
+    assert_eq!(case.lower.topography.preparation, expected);
+    let of_a_form = Preparation { level: Level::Sphere, s_filter: Some(3e-6), ..Preparation::default() };
+    assert_eq!(case.upper.topography.preparation, of_a_form);
 }
 
 #[test]

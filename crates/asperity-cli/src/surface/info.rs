@@ -6,13 +6,12 @@ use asperity::surface::Parameters;
 use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
 
-use super::{Read, read};
+use super::{Read, read_prepared};
 use crate::args::Info;
 use crate::report::{Outcome, print};
 
 pub(super) fn info(arguments: &Info) -> Outcome {
-    let mut file = read(&arguments.file, &arguments.reading)?;
-    file.topography = file.topography.level(arguments.level);
+    let file = read_prepared(&arguments.file, &arguments.reading, &arguments.preparing)?;
     let mut parameters = file.topography.parameters();
     if file.pitch.is_none() {
         // A slope needs lengths along the surface.
