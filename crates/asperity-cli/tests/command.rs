@@ -38,7 +38,7 @@ fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
     for key in ["shape", "pitch", "parameters"] {
         assert_eq!(looked_at[key], written[key], "{key}");
     }
-    // A paraboloid is not quite its sphere: it leaves r⁴/8R³, here 5 nm.
+    // A paraboloid is not quite a sphere: they differ by r⁴/8R³, 11 nm in the corners, before the fit takes its share.
     assert!(written["max"].as_f64().unwrap() < 5e-9);
     ok(&at("surface convert ball.x3p ball.npy"));
     let error = refused(&at("surface info ball.npy --s-filter 20um"));

@@ -12,54 +12,70 @@ const REACH: usize = 2;
 
 impl Topography {
     /// With the spikes undefined: the samples that deviate from the median of the 5 × 5 samples around by more than
-    /// `factor` standard deviations of such deviations; 5 to 10 is usual.
+    /// `factor` standard deviations, both those of the samples around and those of all such deviations; 5 to 10 is usual.
     ///
-    /// The standard deviation is the robust one, 1.4826 times the median of the absolute deviations of the whole
-    /// topography, which spikes do not widen; 1.2533 times their mean where that median is 0 because more than half of
-    /// the samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). The neighbourhood
-    /// takes defined samples alone and shrinks towards a rim so that it stays symmetric: no plane has spikes.
+    /// The standard deviations are robust ones, 1.4826 times the median of the absolute deviations, which spikes do not
+    /// widen: around a sample Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which spares
+    /// a rough part of a smooth surface. Of the whole topography it is 1.2533 times their mean where the median is 0
+    /// because more than half of the samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers,
+    /// 1993). The neighbourhood takes defined samples alone and shrinks towards a rim so that it stays symmetric: no
+    /// plane has spikes.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the factor is above 0.
     pub fn despike(mut self, factor: f64) -> Result<Self> {
         check("despike", factor, factor > 0.0 && factor.is_finite(), "a number above 0 such as 6")?;
-        let deviation = deviations(self.heights());
-        let mut sizes: Vec<f64> = deviation.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
+        let deviations = deviations(self.heights());
+        let mut sizes: Vec<f64> = deviations.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
         if sizes.is_empty() {
             return Ok(self);
         }
-        let sigma = match 1.4826 * median(&mut sizes) {
+        let sigma = match SIGMA * median(&mut sizes) {
             0.0 => 1.2533 * sizes.iter().sum::<f64>() / sizes.len() as f64,
             sigma => sigma,
         };
-        for (z, deviation) in self.heights_mut().iter_mut().zip(&deviation) {
-            if deviation.abs() > factor * sigma {
-                *z = f64::NAN;
+        let z = self.heights();
+        let is_spike = |(at, deviation): &((usize, usize), &f64)| {
+            deviation.abs() > factor * sigma && {
+                let mut around = Vec::new();
+                neighbourhood(z, *at, &mut around);
+                let middle = z[*at] - **deviation;
+                around.iter_mut().for_each(|z| *z = (*z - middle).abs());
+                deviation.abs() > factor * SIGMA * median(&mut around)
             }
-        }
+        };
+        let spikes: Vec<_> = deviations.indexed_iter().filter(is_spike).map(|(at, _)| at).collect();
+        spikes.into_iter().for_each(|at| self.heights_mut()[at] = f64::NAN);
         Ok(self)
     }
 }
 
+/// Standard deviation of Gaussian heights over the median of their absolute deviations.
+const SIGMA: f64 = 1.4826;
+
 /// Height of each sample above the median of its neighbourhood.
 fn deviations(z: &Field) -> Field {
-    let (nx, ny) = z.dim();
     let mut deviations = z.clone();
-    let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(ny);
+    let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(z.ncols());
     rows.enumerate().for_each(|(ix, row)| {
-        let reach_x = REACH.min(ix).min(nx - 1 - ix);
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
         for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
-            let reach_y = REACH.min(iy).min(ny - 1 - iy);
-            around.clear();
-            for jx in ix - reach_x..=ix + reach_x {
-                let near = (iy - reach_y..=iy + reach_y).map(|jy| z[[jx, jy]]);
-                around.extend(near.filter(|z| !z.is_nan()));
-            }
+            neighbourhood(z, (ix, iy), &mut around);
             *deviation -= median(&mut around);
         }
     });
     deviations
+}
+
+/// The defined heights around a sample, its own among them.
+fn neighbourhood(z: &Field, (ix, iy): (usize, usize), around: &mut Vec<f64>) {
+    let (nx, ny) = z.dim();
+    let [reach_x, reach_y] = [(ix, nx), (iy, ny)].map(|(i, n)| REACH.min(i).min(n - 1 - i));
+    around.clear();
+    for jx in ix - reach_x..=ix + reach_x {
+        let near = (iy - reach_y..=iy + reach_y).map(|jy| z[[jx, jy]]);
+        around.extend(near.filter(|z| !z.is_nan()));
+    }
 }
 
 #[cfg(test)]
@@ -109,5 +125,15 @@ mod tests {
         plane.heights_mut()[[30, 30]] = 1e3;
         assert_eq!(plane.despike(10.0).unwrap().undefined(), 61);
         assert!(with_heights(rough).despike(0.0).is_err());
+    }
+
+    #[test]
+    fn a_rough_part_of_a_smooth_surface_is_no_spike() {
+        let wave = |i: usize, j: usize| (1.7 * i as f64).sin() + (2.3 * j as f64).cos();
+        let streaked = with_heights(|i, j| if (20..30).contains(&i) { 100.0 } else { 1.0 } * wave(i, j));
+        let mut with_spike = streaked.clone();
+        with_spike.heights_mut()[[25, 25]] += 4e4;
+        assert_eq!(undefined(&with_spike.despike(8.0).unwrap()), [(25, 25)]);
+        assert_eq!(streaked.despike(8.0).unwrap().undefined(), 0);
     }
 }

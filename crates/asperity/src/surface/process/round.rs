@@ -153,8 +153,8 @@ impl Cloud {
     fn fit(&self, surface: Surface, mut p: [f64; N]) -> [f64; N] {
         /// A fit converges in some ten steps.
         const STEPS: usize = 100;
-        /// Relative decrease of the sum of squares that ends the fit: parameters are right to its root.
-        const SMALL: f64 = 1e-15;
+        /// Relative decrease of the sum of squares that ends the fit.
+        const SMALL: f64 = 1e-12;
         let mut damping = 0.0;
         let mut sums = self.sums(surface, &p).expect("the fit begins with a surface that reaches everywhere");
         for _ in 0..STEPS {
