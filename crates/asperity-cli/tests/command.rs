@@ -299,6 +299,40 @@ fn a_static_contact_needs_one_length_too() {
 }
 
 #[test]
+fn a_step_that_this_surface_does_not_bear_is_named_at_its_line() {
+    let folder = folder();
+    ok(&run(folder.path(), "example measured --out m"));
+    let flat =
+        "[upper.topography]\nform = \"flat\"\nshape = [128, 128]\npitch = \"1 um\"\n[contact]\nload = 1\n";
+    let check = |steps: &str| {
+        fs::write(folder.path().join("m/case.toml"), format!("{BODIES}{steps}\n{flat}")).unwrap();
+        run(folder.path(), "check m/case.toml")
+    };
+    let fill = "fill = \"nearest\"";
+    let error = refused(&check(&format!("{fill}\ns_filter = \"1.5 um\"")));
+    assert!(error.contains("'s_filter' is 1.5 µm, expected a wavelength of at least two pitches"), "{error}");
+    assert!(error.contains("m/case.toml:10:12"), "{error}");
+    let error = refused(&check(&format!("{fill}\ntaper = \"65 um\"")));
+    assert!(error.contains("'taper' is 65 µm, expected a length above 0, at most half"), "{error}");
+    let error = refused(&check("despike = 1"));
+    assert!(error.contains("removed as spikes") && error.contains("m/case.toml:8:8"), "{error}");
+    let error = refused(&check(&format!("{fill}\nwindow = [0, 0, 90, 90]\nrotate = \"-10 deg\"")));
+    assert!(error.contains("hint: set `shape = [128, "), "{error}");
+    fs::write(
+        folder.path().join("m/case.toml"),
+        format!(
+            "{BODIES}{fill}\n{}",
+            flat.replace("128, 128", "200, 200").replace("\"1 um\"", "\"1 um\"\nrotate = 0.1")
+        ),
+    )
+    .unwrap();
+    let error = refused(&run(folder.path(), "check m/case.toml"));
+    assert!(error.contains("a smaller `window` in [upper.topography]"), "{error}");
+    let told = ok(&check(&format!("{fill}\nlevel = \"sphere\"\nrotate = \"90 deg\"\nl_filter = \"30 um\"")));
+    assert!(told.contains("115 filled; a sphere of radius"), "{told}");
+}
+
+#[test]
 fn a_file_that_cannot_be_used_is_named_at_its_line() {
     let folder = folder();
     ok(&run(folder.path(), "example measured --out m"));
