@@ -1,5 +1,7 @@
 //! Removal of spikes.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::median::median;
@@ -18,8 +20,8 @@ impl Topography {
     /// widen: around a sample Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which spares
     /// a rough part of a smooth surface. Of the whole topography it is 1.2533 times their mean where the median is 0
     /// because more than half of the samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers,
-    /// 1993). The neighbourhood takes defined samples alone and shrinks towards a rim so that it stays symmetric: no
-    /// plane has spikes.
+    /// 1993). Only defined samples count. Towards a rim the neighbourhood of the median shrinks so that it stays
+    /// symmetric: no plane has spikes.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the factor is above 0.
@@ -35,11 +37,12 @@ impl Topography {
             sigma => sigma,
         };
         let z = self.heights();
-        let is_spike = |(at, deviation): &((usize, usize), &f64)| {
+        let is_spike = |((ix, iy), deviation): &((usize, usize), &f64)| {
             deviation.abs() > factor * sigma && {
+                let clipped = |i: usize, n: usize| i.saturating_sub(REACH)..(i + REACH + 1).min(n);
                 let mut around = Vec::new();
-                neighbourhood(z, *at, &mut around);
-                let middle = z[*at] - **deviation;
+                defined(z, clipped(*ix, z.nrows()), clipped(*iy, z.ncols()), &mut around);
+                let middle = median(&mut around);
                 around.iter_mut().for_each(|z| *z = (*z - middle).abs());
                 deviation.abs() > factor * SIGMA * median(&mut around)
             }
@@ -53,28 +56,29 @@ impl Topography {
 /// Standard deviation of Gaussian heights over the median of their absolute deviations.
 const SIGMA: f64 = 1.4826;
 
-/// Height of each sample above the median of its neighbourhood.
+/// Height of each sample above the median of its neighbourhood, which shrinks towards a rim so that it stays symmetric.
 fn deviations(z: &Field) -> Field {
     let mut deviations = z.clone();
     let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(z.ncols());
+    let symmetric = |i: usize, n: usize| {
+        let reach = REACH.min(i).min(n - 1 - i);
+        i - reach..i + reach + 1
+    };
     rows.enumerate().for_each(|(ix, row)| {
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
         for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
-            neighbourhood(z, (ix, iy), &mut around);
+            defined(z, symmetric(ix, z.nrows()), symmetric(iy, z.ncols()), &mut around);
             *deviation -= median(&mut around);
         }
     });
     deviations
 }
 
-/// The defined heights around a sample, its own among them.
-fn neighbourhood(z: &Field, (ix, iy): (usize, usize), around: &mut Vec<f64>) {
-    let (nx, ny) = z.dim();
-    let [reach_x, reach_y] = [(ix, nx), (iy, ny)].map(|(i, n)| REACH.min(i).min(n - 1 - i));
-    around.clear();
-    for jx in ix - reach_x..=ix + reach_x {
-        let near = (iy - reach_y..=iy + reach_y).map(|jy| z[[jx, jy]]);
-        around.extend(near.filter(|z| !z.is_nan()));
+/// The defined heights of a part.
+fn defined(z: &Field, xs: Range<usize>, ys: Range<usize>, heights: &mut Vec<f64>) {
+    heights.clear();
+    for ix in xs {
+        heights.extend(ys.clone().map(|iy| z[[ix, iy]]).filter(|z| !z.is_nan()));
     }
 }
 
@@ -130,7 +134,8 @@ mod tests {
     #[test]
     fn a_rough_part_of_a_smooth_surface_is_no_spike() {
         let wave = |i: usize, j: usize| (1.7 * i as f64).sin() + (2.3 * j as f64).cos();
-        let streaked = with_heights(|i, j| if (20..30).contains(&i) { 100.0 } else { 1.0 } * wave(i, j));
+        let streak = |i: usize| 1.0 + 99.0 * (-((i as f64 - 25.0) / 8.0).powi(2)).exp();
+        let streaked = with_heights(|i, j| streak(i) * wave(i, j));
         let mut with_spike = streaked.clone();
         with_spike.heights_mut()[[25, 25]] += 4e4;
         assert_eq!(undefined(&with_spike.despike(8.0).unwrap()), [(25, 25)]);
