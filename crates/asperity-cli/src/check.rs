@@ -58,9 +58,17 @@ fn body(body: &Prepared) -> String {
     if let Some(origin) = &body.origin {
         let [sx, sy] = origin.shape;
         let _ = write!(text, "; {} `{}`, {sx} × {sy} samples", origin.format, origin.channel);
-        if origin.undefined > 0 {
-            let _ = write!(text, ", {} filled", origin.undefined);
-        }
+    }
+    let findings = &body.findings;
+    if findings.undefined > 0 {
+        let _ = write!(text, ", {} filled", findings.undefined);
+    }
+    if findings.spikes > 0 {
+        let _ = write!(text, ", {} spikes replaced", findings.spikes);
+    }
+    if let Some(form) = &findings.form {
+        let kind = if form.axis.is_some() { "cylinder" } else { "sphere" };
+        let _ = write!(text, "; a {kind} of radius {} subtracted", length(form.radius));
     }
     text
 }

@@ -30,6 +30,33 @@ fn every_command_has_help_with_an_exit_code() {
 }
 
 #[test]
+fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    ok(&at("surface generate sphere --radius 2mm --shape 60x40 --pitch 5um --out ball.x3p"));
+    let steps = "--window 4,0,50,40 --level sphere --rotate 90deg --resample 20x25";
+    let converted = at(&format!("surface convert ball.x3p left.x3p {steps}"));
+    ok(&converted);
+    assert!(stderr(&converted).contains("convex sphere of radius 2"), "{}", stderr(&converted));
+    let info = |arguments: &str| -> Value {
+        serde_json::from_str(&ok(&at(&format!("surface info {arguments} --json")))).unwrap()
+    };
+    let (looked_at, written) = (info(&format!("ball.x3p {steps}")), info("left.x3p"));
+    for key in ["shape", "pitch", "parameters"] {
+        assert_eq!(looked_at[key], written[key], "{key}");
+    }
+    // A paraboloid is not quite a sphere: they differ by r⁴/8R³, 11 nm in the corners, before the fit takes its share.
+    assert!(written["max"].as_f64().unwrap() < 5e-9);
+    ok(&at("surface convert ball.x3p ball.npy"));
+    let error = refused(&at("surface info ball.npy --s-filter 20um"));
+    assert!(error.contains("--s-filter needs a pitch"), "{error}");
+    let error = refused(&at("surface info ball.x3p --s-filter 2um"));
+    assert!(error.contains("s_filter is 2e-6, expected a wavelength of at least two pitches"), "{error}");
+    let error = refused(&at("surface info ball.x3p --level polynomial-99"));
+    assert!(error.contains("from 0 to 16"), "{error}");
+}
+
+#[test]
 fn bad_usage_is_exit_code_2() {
     let folder = folder();
     for arguments in [
@@ -358,6 +385,40 @@ fn a_static_contact_needs_one_length_too() {
     let error = refused(&run(folder.path(), "check h/case.toml"));
     assert!(error.contains("along x: lower 130 × 128, upper 128 × 128"), "{error}");
     assert!(error.contains("hint: set `shape = [128, 128]` in [lower.topography]"), "{error}");
+}
+
+#[test]
+fn a_step_that_this_surface_does_not_bear_is_named_at_its_line() {
+    let folder = folder();
+    ok(&run(folder.path(), "example measured --out m"));
+    let flat =
+        "[upper.topography]\nform = \"flat\"\nshape = [128, 128]\npitch = \"1 um\"\n[contact]\nload = 1\n";
+    let check = |steps: &str| {
+        fs::write(folder.path().join("m/case.toml"), format!("{BODIES}{steps}\n{flat}")).unwrap();
+        run(folder.path(), "check m/case.toml")
+    };
+    let fill = "fill = \"nearest\"";
+    let error = refused(&check(&format!("{fill}\ns_filter = \"1.5 um\"")));
+    assert!(error.contains("'s_filter' is 1.5 µm, expected a wavelength of at least two pitches"), "{error}");
+    assert!(error.contains("m/case.toml:10:12"), "{error}");
+    let error = refused(&check(&format!("{fill}\ntaper = \"65 um\"")));
+    assert!(error.contains("'taper' is 65 µm, expected a length above 0, at most half"), "{error}");
+    let error = refused(&check("despike = 1"));
+    assert!(error.contains("removed as spikes") && error.contains("m/case.toml:8:8"), "{error}");
+    let error = refused(&check(&format!("{fill}\nwindow = [0, 0, 90, 90]\nrotate = \"-10 deg\"")));
+    assert!(error.contains("hint: set `shape = [128, "), "{error}");
+    fs::write(
+        folder.path().join("m/case.toml"),
+        format!(
+            "{BODIES}{fill}\n{}",
+            flat.replace("128, 128", "200, 200").replace("\"1 um\"", "\"1 um\"\nrotate = 0.1")
+        ),
+    )
+    .unwrap();
+    let error = refused(&run(folder.path(), "check m/case.toml"));
+    assert!(error.contains("a smaller `window` in [upper.topography]"), "{error}");
+    let told = ok(&check(&format!("{fill}\nlevel = \"sphere\"\nrotate = \"90 deg\"\nl_filter = \"30 um\"")));
+    assert!(told.contains("115 filled; a sphere of radius"), "{told}");
 }
 
 #[test]

@@ -10,8 +10,8 @@ use asperity::io::prepare::bodies;
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
-    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, Groove, HeightDistribution, Level,
-    LowPass, SelfAffine,
+    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
+    Interpolation, Level, LowPass, Preparation, Resample, SelfAffine,
 };
 
 #[test]
@@ -23,11 +23,14 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(case.upper.material.hardness, f64::INFINITY);
     assert_eq!((case.lower.mount, case.upper.mount), (Mount::AsIs, Mount::TurnedOver));
     let lower = &case.lower.topography;
-    assert_eq!(
-        lower.source,
-        Source::File { path: inputs("good").join("disc.x3p"), channel: None, fill: Fill::Harmonic }
-    );
-    assert_eq!((lower.level, lower.resample, lower.pitch), (Level::Plane, Some([256, 256]), None));
+    assert_eq!(lower.source, Source::File { path: inputs("good").join("disc.x3p"), channel: None });
+    let preparation = Preparation {
+        fill: Fill::Harmonic,
+        level: Level::Plane,
+        resample: Some(Resample::Shape([256, 256])),
+        ..Preparation::default()
+    };
+    assert_eq!((lower.preparation, lower.pitch), (preparation, None));
     let upper = &case.upper.topography;
     let generate = Generator::LowPass(LowPass::new(0.2e-6, [8e-6; 2]));
     assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
@@ -41,11 +44,33 @@ fn the_case_of_the_contract_is_read_in_si() {
 }
 
 #[test]
+fn every_step_of_a_preparation_is_read_in_si() {
+    let case = load("prepared");
+    let expected = Preparation {
+        window: Some([10, 20, 100, 50]),
+        despike: Some(6.0),
+        fill: Fill::Harmonic,
+        level: Level::Polynomial(4),
+        mirror: Some(Axis::Y),
+        rotate: std::f64::consts::FRAC_PI_2,
+        s_filter: Some(2.5e-6),
+        l_filter: Some(0.8e-3),
+        filter: Filter::Robust,
+        resample: Some(Resample::Shape([128, 64])),
+        interpolate: Interpolation::Spline,
+        taper: Some(10e-6),
+    };
+    assert_eq!(case.lower.topography.preparation, expected);
+    let of_a_form = Preparation { level: Level::Sphere, s_filter: Some(3e-6), ..Preparation::default() };
+    assert_eq!(case.upper.topography.preparation, of_a_form);
+}
+
+#[test]
 fn what_is_left_out_takes_its_default() {
     let case = load("smallest");
     assert_eq!(case.title, "smallest");
     assert_eq!(case.lower.material.young, f64::INFINITY);
-    assert_eq!(case.lower.topography.level, Level::None);
+    assert_eq!(case.lower.topography.preparation, Preparation::default());
     let contact = case.contact;
     assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
     assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));

@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use asperity::surface::{Fill, Level};
 use clap::{Args, Subcommand};
 
 use super::generate::Generate;
-use super::values::{
-    Pair, Shape, Window, fill_parser, lengths, level_parser, positive_length, shape, window,
-};
+use super::preparation::Preparing;
+use super::values::{Pair, lengths, positive_length};
 
 /// Make, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
@@ -22,7 +20,7 @@ pub(crate) enum Surface {
 /// Print what a topography file holds, and its roughness
 ///
 /// Reads x3p, sdf, gwy, npy, text and the files of many instruments; the content tells the format. Roughness is that
-/// of the heights as they are: --level plane removes a tilt first.
+/// of the heights as they are unless they are prepared first: --level plane removes a tilt.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
@@ -33,9 +31,8 @@ pub(crate) struct Info {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) reading: Reading,
-    /// What is subtracted first
-    #[arg(long, default_value = "none", value_parser = level_parser())]
-    pub(crate) level: Level,
+    #[command(flatten)]
+    pub(crate) preparing: Preparing,
     /// Cut-off λc of the roughness profiles along x and along y: adds their parameters, ISO 21920-2
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     pub(crate) cutoff: Option<f64>,
@@ -54,9 +51,8 @@ pub(crate) struct PlotSurface {
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) reading: Reading,
-    /// What is subtracted first
-    #[arg(long, default_value = "none", value_parser = level_parser())]
-    pub(crate) level: Level,
+    #[command(flatten)]
+    pub(crate) preparing: Preparing,
     /// Replace the figures that are there
     #[arg(long)]
     pub(crate) overwrite: bool,
@@ -74,7 +70,7 @@ pub(crate) struct Reading {
 
 /// Read any topography, prepare it, and write it as npy, x3p, sdf, gwy, vtk or png
 ///
-/// The steps act in this order: --window, --fill, --level, --resample. Missing heights stay missing without --fill.
+/// The steps act in the order in which they are listed. Missing heights stay missing without --fill.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  asperity surface convert disc.sur disc.x3p --fill harmonic --level plane \
@@ -89,19 +85,9 @@ pub(crate) struct Convert {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) reading: Reading,
-    /// Part to keep, in samples
-    #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
-    pub(crate) window: Option<Window>,
-    /// Where the heights of missing samples come from
-    #[arg(long, default_value = "none", value_parser = fill_parser())]
-    pub(crate) fill: Fill,
-    /// What is subtracted
-    #[arg(long, default_value = "none", value_parser = level_parser())]
-    pub(crate) level: Level,
-    /// Number of cells to bring it to
-    #[arg(long, value_name = "NXxNY", value_parser = shape)]
-    pub(crate) resample: Option<Shape>,
     /// Replace the file if it exists
     #[arg(long)]
     pub(crate) overwrite: bool,
+    #[command(flatten)]
+    pub(crate) preparing: Preparing,
 }

@@ -1,6 +1,6 @@
 //! Values of arguments: quantities with units, pairs of them, shapes, words.
 
-use asperity::surface::{Axis, Band, Decay, Fill, Groove, Level};
+use asperity::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Resample};
 use asperity::units::{self, Dimension};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -65,6 +65,21 @@ pub(super) fn shape(text: &str) -> Result<Shape, String> {
     }
 }
 
+/// A shape, or a pitch.
+pub(super) fn resample(text: &str) -> Result<Resample, String> {
+    match shape(text) {
+        Ok(Shape(shape)) => Ok(Resample::Shape(shape)),
+        Err(error) if text.contains(['x', '×']) => Err(error),
+        Err(_) => lengths(text).map(|Pair(pitch)| Resample::Pitch(pitch)),
+    }
+}
+
+/// A number above 0.
+pub(super) fn factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
+    factor.ok_or_else(|| "expected a number above 0 such as 6".to_owned())
+}
+
 pub(super) fn window(text: &str) -> Result<Window, String> {
     counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
 }
@@ -76,15 +91,6 @@ fn words<T: Clone + Send + Sync + 'static>(
         let found = words.iter().find(|(word, _)| *word == given);
         found.expect("only these words pass").1.clone()
     })
-}
-
-pub(super) fn level_parser() -> impl TypedValueParser<Value = Level> {
-    words(&[
-        ("none", Level::None),
-        ("mean", Level::Mean),
-        ("plane", Level::Plane),
-        ("quadratic", Level::Quadratic),
-    ])
 }
 
 pub(super) fn fill_parser() -> impl TypedValueParser<Value = Fill> {
@@ -103,6 +109,14 @@ pub(super) fn groove_parser() -> impl TypedValueParser<Value = Groove> {
     words(&[("parabolic", Groove::Parabolic), ("triangular", Groove::Triangular)])
 }
 
+pub(super) fn filter_parser() -> impl TypedValueParser<Value = Filter> {
+    words(&[("gaussian", Filter::Gaussian), ("robust", Filter::Robust)])
+}
+
+pub(super) fn interpolation_parser() -> impl TypedValueParser<Value = Interpolation> {
+    words(&[("linear", Interpolation::Linear), ("spline", Interpolation::Spline)])
+}
+
 pub(super) fn axis_parser() -> impl TypedValueParser<Value = Axis> {
     words(&[("x", Axis::X), ("y", Axis::Y)])
 }
@@ -119,6 +133,9 @@ mod tests {
         for text in ["256", "0x4", "4x-4", "4x4x4", "99999999x99999999", ""] {
             assert!(shape(text).is_err(), "{text}");
         }
+        assert_eq!(resample("256x128"), Ok(Resample::Shape([256, 128])));
+        assert_eq!(resample("0.5um,1um"), Ok(Resample::Pitch([0.5e-6, 1e-6])));
+        assert!(resample("0x4").is_err() && resample("4x4um").is_err());
         assert!(lengths("8um,inf").is_err() && lengths("1um,2um,3um").is_err() && lengths("0").is_err());
     }
 }

@@ -7,13 +7,12 @@ use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
 
 use super::description::{Description, Profiles, Statistics};
-use super::{Read, read};
+use super::{Read, read_prepared};
 use crate::args::Info;
 use crate::report::{Failure, Outcome, print};
 
 pub(super) fn info(arguments: &Info) -> Outcome {
-    let mut file = read(&arguments.file, &arguments.reading)?;
-    file.topography = file.topography.level(arguments.level);
+    let file = read_prepared(&arguments.file, &arguments.reading, &arguments.preparing)?;
     if arguments.cutoff.is_some() && file.pitch.is_none() {
         let message = "a cut-off needs a pitch, which the heights have not";
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));

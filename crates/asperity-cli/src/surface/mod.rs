@@ -11,11 +11,11 @@ use std::path::Path;
 
 use asperity::grid::Grid;
 use asperity::io::topography::{self, Scan};
-use asperity::surface::Topography;
-use asperity::units::Metre;
+use asperity::surface::{Findings, Topography};
+use asperity::units::{self, Dimension, Metre};
 
-use crate::args::{Reading, Surface};
-use crate::report::Outcome;
+use crate::args::{Preparing, Reading, Surface};
+use crate::report::{Failure, Outcome, note};
 
 pub(crate) fn surface(arguments: Surface) -> Outcome {
     match arguments {
@@ -40,4 +40,33 @@ fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;
     Ok(Read { topography: Topography::new(grid, heights)?, pitch, scan })
+}
+
+/// [`read`], then prepared as the arguments say; notes what the steps came upon.
+fn read_prepared(path: &Path, reading: &Reading, preparing: &Preparing) -> Outcome<Read> {
+    let read = read(path, reading)?;
+    if let (None, Some(argument)) = (read.pitch, preparing.needs_pitch()) {
+        let message = format!("{argument} needs a pitch, which `{}` has not", path.display());
+        return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+    }
+    let (topography, findings) = preparing.preparation().apply(read.topography)?;
+    report(&findings);
+    Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
+}
+
+fn report(findings: &Findings) {
+    if findings.spikes > 0 {
+        note(&format!("{} samples removed as spikes", findings.spikes));
+    }
+    if let Some(form) = &findings.form {
+        let radius = units::format(form.radius.abs(), Dimension::Length);
+        let side = if form.radius > 0.0 { "convex" } else { "concave" };
+        note(&match form.axis {
+            None => format!("{side} sphere of radius {radius} subtracted"),
+            Some(axis) => {
+                let angle = axis.to_degrees();
+                format!("{side} cylinder of radius {radius} subtracted, its axis at {angle:.2}° from x")
+            }
+        });
+    }
 }

@@ -12,7 +12,7 @@ use asperity::units::Metre;
 use serde_json::{Value, json};
 
 use super::description::RINGS;
-use super::read;
+use super::read_prepared;
 use crate::args::PlotSurface;
 use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, PlaneFigure, Quantity, Series, Unit};
 use crate::report::{Failure, Outcome, note};
@@ -28,8 +28,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
         let message = format!("`{}` exists", out.display());
         return Err(Failure::usage(message, Some("--overwrite replaces the figures in it")));
     }
-    let mut file = read(&arguments.file, &arguments.reading)?;
-    file.topography = file.topography.level(arguments.level);
+    let file = read_prepared(&arguments.file, &arguments.reading, &arguments.preparing)?;
     if file.pitch.is_none() {
         let message = "the figures need a pitch, which the heights have not";
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));

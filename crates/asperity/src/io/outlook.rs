@@ -175,7 +175,7 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
         [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
     {
         coarse(name, body, &mut warnings);
-        if matches!(spec.source, Source::File { .. }) && spec.level == Level::None {
+        if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
             tilted(name, body, &mut warnings);
         }
         let wraps = case.contact.boundary == Boundary::Periodic
@@ -295,7 +295,8 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
 
 /// A measured surface that stands askew.
 fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
-    let (as_is, levelled) = (body.topography.sq(), body.topography.clone().level(Level::Plane).sq());
+    let without_plane = body.topography.clone().level(Level::Plane).expect("a plane has an order");
+    let (as_is, levelled) = (body.topography.sq(), without_plane.sq());
     if as_is > 1.5 * levelled {
         warnings.push(format!(
             "the {name} surface is tilted: Sq is {}, without its plane {}; `level = \"plane\"` removes it",

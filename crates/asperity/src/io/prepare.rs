@@ -7,7 +7,7 @@ use super::topography::{self, Scan};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::motion::Strategy;
-use crate::surface::Topography;
+use crate::surface::{Findings, Preparation, Resample, Topography};
 use crate::units::{self, Dimension, Metre};
 
 /// Relative difference up to which two pitches are one.
@@ -29,6 +29,8 @@ pub struct Prepared {
     pub topography: Topography,
     /// Where they were read; none if they were made.
     pub origin: Option<Origin>,
+    /// What was missing and is filled, what was removed.
+    pub findings: Findings,
 }
 
 /// What was read.
@@ -40,8 +42,6 @@ pub struct Origin {
     pub channel: String,
     /// Number of samples along x and y in the file.
     pub shape: [usize; 2],
-    /// Missing heights within the window, since filled.
-    pub undefined: usize,
 }
 
 /// Reads or makes both topographies of `case` and prepares them as [`TopographySpec`] says.
@@ -66,29 +66,25 @@ pub fn bodies(case: &Case) -> Result<Bodies> {
 fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
     let at = Place { case, body: name };
     let spec = &body.topography;
-    let (topography, origin) = match &spec.source {
-        Source::File { path, channel, .. } => {
-            let (topography, origin) = measured(at, path, channel.as_deref(), spec)?;
-            (topography, Some(origin))
+    let made =
+        |shape: &[usize; 2]| Grid::new(*shape, spec.pitch.expect("the case has the pitch of what is made"));
+    let (topography, origin, preparation) = match &spec.source {
+        Source::File { path, channel } => {
+            let (topography, origin, preparation) = measured(at, path, channel.as_deref(), spec)?;
+            (Ok(topography), Some(origin), preparation)
         }
         Source::Generate { generate, shape, seed } => {
-            let topography = grid(*shape, spec).and_then(|grid| generate.generate(&grid, *seed));
-            (cut(at, topography.map_err(|error| at.parameter(error))?, spec)?, None)
+            (made(shape).and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
         }
-        Source::Form { form, shape } => {
-            let topography = grid(*shape, spec).and_then(|grid| form.on(&grid));
-            (cut(at, topography.map_err(|error| at.parameter(error))?, spec)?, None)
-        }
+        Source::Form { form, shape } => (made(shape).and_then(|grid| form.on(&grid)), None, spec.preparation),
     };
-    let topography = topography.level(spec.level);
-    let topography = match (spec.resample, spec.pitch, &origin) {
-        (Some(shape), ..) => topography.resample_to_shape(shape),
-        (None, Some(pitch), Some(_)) if pitch != topography.grid().pitch => {
-            topography.resample_to_pitch(pitch)
-        }
-        _ => Ok(topography),
-    };
-    let mut topography = topography.map_err(|error| at.parameter(error))?;
+    let topography = topography.map_err(|error| at.parameter(error))?;
+    let samples =
+        preparation.window.map_or(topography.grid().cells(), |[_, _, nx, ny]| nx.saturating_mul(ny));
+    let (mut topography, findings) = preparation.apply(topography).map_err(|error| at.preparing(error))?;
+    if topography.undefined() > 0 {
+        return Err(at.missing(&findings, samples));
+    }
     for (n, layer) in spec.plus.iter().enumerate() {
         let added =
             layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
@@ -98,28 +94,32 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    Ok(Prepared { topography, origin })
+    Ok(Prepared { topography, origin, findings })
 }
 
-/// Read, cut and filled.
+/// What the file holds, and what is to be done with it.
 fn measured(
     at: Place<'_>,
     path: &Path,
     channel: Option<&str>,
     spec: &TopographySpec,
-) -> Result<(Topography, Origin)> {
+) -> Result<(Topography, Origin, Preparation)> {
     let scan = topography::read(path, channel).map_err(|error| at.reading(error))?;
     let Scan { format, channel, pitch: carried, heights, .. } = scan;
     let shape = [heights.nrows(), heights.ncols()];
-    if let (Some(_), Some(carried)) = (spec.pitch.and(spec.resample), carried) {
-        return Err(at.error(
-            "resample",
-            format!(
-                "both 'resample' and 'pitch' are given, but the file has its own pitch, {}",
-                lengths(carried)
-            ),
-            Some("leave one of them out: each resamples the heights".to_owned()),
-        ));
+    let mut preparation = spec.preparation;
+    if let (Some(pitch), Some(carried)) = (spec.pitch, carried) {
+        if preparation.resample.is_some() {
+            return Err(at.error(
+                "resample",
+                format!(
+                    "both 'resample' and 'pitch' are given, but the file has its own pitch, {}",
+                    lengths(carried)
+                ),
+                Some("leave one of them out: each resamples the heights".to_owned()),
+            ));
+        }
+        preparation.resample = Some(Resample::Pitch(pitch));
     }
     let pitch = carried.or(spec.pitch).ok_or_else(|| {
         at.error(
@@ -129,31 +129,8 @@ fn measured(
         )
     })?;
     let grid = Grid::new(shape, pitch).map_err(|error| at.parameter(error))?;
-    let scanned = Topography::new(grid, heights).map_err(|error| at.reading(error))?;
-    let part = cut(at, scanned, spec)?;
-    let origin = Origin { format, channel, shape, undefined: part.undefined() };
-    let fill = match &spec.source {
-        Source::File { fill, .. } => *fill,
-        _ => Default::default(),
-    };
-    let filled = part.fill(fill).map_err(|error| match error {
-        Error::UndefinedSamples { undefined, samples } => at.error(
-            "file",
-            format!("{undefined} of {samples} heights of {} are missing", path.display()),
-            Some("set `fill = \"harmonic\"`, a membrane over each hole, or `fill = \"nearest\"`".to_owned()),
-        ),
-        other => at.error("file", format!("{}: {other}", path.display()), other.hint()),
-    })?;
-    Ok((filled, origin))
-}
-
-fn grid(shape: [usize; 2], spec: &TopographySpec) -> Result<Grid> {
-    Grid::new(shape, spec.pitch.expect("the case has the pitch of what is made"))
-}
-
-fn cut(at: Place<'_>, topography: Topography, spec: &TopographySpec) -> Result<Topography> {
-    let Some(window) = spec.window else { return Ok(topography) };
-    topography.window(window).map_err(|error| at.error("window", error.to_string(), None))
+    let topography = Topography::new(grid, heights).map_err(|error| at.reading(error))?;
+    Ok((topography, Origin { format, channel, shape }, preparation))
 }
 
 /// Where the mistakes of one body's topography are shown.
@@ -184,6 +161,40 @@ impl Place<'_> {
         }
     }
 
+    /// Heights that nothing fills.
+    fn missing(&self, findings: &Findings, samples: usize) -> Error {
+        let missing = findings.undefined + findings.spikes;
+        let spikes = match findings.spikes {
+            0 => String::new(),
+            spikes => format!(", {spikes} of them removed as spikes"),
+        };
+        self.error(
+            "file",
+            format!("{missing} of {samples} heights of {} are missing{spikes}", self.file()),
+            Some("set `fill = \"harmonic\"`, a membrane over each hole, or `fill = \"nearest\"`".to_owned()),
+        )
+    }
+
+    /// The file as the case has it; nothing for what is made.
+    fn file(&self) -> String {
+        let body = if self.body == "lower" { &self.case.lower } else { &self.case.upper };
+        match &body.topography.source {
+            Source::File { path, .. } => path.display().to_string(),
+            _ => String::new(),
+        }
+    }
+
+    /// A step of the preparation that failed, at its key.
+    fn preparing(&self, error: Error) -> Error {
+        match error {
+            Error::WindowOutside { .. } => self.error("window", error.to_string(), None),
+            Error::NothingDefined { .. } => {
+                self.error("file", format!("{}: {error}", self.file()), error.hint())
+            }
+            other => self.parameter(other),
+        }
+    }
+
     /// A parameter that turned out to have no meaning on this grid, at its key.
     fn parameter(&self, error: Error) -> Error {
         self.parameter_of("", error)
@@ -194,7 +205,7 @@ impl Place<'_> {
         match error {
             Error::OutOfRange { quantity, value, expected } => {
                 let value = match quantity {
-                    "hurst" | "sdq" | "ssk" | "sku" | "shape" | "resample" => value.to_string(),
+                    "hurst" | "sdq" | "ssk" | "sku" | "shape" | "resample" | "despike" => value.to_string(),
                     _ => units::format(value, Dimension::Length),
                 };
                 let message = format!("'{quantity}' is {value}, expected {expected}");
@@ -259,31 +270,39 @@ impl Fit<'_> {
         let changed = usize::from(upper[axis] > lower[axis]);
         let (mut shape, kept) = (shapes[changed], lower[axis].min(upper[axis]));
         let spec = self.specs()[changed];
-        let source = match (&spec.source, &self.bodies[changed].origin) {
-            (Source::Generate { shape, .. } | Source::Form { shape, .. }, _) => *shape,
-            (_, Some(origin)) => origin.shape,
-            (Source::File { .. }, None) => shape,
-        };
-        let [x0, y0, nx, ny] = spec.window.unwrap_or([0, 0, source[0], source[1]]);
-        let mut samples = [nx, ny];
-        // In samples of the source, where those are not the cells.
-        samples[axis] = (samples[axis] * kept).div_ceil(shape[axis]);
-        shape[axis] = kept;
-        let is_made = self.bodies[changed].origin.is_none();
-        let mut settings = if is_made && spec.window.is_none() && spec.resample.is_none() {
-            vec![format!("shape = {shape:?}")]
-        } else {
-            vec![format!("window = {:?}", [x0, y0, samples[0], samples[1]])]
-        };
-        if spec.resample.is_some() {
-            settings.push(format!("resample = {shape:?}"));
-        }
         let message = format!(
             "the bodies have different numbers of cells along {}: lower {}, upper {}",
             ["x", "y"][axis],
             by(lower),
             by(upper)
         );
+        let preparation = &spec.preparation;
+        if preparation.rotate != 0.0 {
+            let name = NAMES[changed];
+            let hint = format!(
+                "a smaller `window` in [{name}.topography], in samples before `rotate`, leaves fewer"
+            );
+            return Err(Place { case: self.case, body: name }.error("window", message, Some(hint)));
+        }
+        let source = match (&spec.source, &self.bodies[changed].origin) {
+            (Source::Generate { shape, .. } | Source::Form { shape, .. }, _) => *shape,
+            (_, Some(origin)) => origin.shape,
+            (Source::File { .. }, None) => shape,
+        };
+        let [x0, y0, nx, ny] = preparation.window.unwrap_or([0, 0, source[0], source[1]]);
+        let mut samples = [nx, ny];
+        // In samples of the source, where those are not the cells.
+        samples[axis] = (samples[axis] * kept).div_ceil(shape[axis]);
+        shape[axis] = kept;
+        let is_made = self.bodies[changed].origin.is_none();
+        let mut settings = if is_made && preparation.window.is_none() && preparation.resample.is_none() {
+            vec![format!("shape = {shape:?}")]
+        } else {
+            vec![format!("window = {:?}", [x0, y0, samples[0], samples[1]])]
+        };
+        if preparation.resample.is_some() {
+            settings.push(format!("resample = {shape:?}"));
+        }
         let key = if settings[0].starts_with("shape") { "shape" } else { "window" };
         Err(self.error(key, changed, message, &settings))
     }

@@ -27,7 +27,7 @@ pub use parameters::{
     BearingCurve, Classes, Core, Distribution, FeatureParameters, FunctionalParameters, HeightParameters,
     HybridParameters, Parameter, Parameters, Slope, SpatialParameters, Unit,
 };
-pub use process::{Fill, Level};
+pub use process::{Fill, Filter, Findings, Interpolation, Level, LevelError, Preparation, Resample, Round};
 pub use profile::{Profile, ProfileParameters};
 pub use segmentation::{Motif, Segmentation, WOLF_PRUNING};
 pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};

@@ -14,8 +14,8 @@ use crate::error::Result;
 use crate::material::{self, Material};
 use crate::motion::{PlasticUpdate, Strategy};
 use crate::surface::{
-    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Form, Generator, Groove, HeightDistribution, Level,
-    LowPass, SelfAffine,
+    Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
+    Interpolation, Level, LowPass, Preparation, Resample, SelfAffine,
 };
 use crate::units::Dimension;
 
@@ -58,7 +58,7 @@ const TABLES: [(&str, &[&str]); 7] = [
 
 /// The keys that each kind of topography has beyond the common ones.
 const SOURCES: [(&str, &[&str]); 10] = [
-    ("file", &["file", "channel", "fill"]),
+    ("file", &["file", "channel", "despike", "fill"]),
     ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
     (
         "generate = \"autocorrelation\"",
@@ -77,7 +77,20 @@ const SOURCES: [(&str, &[&str]); 10] = [
 ];
 
 /// The keys of every topography.
-const PREPARATION: [&str; 5] = ["pitch", "level", "resample", "window", "plus"];
+const PREPARATION: [&str; 12] = [
+    "pitch",
+    "window",
+    "level",
+    "mirror",
+    "rotate",
+    "s_filter",
+    "l_filter",
+    "filter",
+    "resample",
+    "interpolate",
+    "taper",
+    "plus",
+];
 
 const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
 
@@ -180,17 +193,16 @@ fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
         &["file", "generate", "form"],
         "for example `file = \"disc.x3p\"`, `generate = \"low-pass\"` or `form = \"sphere\"`",
     )?;
-    let level_choices = [
-        ("none", Level::None),
-        ("mean", Level::Mean),
-        ("plane", Level::Plane),
-        ("quadratic", Level::Quadratic),
-    ];
     let (source, pitch) = match kind {
         "file" => (file(table, folder)?, table.get("pitch").map(|entry| lengths(&entry)).transpose()?),
         "generate" => (generate(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
         _ => (form(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
     };
+    let plus = table.get("plus").map(|entry| layers(&entry)).transpose()?.unwrap_or_default();
+    Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
+}
+
+fn preparation(table: &Table<'_>) -> Result<Preparation> {
     let window = |entry: Entry<'_>| {
         let expected = "four whole numbers [x0, y0, nx, ny]";
         let window: [usize; 4] = entry.array(expected, |item| item.count(0))?;
@@ -199,14 +211,47 @@ fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
         }
         Ok(window)
     };
-    Ok(TopographySpec {
-        source,
-        pitch,
-        level: table.get("level").map(|entry| entry.choice(&level_choices)).transpose()?.unwrap_or_default(),
-        resample: table.get("resample").map(|entry| shape(&entry)).transpose()?,
+    let length = |key| table.get(key).map(|entry| entry.positive(Dimension::Length)).transpose();
+    let factor = |entry: Entry<'_>| entry.number(|factor| factor > 0.0, "a number above 0 such as 6");
+    let (s_filter, l_filter) = (length("s_filter")?, length("l_filter")?);
+    if let (Some(shortest), Some(longest), Some(entry)) = (s_filter, l_filter, table.get("s_filter"))
+        && shortest >= longest
+    {
+        return Err(entry.unexpected("a wavelength below that of 'l_filter'", None));
+    }
+    let fills = [("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)];
+    let axes = [("x", Some(Axis::X)), ("y", Some(Axis::Y))];
+    let filters = [("gaussian", Filter::Gaussian), ("robust", Filter::Robust)];
+    let interpolations = [("linear", Interpolation::Linear), ("spline", Interpolation::Spline)];
+    Ok(Preparation {
         window: table.get("window").map(window).transpose()?,
-        plus: table.get("plus").map(|entry| layers(&entry)).transpose()?.unwrap_or_default(),
+        despike: table.get("despike").map(factor).transpose()?,
+        fill: choice_or(table, "fill", &fills, Fill::None)?,
+        level: table.get("level").map(|entry| level(&entry)).transpose()?.unwrap_or_default(),
+        mirror: choice_or(table, "mirror", &axes, None)?,
+        rotate: table.get("rotate").map_or(Ok(0.0), |entry| entry.quantity(Dimension::Angle))?,
+        s_filter,
+        l_filter,
+        filter: choice_or(table, "filter", &filters, Filter::Gaussian)?,
+        resample: table.get("resample").map(|entry| shape(&entry).map(Resample::Shape)).transpose()?,
+        interpolate: choice_or(table, "interpolate", &interpolations, Interpolation::Linear)?,
+        taper: length("taper")?,
     })
+}
+
+/// One of the words of [`Level`]; of polynomials each order has its own.
+fn level(entry: &Entry<'_>) -> Result<Level> {
+    if let Some(level) = entry.text().ok().and_then(|text| text.parse().ok()) {
+        return Ok(level);
+    }
+    let choices = Level::WORDS.map(|word| (word, Level::None));
+    let hint = || format!("the order of a polynomial is from 0 to {}", Level::HIGHEST_ORDER);
+    match entry.text() {
+        Ok(text) if text.starts_with("polynomial") => {
+            Err(entry.unexpected("a polynomial such as \"polynomial-3\"", Some(hint())))
+        }
+        _ => entry.choice(&choices),
+    }
 }
 
 fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
@@ -216,11 +261,9 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
         "" => return Err(name.unexpected("the name of a file", None)),
         path => folder.join(path),
     };
-    let fills = [("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)];
     Ok(Source::File {
         path,
         channel: table.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
-        fill: table.get("fill").map(|entry| entry.choice(&fills)).transpose()?.unwrap_or_default(),
     })
 }
 

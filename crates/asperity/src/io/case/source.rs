@@ -6,13 +6,12 @@ use serde::{Serialize, Serializer};
 
 use super::Number;
 use crate::grid::Grid;
-use crate::surface::{Fill, Form, Generator, Level, Topography};
+use crate::surface::{Form, Generator, Preparation, Topography};
 use crate::units::Metre;
 
 /// A topography as the case file describes it.
 ///
-/// Its parts act in this order: the source; `window`; `fill`; `level`; `resample`, or `pitch` where that resamples;
-/// `plus`.
+/// Its parts act in this order: the source; the steps of [`Preparation`], where `pitch` may stand for `resample`; `plus`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TopographySpec {
     /// File, generator or form.
@@ -22,14 +21,9 @@ pub struct TopographySpec {
     /// none (npy, text); to a file that carries one it is resampled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<[Metre; 2]>,
-    /// What is subtracted.
-    pub level: Level,
-    /// Number of cells to resample to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resample: Option<[usize; 2]>,
-    /// The part to keep, `[x0, y0, nx, ny]` in samples of the source.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub window: Option<[usize; 4]>,
+    /// What is done with the heights; `despike` and `fill` belong to files alone.
+    #[serde(flatten)]
+    pub preparation: Preparation,
     /// What is added on the grid that all this leads to.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub plus: Vec<Layer>,
@@ -47,8 +41,6 @@ pub enum Source {
         /// The channel to take; the height channel if absent.
         #[serde(skip_serializing_if = "Option::is_none")]
         channel: Option<String>,
-        /// What becomes of missing heights.
-        fill: Fill,
     },
     /// A random topography; its `pitch` is in [`TopographySpec::pitch`].
     Generate {

@@ -1,14 +1,20 @@
 //! Removal of the mean form.
 
+use std::fmt;
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
-use crate::grid::Grid;
+use super::polynomial::Polynomial;
+use super::round::{self, Round};
+use crate::error::{Result, check};
 use crate::surface::Topography;
 
-/// What is subtracted from the heights: the least-squares fit of a polynomial in x and y to the defined
-/// samples.
+/// What is subtracted from the heights: a least-squares fit to the defined samples.
+///
+/// As text, in files too: `none`, `mean`, `plane`, `quadratic`, `polynomial-3`, `sphere`, `cylinder`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(into = "String", try_from = "String")]
 pub enum Level {
     /// Nothing.
     #[default]
@@ -19,98 +25,120 @@ pub enum Level {
     Plane,
     /// A full polynomial of the second order: 1, x, y, x², xy, y².
     Quadratic,
+    /// All xᵃyᵇ with a + b up to the order, 0 to [`Level::HIGHEST_ORDER`].
+    Polynomial(usize),
+    /// A sphere, convex or concave, see [`Topography::best_sphere`].
+    Sphere,
+    /// A circular cylinder that lies in any direction, see [`Topography::best_cylinder`].
+    Cylinder,
 }
 
 impl Level {
-    /// Number of monomials in the fit.
-    fn terms(self) -> usize {
+    /// The highest order of a polynomial. It has 153 terms.
+    pub const HIGHEST_ORDER: usize = 16;
+
+    /// What [`Level::from_str`] reads, for messages.
+    pub const WORDS: [&str; 7] = ["none", "mean", "plane", "quadratic", "polynomial-3", "sphere", "cylinder"];
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::None => 0,
-            Self::Mean => 1,
-            Self::Plane => 3,
-            Self::Quadratic => 6,
+            Self::None => f.write_str("none"),
+            Self::Mean => f.write_str("mean"),
+            Self::Plane => f.write_str("plane"),
+            Self::Quadratic => f.write_str("quadratic"),
+            Self::Polynomial(order) => write!(f, "polynomial-{order}"),
+            Self::Sphere => f.write_str("sphere"),
+            Self::Cylinder => f.write_str("cylinder"),
         }
     }
 }
 
-/// Number of monomials up to the second order.
-const TERMS: usize = 6;
+/// A text that is not that of a [`Level`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "expected one of {}, the order of a polynomial from 0 to {}",
+    Level::WORDS.join(", "),
+    Level::HIGHEST_ORDER
+)]
+pub struct LevelError;
+
+impl FromStr for Level {
+    type Err = LevelError;
+
+    fn from_str(text: &str) -> std::result::Result<Self, LevelError> {
+        Ok(match text {
+            "none" => Self::None,
+            "mean" => Self::Mean,
+            "plane" => Self::Plane,
+            "quadratic" => Self::Quadratic,
+            "sphere" => Self::Sphere,
+            "cylinder" => Self::Cylinder,
+            _ => {
+                let order = text.strip_prefix("polynomial-").ok_or(LevelError)?;
+                let order = order.parse().map_err(|_| LevelError)?;
+                if order > Self::HIGHEST_ORDER {
+                    return Err(LevelError);
+                }
+                Self::Polynomial(order)
+            }
+        })
+    }
+}
+
+impl From<Level> for String {
+    fn from(level: Level) -> Self {
+        level.to_string()
+    }
+}
+
+impl TryFrom<String> for Level {
+    type Error = LevelError;
+
+    fn try_from(text: String) -> std::result::Result<Self, LevelError> {
+        text.parse()
+    }
+}
 
 impl Topography {
     /// Levelled: the least-squares fit that `level` names is subtracted. Undefined samples stay so.
     ///
     /// A term that the samples do not determine (x on a single column, say) is left out of the fit.
-    pub fn level(mut self, level: Level) -> Self {
-        let terms = level.terms();
-        if terms == 0 || self.defined() == 0 {
-            return self;
-        }
-        // Once the mean is gone, a small roughness on a large height loses no digits in the sums below.
-        let mean = self.mean();
-        self.heights_mut().mapv_inplace(|z| z - mean);
-        let fit = self.fit(terms);
-        let grid = *self.grid();
-        for ((ix, iy), z) in self.heights_mut().indexed_iter_mut() {
-            *z -= dot(&fit, &monomials(&grid, ix, iy));
-        }
-        self
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if the order of a polynomial is above [`Level::HIGHEST_ORDER`].
+    pub fn level(mut self, level: Level) -> Result<Self> {
+        self.remove(level)?;
+        Ok(self)
     }
 
-    /// Coefficients of the first `terms` monomials in the least-squares fit, by the normal equations.
-    fn fit(&self, terms: usize) -> [f64; TERMS] {
-        let mut matrix = [[0.0; TERMS]; TERMS];
-        let mut right = [0.0; TERMS];
-        for ((ix, iy), z) in self.heights().indexed_iter().filter(|(_, z)| !z.is_nan()) {
-            let basis = monomials(self.grid(), ix, iy);
-            for row in 0..terms {
-                right[row] += basis[row] * z;
-                for column in 0..=row {
-                    matrix[row][column] += basis[row] * basis[column];
-                }
+    /// Subtracts what `level` names, and says which sphere or cylinder it was.
+    pub(super) fn remove(&mut self, level: Level) -> Result<Option<Round>> {
+        let order = match level {
+            Level::None => return Ok(None),
+            Level::Mean => 0,
+            Level::Plane => 1,
+            Level::Quadratic => 2,
+            Level::Polynomial(order) => {
+                let good = order <= Level::HIGHEST_ORDER;
+                check("level", order as f64, good, "a polynomial of an order from 0 to 16")?;
+                order
             }
+            Level::Sphere => return Ok(round::remove_sphere(self)),
+            Level::Cylinder => return Ok(round::remove_cylinder(self)),
+        };
+        if let Some(polynomial) = Polynomial::on(self.heights(), order) {
+            polynomial.remove(self.heights_mut());
         }
-        solve(matrix, right, terms)
+        Ok(None)
     }
-}
-
-/// 1, ξ, η, ξ², ξη, η² with ξ, η from −1 to 1 over the grid, so that the normal equations are well
-/// conditioned.
-fn monomials(grid: &Grid, ix: usize, iy: usize) -> [f64; TERMS] {
-    let scaled = |axis: usize, index: usize| (2.0 * index as f64 + 1.0) / grid.shape[axis] as f64 - 1.0;
-    let (x, y) = (scaled(0, ix), scaled(1, iy));
-    [1.0, x, y, x * x, x * y, y * y]
-}
-
-fn dot(a: &[f64; TERMS], b: &[f64; TERMS]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Solution of a positive semi-definite system by L D Lᵀ (lower triangle of `matrix` given); an unknown whose
-/// pivot vanishes is 0.
-fn solve(mut matrix: [[f64; TERMS]; TERMS], mut x: [f64; TERMS], n: usize) -> [f64; TERMS] {
-    let mut pivot = [0.0; TERMS];
-    for j in 0..n {
-        let left: f64 = matrix[j][j] - (0..j).map(|k| matrix[j][k].powi(2) * pivot[k]).sum::<f64>();
-        pivot[j] = if left > 1e-12 * matrix[j][j] { left } else { 0.0 };
-        for i in j + 1..n {
-            let left = matrix[i][j] - (0..j).map(|k| matrix[i][k] * matrix[j][k] * pivot[k]).sum::<f64>();
-            matrix[i][j] = if pivot[j] > 0.0 { left / pivot[j] } else { 0.0 };
-        }
-    }
-    for i in 0..n {
-        x[i] -= (0..i).map(|k| matrix[i][k] * x[k]).sum::<f64>();
-    }
-    for i in (0..n).rev() {
-        let above: f64 = (i + 1..n).map(|k| matrix[k][i] * x[k]).sum();
-        x[i] = if pivot[i] > 0.0 { x[i] / pivot[i] - above } else { 0.0 };
-    }
-    x
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Field;
+    use crate::grid::{Field, Grid};
 
     fn with_heights(height: impl Fn(f64, f64) -> f64) -> Topography {
         let grid = Grid::new([40, 25], [1e-6, 3e-6]).unwrap();
@@ -127,20 +155,20 @@ mod tests {
     #[test]
     fn a_polynomial_is_removed_to_round_off_by_the_level_of_its_order() {
         let constant = with_heights(|_, _| 3.0);
-        assert!(largest(&constant.level(Level::Mean)) < 1e-15);
+        assert!(largest(&constant.level(Level::Mean).unwrap()) < 1e-15);
         let plane = with_heights(|x, y| 3.0 + 0.2 * x - 0.1 * y);
-        assert!(largest(&plane.clone().level(Level::Mean)) > 1.0);
-        assert!(largest(&plane.level(Level::Plane)) < 1e-13);
+        assert!(largest(&plane.clone().level(Level::Mean).unwrap()) > 1.0);
+        assert!(largest(&plane.level(Level::Plane).unwrap()) < 1e-13);
         let quadratic = with_heights(|x, y| 3.0 + 0.2 * x - 0.1 * y + 0.01 * (x * x - x * y + 2.0 * y * y));
-        assert!(largest(&quadratic.clone().level(Level::Plane)) > 1.0);
-        assert!(largest(&quadratic.level(Level::Quadratic)) < 1e-12);
+        assert!(largest(&quadratic.clone().level(Level::Plane).unwrap()) > 1.0);
+        assert!(largest(&quadratic.level(Level::Quadratic).unwrap()) < 1e-12);
     }
 
     #[test]
     fn holes_do_not_tilt_the_fit() {
         let mut plane = with_heights(|x, y| 3.0 + 0.2 * x - 0.1 * y);
         (5..20).for_each(|i| (2..9).for_each(|j| plane.heights_mut()[[i, j]] = f64::NAN));
-        let levelled = plane.level(Level::Quadratic);
+        let levelled = plane.level(Level::Quadratic).unwrap();
         assert_eq!(levelled.undefined(), 15 * 7);
         assert!(largest(&levelled) < 1e-12);
     }
@@ -148,19 +176,67 @@ mod tests {
     #[test]
     fn what_is_left_is_orthogonal_to_what_was_removed() {
         let rough = with_heights(|x, y| (3.0 * x).sin() * (2.0 * y).cos() + 0.3 * x);
-        let left = rough.level(Level::Quadratic);
-        for term in 0..TERMS {
-            let product: f64 =
-                left.heights().indexed_iter().map(|((i, j), z)| z * monomials(left.grid(), i, j)[term]).sum();
-            assert!(product.abs() < 1e-11, "term {term}: {product:e}");
+        let left = rough.level(Level::Quadratic).unwrap();
+        let terms: [fn(f64, f64) -> f64; 6] =
+            [|_, _| 1.0, |x, _| x, |_, y| y, |x, _| x * x, |x, y| x * y, |_, y| y * y];
+        for (n, term) in terms.iter().enumerate() {
+            let products =
+                left.heights().indexed_iter().map(|((i, j), z)| z * term(i as f64 / 39.0, j as f64 / 24.0));
+            let product: f64 = products.sum();
+            assert!(product.abs() < 1e-11, "term {n}: {product:e}");
         }
+    }
+
+    #[test]
+    fn a_polynomial_of_any_order_is_removed_to_round_off_by_that_order_and_not_by_the_one_below() {
+        for order in 1..=Level::HIGHEST_ORDER {
+            let n = order as i32;
+            // x and y from −1 to 1, all terms of the highest degree.
+            let mut surface = with_heights(|x, y| {
+                let (x, y) = (x / 20.0 - 1.0, y / 37.5 - 1.0);
+                (0..=n).map(|a| x.powi(a) * y.powi(n - a)).sum::<f64>() + x
+            });
+            (12..15).for_each(|i| (3..20).for_each(|j| surface.heights_mut()[[i, j]] = f64::NAN));
+            let left = |order| largest(&surface.clone().level(Level::Polynomial(order)).unwrap());
+            assert!(left(order) < 1e-13, "order {order}: {:e}", left(order));
+            // What a lower order leaves of xⁿ alone is at least its Chebyshev bound 2¹⁻ⁿ.
+            assert!(left(order - 1) > 2f64.powi(1 - n), "order {order}: {:e}", left(order - 1));
+        }
+        let quadratic = with_heights(|x, y| (x * y).sin());
+        let [named, numbered] =
+            [Level::Quadratic, Level::Polynomial(2)].map(|level| quadratic.clone().level(level).unwrap());
+        assert_eq!(named.heights(), numbered.heights());
+    }
+
+    #[test]
+    fn a_fit_to_a_corner_of_the_samples_is_as_good_as_one_to_all() {
+        let mut corner =
+            with_heights(|x, y| 1.0 + (x / 40.0).powi(5) - (x / 40.0).powi(2) * (y / 75.0).powi(4));
+        corner
+            .heights_mut()
+            .indexed_iter_mut()
+            .filter(|((i, j), _)| *i < 30 || *j < 15)
+            .for_each(|(_, z)| *z = f64::NAN);
+        assert!(largest(&corner.level(Level::Polynomial(6)).unwrap()) < 1e-14);
+    }
+
+    #[test]
+    fn a_level_is_what_its_words_say() {
+        for word in Level::WORDS {
+            assert_eq!(word.parse::<Level>().unwrap().to_string(), word);
+        }
+        for word in ["polynomial", "polynomial-", "polynomial-17", "polynomial--1", "Plane", ""] {
+            assert_eq!(word.parse::<Level>(), Err(LevelError));
+        }
+        let message = with_heights(|x, _| x).level(Level::Polynomial(17)).unwrap_err().to_string();
+        assert_eq!(message, "level is 1.7e1, expected a polynomial of an order from 0 to 16");
     }
 
     #[test]
     fn a_nanometre_on_a_millimetre_keeps_its_digits() {
         let ripple = |x: f64, y: f64| 1e-9 * (x * 0.7).sin() * (y * 0.3).cos();
-        let low = with_heights(ripple).level(Level::Plane);
-        let high = with_heights(|x, y| 1e-3 + 1e-5 * x + ripple(x, y)).level(Level::Plane);
+        let low = with_heights(ripple).level(Level::Plane).unwrap();
+        let high = with_heights(|x, y| 1e-3 + 1e-5 * x + ripple(x, y)).level(Level::Plane).unwrap();
         let difference = (low.heights() - high.heights()).iter().fold(0.0, |m: f64, d| d.abs().max(m));
         assert!(difference < 1e-18 * 1e3, "{difference:e}");
     }
@@ -169,9 +245,9 @@ mod tests {
     fn what_the_samples_do_not_determine_is_left_alone() {
         let grid = Grid::new([1, 5], [1.0, 1.0]).unwrap();
         let heights = Field::from_shape_fn([1, 5], |(_, j)| 1.0 + 2.0 * j as f64);
-        let levelled = Topography::new(grid, heights).unwrap().level(Level::Quadratic);
+        let levelled = Topography::new(grid, heights).unwrap().level(Level::Quadratic).unwrap();
         assert!(largest(&levelled) < 1e-14);
         let nothing = Topography::new(grid, Field::from_elem([1, 5], f64::NAN)).unwrap();
-        assert_eq!(nothing.level(Level::Plane).undefined(), 5);
+        assert_eq!(nothing.level(Level::Plane).unwrap().undefined(), 5);
     }
 }

@@ -1,91 +1,25 @@
-//! From a measured topography to one that can be mounted: level, fill, cut, resample, turn over.
+//! From a measured topography to one that can be mounted: cut, cleared of spikes and holes, freed of its form, turned,
+//! filtered, resampled, tapered. [`Preparation`] does it all in one order.
 
+mod despike;
 mod fill;
+mod filter;
 mod harmonic;
 mod level;
+mod median;
+mod normal_equations;
+mod polynomial;
+mod preparation;
 mod resample;
+mod round;
+mod spline;
+mod taper;
+mod turn;
+mod window;
 
 pub use fill::Fill;
-pub use level::Level;
-
-use ndarray::Axis;
-
-use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
-use crate::surface::Topography;
-
-impl Topography {
-    /// The part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window `[x0, y0, nx, ny]`.
-    ///
-    /// # Errors
-    /// [`Error::WindowOutside`] if the window is empty or reaches beyond the samples.
-    pub fn window(&self, window: [usize; 4]) -> Result<Self> {
-        let [x0, y0, nx, ny] = window;
-        let shape = self.grid().shape;
-        let fits = |first: usize, n: usize, all: usize| n > 0 && first < all && n <= all - first;
-        if !(fits(x0, nx, shape[0]) && fits(y0, ny, shape[1])) {
-            return Err(Error::WindowOutside { window, shape });
-        }
-        let part = Field::from_shape_fn([nx, ny], |(ix, iy)| self.heights()[[x0 + ix, y0 + iy]]);
-        Self::new(Grid::new([nx, ny], self.grid().pitch)?, part)
-    }
-
-    /// Mirrored in x: the first column becomes the last.
-    pub fn mirror_x(mut self) -> Self {
-        self.heights_mut().invert_axis(Axis(0));
-        let heights = self.heights().as_standard_layout().into_owned();
-        *self.heights_mut() = heights;
-        self
-    }
-
-    /// Turned over about the y axis, to be mounted as the upper body: mirrored in x and negated.
-    ///
-    /// Heights measured with the material's side up become the height of the underside. Twice is nothing.
-    pub fn underside(self) -> Self {
-        let mut mirrored = self.mirror_x();
-        mirrored.heights_mut().mapv_inplace(|z| -z);
-        mirrored
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::surface::Form;
-
-    fn numbered() -> Topography {
-        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
-        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
-    }
-
-    #[test]
-    fn a_window_keeps_the_pitch_and_counts_from_its_corner() {
-        let part = numbered().window([1, 2, 3, 1]).unwrap();
-        assert_eq!(part.heights(), ndarray::arr2(&[[12.0], [22.0], [32.0]]));
-        assert_eq!(part.grid().pitch, [1.0, 2.0]);
-    }
-
-    #[test]
-    fn a_window_beyond_the_samples_is_refused() {
-        for window in [[2, 0, 3, 1], [0, 3, 1, 1], [0, 0, 0, 1], [1, 1, usize::MAX, 1]] {
-            assert!(matches!(numbered().window(window), Err(Error::WindowOutside { .. })));
-        }
-        let message = numbered().window([2, 0, 3, 1]).unwrap_err().to_string();
-        assert_eq!(message, "window = [2, 0, 3, 1] ([x0, y0, nx, ny]) is not a part of the 4 × 3 samples");
-    }
-
-    #[test]
-    fn turning_over_twice_is_nothing() {
-        let twice = numbered().underside().underside();
-        assert_eq!(twice.heights(), numbered().heights());
-    }
-
-    #[test]
-    fn the_underside_of_a_ball_touches_with_its_apex() {
-        let grid = Grid::new([9, 9], [1.0, 1.0]).unwrap();
-        let ball = Form::Sphere { radius: 10.0 }.on(&grid).unwrap().underside();
-        assert_eq!(ball.heights()[[4, 4]], 0.0);
-        assert!(ball.heights().iter().all(|&z| z >= 0.0));
-        assert_eq!(numbered().underside().heights()[[0, 1]], -31.0);
-    }
-}
+pub use filter::Filter;
+pub use level::{Level, LevelError};
+pub use preparation::{Findings, Preparation, Resample};
+pub use resample::Interpolation;
+pub use round::Round;

@@ -1,0 +1,84 @@
+//! The steps that prepare a topography.
+
+use asperity::surface::{Axis, Fill, Filter, Interpolation, Level, Preparation, Resample};
+use clap::Args;
+
+use super::values::{
+    Window, angle, axis_parser, factor, fill_parser, filter_parser, interpolation_parser, positive_length,
+    resample, window,
+};
+
+/// What is done with a topography, in this order.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Preparation, in this order")]
+pub(crate) struct Preparing {
+    /// Part to keep, in samples
+    #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
+    window: Option<Window>,
+    /// Spikes become missing: samples that deviate from the median of the 5 × 5 around by more than so many (robust) standard deviations, such as 6
+    #[arg(long, value_name = "FACTOR", value_parser = factor)]
+    despike: Option<f64>,
+    /// Where the heights of missing samples come from
+    #[arg(long, default_value = "none", value_parser = fill_parser())]
+    fill: Fill,
+    /// What is subtracted, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to 16), sphere, cylinder
+    #[arg(long, default_value = "none")]
+    level: Level,
+    /// Direction in which first and last are exchanged
+    #[arg(long, value_parser = axis_parser())]
+    mirror: Option<Axis>,
+    /// Angle to turn by, from x towards y: 90deg; other than by quarter turns a spline is taken on the largest rectangle within
+    #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
+    rotate: f64,
+    /// Nesting index of the S-filter, which takes away shorter waves: 2.5um
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    s_filter: Option<f64>,
+    /// Nesting index of the L-filter, which takes away longer waves: 0.8mm
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    l_filter: Option<f64>,
+    /// Kind of both filters: ISO 16610-61, or one that scratches and peaks do not bend (after ISO 16610-71)
+    #[arg(long, default_value = "gaussian", value_parser = filter_parser())]
+    filter: Filter,
+    /// Cells to bring it to: their number, 256x256, or their size, 0.5um
+    #[arg(long, value_name = "NXxNY|LENGTH[,LENGTH]", value_parser = resample)]
+    resample: Option<Resample>,
+    /// What stands between samples where cells become smaller
+    #[arg(long, default_value = "linear", value_parser = interpolation_parser())]
+    interpolate: Interpolation,
+    /// Width of the rim that is brought down to the mean
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    taper: Option<f64>,
+}
+
+impl Preparing {
+    /// As the library takes it.
+    pub(crate) fn preparation(&self) -> Preparation {
+        Preparation {
+            window: self.window.map(|window| window.0),
+            despike: self.despike,
+            fill: self.fill,
+            level: self.level,
+            mirror: self.mirror,
+            rotate: self.rotate,
+            s_filter: self.s_filter,
+            l_filter: self.l_filter,
+            filter: self.filter,
+            resample: self.resample,
+            interpolate: self.interpolate,
+            taper: self.taper,
+        }
+    }
+
+    /// The first of the arguments that mean nothing without a pitch.
+    pub(crate) fn needs_pitch(&self) -> Option<&'static str> {
+        let lengths = [
+            ("--level sphere", self.level == Level::Sphere),
+            ("--level cylinder", self.level == Level::Cylinder),
+            ("--s-filter", self.s_filter.is_some()),
+            ("--l-filter", self.l_filter.is_some()),
+            ("--resample by a length", matches!(self.resample, Some(Resample::Pitch(_)))),
+            ("--taper", self.taper.is_some()),
+        ];
+        lengths.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+    }
+}

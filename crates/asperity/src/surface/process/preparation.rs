@@ -1,0 +1,199 @@
+//! All steps from a measured topography to one that can be used, in their order.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Fill, Filter, Interpolation, Level, Round};
+use crate::error::{Result, check};
+use crate::surface::{Axis, Topography};
+use crate::units::Metre;
+
+/// What is done with a topography; by default nothing.
+///
+/// The steps act in the order of the fields: what belongs to the instrument first (the part to keep, spikes, holes),
+/// then the form, which wants defined heights without spikes, then the direction, then the waves, whose filters want a
+/// surface without form, then the grid, whose cells may be as large as the shortest wave left allows, last the rim.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preparation {
+    /// The part to keep, `[x0, y0, nx, ny]` in samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window: Option<[usize; 4]>,
+    /// See [`Topography::despike`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub despike: Option<f64>,
+    /// Where the heights of undefined samples come from; with [`Fill::None`] they stay undefined.
+    #[serde(skip_serializing_if = "is_default")]
+    pub fill: Fill,
+    /// What is subtracted.
+    pub level: Level,
+    /// The direction in which it is mirrored.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mirror: Option<Axis>,
+    /// The angle by which it is turned, in radians, see [`Topography::rotate`].
+    #[serde(skip_serializing_if = "is_default")]
+    pub rotate: f64,
+    /// Nesting index of the S-filter, which takes short waves away.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub s_filter: Option<Metre>,
+    /// Nesting index of the L-filter, which takes long waves away; above that of the S-filter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub l_filter: Option<Metre>,
+    /// How both filters find their smooth surface.
+    #[serde(skip_serializing_if = "is_default")]
+    pub filter: Filter,
+    /// The grid to bring it to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resample: Option<Resample>,
+    /// What stands between samples where cells become smaller.
+    #[serde(skip_serializing_if = "is_default")]
+    pub interpolate: Interpolation,
+    /// Width of the rim that is brought down to the mean, see [`Topography::taper`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub taper: Option<Metre>,
+}
+
+/// A grid to resample to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Resample {
+    /// The same extent with so many cells, see [`Topography::resample_to_shape`].
+    Shape([usize; 2]),
+    /// Cells of this size, see [`Topography::resample_to_pitch`].
+    Pitch([Metre; 2]),
+}
+
+/// What a preparation came upon.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Findings {
+    /// Undefined samples of the window, before anything was done about them.
+    pub undefined: usize,
+    /// Samples removed as spikes.
+    pub spikes: usize,
+    /// The sphere or cylinder that was subtracted; its lengths count from the corner of the window.
+    pub form: Option<Round>,
+}
+
+impl Preparation {
+    /// The topography after all steps, and what they came upon. Samples stay undefined where nothing fills them.
+    ///
+    /// # Errors
+    /// Those of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
+    pub fn apply(&self, mut topography: Topography) -> Result<(Topography, Findings)> {
+        if let (Some(shortest), Some(longest)) = (self.s_filter, self.l_filter) {
+            check("s_filter", shortest, shortest < longest, "a wavelength below that of l_filter")?;
+        }
+        if let Some(window) = self.window {
+            topography = topography.window(window)?;
+        }
+        let undefined = topography.undefined();
+        if let Some(factor) = self.despike {
+            topography = topography.despike(factor)?;
+        }
+        let spikes = topography.undefined() - undefined;
+        if self.fill != Fill::None {
+            topography = topography.fill(self.fill)?;
+        }
+        let form = topography.remove(self.level)?;
+        if let Some(axis) = self.mirror {
+            topography = topography.mirror(axis);
+        }
+        topography = topography.rotate(self.rotate)?;
+        if let Some(nesting_index) = self.s_filter {
+            topography = topography.s_filter(nesting_index, self.filter)?;
+        }
+        if let Some(nesting_index) = self.l_filter {
+            topography = topography.l_filter(nesting_index, self.filter)?;
+        }
+        topography = match self.resample {
+            Some(Resample::Shape(shape)) => topography.resample_to_shape(shape, self.interpolate)?,
+            Some(Resample::Pitch(pitch)) if pitch != topography.grid().pitch => {
+                topography.resample_to_pitch(pitch, self.interpolate)?
+            }
+            _ => topography,
+        };
+        if let Some(width) = self.taper {
+            topography = topography.taper(width)?;
+        }
+        Ok((topography, Findings { undefined, spikes, form }))
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Field, Grid};
+
+    fn rough() -> Topography {
+        let grid = Grid::new([60, 50], [1e-6, 1e-6]).unwrap();
+        let mut heights = Field::from_shape_fn(grid.shape, |(i, j)| {
+            1e-7 * ((0.9 * i as f64).sin() * (0.7 * j as f64).cos() + 0.1 * i as f64)
+        });
+        heights[[20, 20]] = 1e-4;
+        heights[[0, 0]] = f64::NAN;
+        heights[[40, 10]] = f64::NAN;
+        Topography::new(grid, heights).unwrap()
+    }
+
+    #[test]
+    fn nothing_is_done_by_default() {
+        let (same, findings) = Preparation::default().apply(rough()).unwrap();
+        let bits = |topography: &Topography| topography.heights().mapv(f64::to_bits);
+        assert_eq!(bits(&same), bits(&rough()));
+        assert_eq!(findings, Findings { undefined: 2, ..Findings::default() });
+    }
+
+    #[test]
+    fn the_steps_act_in_the_order_of_the_fields() {
+        let preparation = Preparation {
+            window: Some([1, 0, 58, 50]),
+            despike: Some(8.0),
+            fill: Fill::Harmonic,
+            level: Level::Cylinder,
+            mirror: Some(Axis::Y),
+            rotate: 0.2,
+            s_filter: Some(3e-6),
+            l_filter: Some(20e-6),
+            filter: Filter::Robust,
+            resample: Some(Resample::Shape([50, 50])),
+            interpolate: Interpolation::Spline,
+            taper: Some(4e-6),
+        };
+        let (prepared, findings) = preparation.apply(rough()).unwrap();
+        assert_eq!((findings.undefined, findings.spikes), (1, 1));
+        assert_eq!(findings.form.unwrap().axis.map(|axis| axis.is_finite()), Some(true));
+        let by_hand = rough().window([1, 0, 58, 50]).unwrap().despike(8.0).unwrap();
+        let by_hand = by_hand.fill(Fill::Harmonic).unwrap().level(Level::Cylinder).unwrap();
+        let by_hand = by_hand.mirror(Axis::Y).rotate(0.2).unwrap();
+        let by_hand =
+            by_hand.s_filter(3e-6, Filter::Robust).unwrap().l_filter(20e-6, Filter::Robust).unwrap();
+        let by_hand =
+            by_hand.resample_to_shape([50, 50], Interpolation::Spline).unwrap().taper(4e-6).unwrap();
+        assert_eq!(prepared.heights(), by_hand.heights());
+        assert_eq!(prepared.undefined(), 0);
+    }
+
+    #[test]
+    fn filters_that_leave_nothing_between_them_are_refused() {
+        let crossed = Preparation { s_filter: Some(9e-6), l_filter: Some(8e-6), ..Preparation::default() };
+        let message = crossed.apply(rough()).unwrap_err().to_string();
+        assert_eq!(message, "s_filter is 9e-6, expected a wavelength below that of l_filter");
+    }
+
+    #[test]
+    fn what_is_written_is_what_is_read() {
+        let preparation = Preparation {
+            level: Level::Polynomial(4),
+            resample: Some(Resample::Pitch([1e-6, 2e-6])),
+            mirror: Some(Axis::X),
+            ..Preparation::default()
+        };
+        let text = serde_json::to_string(&preparation).unwrap();
+        assert_eq!(text, r#"{"level":"polynomial-4","mirror":"x","resample":[1e-6,2e-6]}"#);
+        assert_eq!(serde_json::from_str::<Preparation>(&text).unwrap(), preparation);
+        assert!(serde_json::from_str::<Preparation>(r#"{"level":"polynomial-17"}"#).is_err());
+    }
+}

@@ -1,0 +1,48 @@
+//! The part of a topography that is kept.
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::surface::Topography;
+
+impl Topography {
+    /// The part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window `[x0, y0, nx, ny]`.
+    ///
+    /// # Errors
+    /// [`Error::WindowOutside`] if the window is empty or reaches beyond the samples.
+    pub fn window(&self, window: [usize; 4]) -> Result<Self> {
+        let [x0, y0, nx, ny] = window;
+        let shape = self.grid().shape;
+        let fits = |first: usize, n: usize, all: usize| n > 0 && first < all && n <= all - first;
+        if !(fits(x0, nx, shape[0]) && fits(y0, ny, shape[1])) {
+            return Err(Error::WindowOutside { window, shape });
+        }
+        let part = Field::from_shape_fn([nx, ny], |(ix, iy)| self.heights()[[x0 + ix, y0 + iy]]);
+        Self::new(Grid::new([nx, ny], self.grid().pitch)?, part)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbered() -> Topography {
+        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
+        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
+    }
+
+    #[test]
+    fn a_window_keeps_the_pitch_and_counts_from_its_corner() {
+        let part = numbered().window([1, 2, 3, 1]).unwrap();
+        assert_eq!(part.heights(), ndarray::arr2(&[[12.0], [22.0], [32.0]]));
+        assert_eq!(part.grid().pitch, [1.0, 2.0]);
+    }
+
+    #[test]
+    fn a_window_beyond_the_samples_is_refused() {
+        for window in [[2, 0, 3, 1], [0, 3, 1, 1], [0, 0, 0, 1], [1, 1, usize::MAX, 1]] {
+            assert!(matches!(numbered().window(window), Err(Error::WindowOutside { .. })));
+        }
+        let message = numbered().window([2, 0, 3, 1]).unwrap_err().to_string();
+        assert_eq!(message, "window = [2, 0, 3, 1] ([x0, y0, nx, ny]) is not a part of the 4 × 3 samples");
+    }
+}
