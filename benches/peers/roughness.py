@@ -69,6 +69,21 @@ def by_surface_topography(heights, pitch):
     }
 
 
+def spectra(program, heights_file, heights, pitch, folder):
+    """Ratio of SurfaceTopography's radially averaged spectrum to ours: median and extremes over its wave numbers."""
+    size = ",".join(f"{p!r}" for p in pitch)
+    run(program, "surface", "plot", heights_file, "--pitch", size, "--out", pathlib.Path(folder, "figures"))
+    curves = json.loads(pathlib.Path(folder, "figures", "curves.json").read_text())
+    ours = np.array([[point["wave_number"], point["density"]] for point in curves["spectrum"]["radial"]])
+    extent = tuple(n * p for n, p in zip(heights.shape, pitch))
+    topography = SurfaceTopography.Topography(heights, extent)
+    wave_number, density = topography.power_spectrum_from_area(window="hann")
+    # Where a ring holds enough waves for the two to bin the same ones.
+    known = (density > 0) & (wave_number > ours[4, 0]) & (wave_number < ours[-1, 0])
+    at = np.exp(np.interp(np.log(wave_number[known]), *np.log(ours).T))
+    return np.quantile(density[known] / at, [0.5, 0, 1])
+
+
 def row(symbol, ours, others):
     cells = [f"{symbol:8}", f"{ours:12.5g}"]
     for other in others:
@@ -93,6 +108,7 @@ def main():
             run(program, "surface", "convert", arguments.folder / name, heights_file, "--level", "plane")
             heights = np.load(heights_file)
             ours = by_asperity(program, heights_file, pitch)
+            ratio = spectra(program, heights_file, heights, pitch, folder)
         peers = by_surfalize(heights, pitch), by_surface_topography(heights, pitch)
         ours = {symbol: math.nan if value is None else value for symbol, value in ours.items()}
         print(f"\n{name}: {heights.shape[0]} × {heights.shape[1]}, pitch {pitch[0]:.4g} m\n")
@@ -101,6 +117,7 @@ def main():
             others = [peer.get(symbol) for peer in peers]
             if any(other is not None for other in others):
                 print(row(symbol, value, others))
+        print("\nspectrum, SurfaceTopography / asperity: {:.3f} ({:.3f} to {:.3f})".format(*ratio))
         results[name] = {"asperity": ours, "surfalize": peers[0], "SurfaceTopography": peers[1]}
     if arguments.json:
         arguments.json.write_text(json.dumps(results, indent=1))

@@ -30,7 +30,9 @@ impl Topography {
                 value,
                 expected: "a finite height, or NaN where the sample is undefined",
             }),
-            None => Ok(Self { grid, heights }),
+            // Row by row, whatever the order in memory of what came.
+            None if heights.is_standard_layout() => Ok(Self { grid, heights }),
+            None => Ok(Self { grid, heights: heights.as_standard_layout().into_owned() }),
         }
     }
 
@@ -112,6 +114,18 @@ mod tests {
             error.starts_with("grids of the two topographies: [1, 2] cells of [1.0, 1.0] m and "),
             "{error}"
         );
+    }
+
+    #[test]
+    fn heights_may_come_in_any_order_in_memory() {
+        let grid = Grid::new([9, 7], [1.0, 1.0]).unwrap();
+        let height = |i: usize, j: usize| ((3 * i + 5 * j) % 7) as f64;
+        let by_row = Field::from_shape_fn([9, 7], |(i, j)| height(i, j));
+        let by_column = Field::from_shape_fn([7, 9], |(j, i)| height(i, j)).reversed_axes();
+        let [rows, columns] = [by_row, by_column].map(|heights| Topography::new(grid, heights).unwrap());
+        let despiked =
+            |topography: Topography| topography.despike(2.0).unwrap().into_heights().mapv(f64::to_bits);
+        assert_eq!(despiked(rows), despiked(columns));
     }
 
     #[test]
