@@ -11,8 +11,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use generate::{Generate, Recipe};
-pub(crate) use preparation::Preparing;
-pub(crate) use surface::{Convert, Info, PlotSurface, Reading, Surface};
+pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
 
 /// Contact of two rough surfaces that press together and move
 ///

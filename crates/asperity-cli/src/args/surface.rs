@@ -24,18 +24,14 @@ pub(crate) enum Surface {
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
-    /// Topography
-    pub(crate) file: PathBuf,
     /// Print JSON, in SI
     #[arg(long)]
     pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) reading: Reading,
-    #[command(flatten)]
-    pub(crate) preparing: Preparing,
     /// Cut-off λc of the roughness profiles along x and along y: adds their parameters, ISO 21920-2
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     pub(crate) cutoff: Option<f64>,
+    #[command(flatten)]
+    pub(crate) input: Input,
 }
 
 /// Draw a topography, its material ratio curve, distributions, spectrum, autocorrelation and hills
@@ -44,28 +40,14 @@ pub(crate) struct Info {
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface plot disc.sur --level plane --out disc")]
 pub(crate) struct PlotSurface {
-    /// Topography
-    pub(crate) file: PathBuf,
     /// Folder for the figures
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    #[command(flatten)]
-    pub(crate) reading: Reading,
-    #[command(flatten)]
-    pub(crate) preparing: Preparing,
     /// Replace the figures that are there
     #[arg(long)]
     pub(crate) overwrite: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Reading {
-    /// Height channel; by default the first
-    #[arg(long, value_name = "NAME")]
-    pub(crate) channel: Option<String>,
-    /// Distance of the heights where the file has none: 0.5um, or 0.5um,1um
-    #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
-    pub(crate) pitch: Option<Pair>,
+    #[command(flatten)]
+    pub(crate) input: Input,
 }
 
 /// Read any topography, prepare it, and write it as npy, x3p, sdf, gwy, vtk or png
@@ -77,17 +59,34 @@ pub(crate) struct Reading {
 --resample 256x256"
 )]
 pub(crate) struct Convert {
-    /// Topography to read
-    #[arg(value_name = "IN")]
-    pub(crate) input: PathBuf,
     /// File to write; its name ends in .npy, .x3p, .sdf, .gwy, .vtk or .png
-    #[arg(value_name = "OUT")]
+    #[arg(value_name = "OUT", index = 2)]
     pub(crate) output: PathBuf,
-    #[command(flatten)]
-    pub(crate) reading: Reading,
     /// Replace the file if it exists
     #[arg(long)]
     pub(crate) overwrite: bool,
     #[command(flatten)]
+    pub(crate) input: Input,
+}
+
+/// A topography that is read, and prepared. It stands last: what follows it would be listed among its steps.
+#[derive(Debug, Args)]
+pub(crate) struct Input {
+    /// Topography to read
+    #[arg(index = 1)]
+    pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
+    #[command(flatten)]
     pub(crate) preparing: Preparing,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Reading {
+    /// Height channel; by default the first
+    #[arg(long, value_name = "NAME")]
+    pub(crate) channel: Option<String>,
+    /// Distance of the heights where the file has none: 0.5um, or 0.5um,1um
+    #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
+    pub(crate) pitch: Option<Pair>,
 }

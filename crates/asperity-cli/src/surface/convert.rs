@@ -7,7 +7,7 @@ use crate::report::{Outcome, note};
 
 pub(super) fn convert(arguments: &Convert) -> Outcome {
     let output = Output::new(&arguments.output, arguments.overwrite)?;
-    let prepared = read_prepared(&arguments.input, &arguments.reading, &arguments.preparing)?;
+    let prepared = read_prepared(&arguments.input)?;
     let topography = prepared.topography;
     output.write(&topography, prepared.pitch)?;
     let ([nx, ny], undefined) = (topography.grid().shape, topography.undefined());

@@ -12,7 +12,7 @@ use crate::args::Info;
 use crate::report::{Failure, Outcome, print};
 
 pub(super) fn info(arguments: &Info) -> Outcome {
-    let file = read_prepared(&arguments.file, &arguments.reading, &arguments.preparing)?;
+    let file = read_prepared(&arguments.input)?;
     if arguments.cutoff.is_some() && file.pitch.is_none() {
         let message = "a cut-off needs a pitch, which the heights have not";
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));

@@ -14,7 +14,7 @@ use asperity::io::topography::{self, Scan};
 use asperity::surface::{Findings, Topography};
 use asperity::units::{self, Dimension, Metre};
 
-use crate::args::{Preparing, Reading, Surface};
+use crate::args::{Input, Reading, Surface};
 use crate::report::{Failure, Outcome, note};
 
 pub(crate) fn surface(arguments: Surface) -> Outcome {
@@ -43,13 +43,13 @@ fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
 }
 
 /// [`read`], then prepared as the arguments say; notes what the steps came upon.
-fn read_prepared(path: &Path, reading: &Reading, preparing: &Preparing) -> Outcome<Read> {
-    let read = read(path, reading)?;
-    if let (None, Some(argument)) = (read.pitch, preparing.needs_pitch()) {
-        let message = format!("{argument} needs a pitch, which `{}` has not", path.display());
+fn read_prepared(input: &Input) -> Outcome<Read> {
+    let read = read(&input.file, &input.reading)?;
+    if let (None, Some(argument)) = (read.pitch, input.preparing.needs_pitch()) {
+        let message = format!("{argument} needs a pitch, which `{}` has not", input.file.display());
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
     }
-    let (topography, findings) = preparing.preparation().apply(read.topography)?;
+    let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
     report(&findings);
     Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }

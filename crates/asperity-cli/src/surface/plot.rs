@@ -28,7 +28,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
         let message = format!("`{}` exists", out.display());
         return Err(Failure::usage(message, Some("--overwrite replaces the figures in it")));
     }
-    let file = read_prepared(&arguments.file, &arguments.reading, &arguments.preparing)?;
+    let file = read_prepared(&arguments.input)?;
     if file.pitch.is_none() {
         let message = "the figures need a pitch, which the heights have not";
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));

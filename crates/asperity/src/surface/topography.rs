@@ -90,8 +90,14 @@ impl Topography {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// 4 × 3 samples, 10 i + j the height of `[i, j]`.
+    pub(in crate::surface) fn numbered() -> Topography {
+        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
+        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
+    }
 
     #[test]
     fn undefined_samples_are_counted_and_do_not_enter_the_mean() {

@@ -152,11 +152,7 @@ impl Spline {
 mod tests {
     use super::*;
     use crate::surface::Form;
-
-    fn numbered() -> Topography {
-        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
-        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
-    }
+    use crate::surface::topography::tests::numbered;
 
     #[test]
     fn turning_over_twice_is_nothing() {

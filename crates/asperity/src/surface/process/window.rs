@@ -24,11 +24,7 @@ impl Topography {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn numbered() -> Topography {
-        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
-        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
-    }
+    use crate::surface::topography::tests::numbered;
 
     #[test]
     fn a_window_keeps_the_pitch_and_counts_from_its_corner() {

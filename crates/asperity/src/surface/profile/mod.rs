@@ -136,12 +136,7 @@ impl Topography {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::{Field, Grid};
-
-    fn numbered() -> Topography {
-        let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
-        Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()
-    }
+    use crate::surface::topography::tests::numbered;
 
     #[test]
     fn a_profile_runs_along_its_axis_at_the_pitch_of_that_axis() {
