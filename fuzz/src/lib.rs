@@ -129,7 +129,9 @@ pub fn text(data: &[u8]) {
 
 /// TIFF.
 pub fn tiff(data: &[u8]) {
-    check(&["tiff"], &beginning_with(&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], data));
+    // Levels are heights once they have a unit.
+    let file = beginning_with(&[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"], data);
+    check_in_unit(&["tiff"], &file, Some(1e-9));
 }
 
 /// TMD.
@@ -165,8 +167,12 @@ fn split_at_zero(data: &[u8]) -> (&[u8], &[u8]) {
 
 /// Reads every channel of `file`, which is of one of `formats` (of any, if that is empty).
 fn check(formats: &[&str], file: &[u8]) {
+    check_in_unit(formats, file, None);
+}
+
+fn check_in_unit(formats: &[&str], file: &[u8], unit: Option<f64>) {
     let is_one = |format: &str| formats.is_empty() || formats.contains(&format);
-    let read = |channel: Option<&str>| topography::from_bytes(Path::new("file"), file, channel);
+    let read = |channel: Option<&str>| topography::from_bytes(Path::new("file"), file, channel, unit);
     match read(None) {
         Ok(scan) => {
             assert!(is_one(scan.format), "taken for {}", scan.format);
@@ -207,7 +213,7 @@ fn check_written(scan: &Scan) {
     let grid = Grid::new([nx, ny], scan.pitch.unwrap_or([1e-6; 2])).expect("a grid");
     let path = temporary();
     let again = |format: &str| {
-        let again = topography::read(&path, None).expect("a topography");
+        let again = topography::read(&path, None, None).expect("a topography");
         assert_eq!((again.format, again.channels.as_slice()), (format, &["height".to_owned()][..]));
         assert!(same(&again.heights, &scan.heights), "{format}: {} became {}", scan.heights, again.heights);
         again.pitch

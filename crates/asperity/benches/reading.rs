@@ -39,7 +39,7 @@ fn plain_of_4096(bencher: divan::Bencher, kind: &str) {
 fn measure(bencher: divan::Bencher, file: &[u8]) {
     bencher
         .counter(BytesCount::of_slice(file))
-        .bench_local(|| from_bytes("file".as_ref(), file, None).expect("a topography"));
+        .bench_local(|| from_bytes("file".as_ref(), file, None, None).expect("a topography"));
 }
 
 fn file(kind: &str, side: u32) -> Vec<u8> {

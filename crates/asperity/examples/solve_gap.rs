@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let word =
         |key: &str, default: &str| serde_json::Value::from(options.get(key).map_or(default, String::as_str));
 
-    let gap = topography::read(Path::new(&path), None)?.heights;
+    let gap = topography::read(Path::new(&path), None, None)?.heights;
     let pitch = number("pitch", 1.0)?;
     let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
     let hardness = number("hardness", f64::INFINITY)?;

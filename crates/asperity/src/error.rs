@@ -73,6 +73,14 @@ pub enum Error {
         /// The channels there are.
         available: Vec<String>,
     },
+    /// A unit given to a file whose heights have one.
+    #[error("{path}: {format}: its heights have a unit of their own, expected none to be given")]
+    OwnUnit {
+        /// The file.
+        path: PathBuf,
+        /// The format it was recognised as.
+        format: &'static str,
+    },
     /// A topography has undefined samples where every one is needed.
     #[error("{undefined} of {samples} samples are undefined: set fill = \"nearest\" or fill = \"harmonic\"")]
     UndefinedSamples {

@@ -23,7 +23,10 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(case.upper.material.hardness, f64::INFINITY);
     assert_eq!((case.lower.mount, case.upper.mount), (Mount::AsIs, Mount::TurnedOver));
     let lower = &case.lower.topography;
-    assert_eq!(lower.source, Source::File { path: inputs("good").join("disc.x3p"), channel: None });
+    assert_eq!(
+        lower.source,
+        Source::File { path: inputs("good").join("disc.x3p"), channel: None, unit: None }
+    );
     let preparation = Preparation {
         fill: Fill::Harmonic,
         level: Level::Plane,

@@ -86,6 +86,9 @@ pub(crate) struct Reading {
     /// Height channel; by default the first
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,
+    /// What a 1 in the file stands for where it has no units (npy, text, xyz, csv, tiff): 1um
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    pub(crate) unit: Option<f64>,
     /// Distance of the heights where the file has none: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
     pub(crate) pitch: Option<Pair>,

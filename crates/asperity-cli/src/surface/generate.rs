@@ -17,7 +17,7 @@ pub(super) fn generate(arguments: Generate) -> Outcome {
         Recipe::Form(form) => form.on(&grid)?,
     };
     for file in &target.plus {
-        let reading = Reading { channel: None, pitch: Some(target.pitch) };
+        let reading = Reading { channel: None, unit: None, pitch: Some(target.pitch) };
         topography = topography.plus(&read(file, &reading)?.topography)?;
     }
     output.write(&topography, Some(grid.pitch))?;

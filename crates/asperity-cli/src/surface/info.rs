@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use asperity::io::topography;
 use asperity::surface::{Parameter, Unit};
 use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
@@ -124,6 +125,9 @@ fn about_file(table: &mut Table, file: &Read) {
     let none = || "– (the file has none: --pitch)".to_owned();
     table.row("pitch", file.pitch.map_or_else(none, both), "");
     table.row("extent", file.pitch.map_or_else(|| "–".to_owned(), |_| both(grid.extent())), "");
+    if file.scan.unit != topography::Unit::Known {
+        table.row("unit", "m (the file has none: --unit)", "");
+    }
     table.row("undefined", format!("{undefined} ({share:.2} %)"), "");
     table.row("min", length(low), "");
     table.row("max", length(high), "");

@@ -35,7 +35,7 @@ struct Read {
 
 /// Without any pitch the heights stand on cells of 1 m.
 fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
-    let mut scan = topography::read(path, reading.channel.as_deref())?;
+    let mut scan = topography::read(path, reading.channel.as_deref(), reading.unit)?;
     let pitch = scan.pitch.or(reading.pitch.map(|pitch| pitch.0));
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;

@@ -69,8 +69,10 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
     let made =
         |shape: &[usize; 2]| Grid::new(*shape, spec.pitch.expect("the case has the pitch of what is made"));
     let (topography, origin, preparation) = match &spec.source {
-        Source::File { path, channel } => {
-            let (topography, origin, preparation) = measured(at, path, channel.as_deref(), spec)?;
+        Source::File { path, channel, unit } => {
+            let scan =
+                topography::read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, origin, preparation) = measured(at, path, scan, spec)?;
             (Ok(topography), Some(origin), preparation)
         }
         Source::Generate { generate, shape, seed } => {
@@ -101,10 +103,9 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
 fn measured(
     at: Place<'_>,
     path: &Path,
-    channel: Option<&str>,
+    scan: Scan,
     spec: &TopographySpec,
 ) -> Result<(Topography, Origin, Preparation)> {
-    let scan = topography::read(path, channel).map_err(|error| at.reading(error))?;
     let Scan { format, channel, pitch: carried, heights, .. } = scan;
     let shape = [heights.nrows(), heights.ncols()];
     let mut preparation = spec.preparation;
@@ -153,6 +154,7 @@ impl Place<'_> {
                 let hint = format!("it holds {}; choose one with `channel`", names.join(", "));
                 self.error("channel", error.to_string(), Some(hint))
             }
+            Error::OwnUnit { .. } => self.error("unit", error.to_string(), None),
             Error::File { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
                 let hint = "the files of a case are looked for in the case file's folder".to_owned();
                 self.error("file", error.to_string(), Some(hint))

@@ -58,7 +58,7 @@ const TABLES: [(&str, &[&str]); 7] = [
 
 /// The keys that each kind of topography has beyond the common ones.
 const SOURCES: [(&str, &[&str]); 10] = [
-    ("file", &["file", "channel", "despike", "fill"]),
+    ("file", &["file", "channel", "unit", "despike", "fill"]),
     ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
     (
         "generate = \"autocorrelation\"",
@@ -264,6 +264,7 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
     Ok(Source::File {
         path,
         channel: table.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
+        unit: table.get("unit").map(|entry| entry.positive(Dimension::Length)).transpose()?,
     })
 }
 

@@ -41,6 +41,9 @@ pub enum Source {
         /// The channel to take; the height channel if absent.
         #[serde(skip_serializing_if = "Option::is_none")]
         channel: Option<String>,
+        /// What a 1 stands for in a file without units.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        unit: Option<Metre>,
     },
     /// A random topography; its `pitch` is in [`TopographySpec::pitch`].
     Generate {

@@ -7,7 +7,7 @@
 use super::binary::unit_of_length;
 use super::header::excerpt;
 use super::text::{grid_of_points, matrix};
-use super::{Decoded, Fault, Scan, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, Scan, Unit, choose, distinct, usable_pitch};
 use crate::error::Defect;
 
 /// The heights, if the content begins with such a line of names.
@@ -44,7 +44,13 @@ fn table(names: &[&str], lines: &[u8], channel: Option<&str>) -> Decoded {
         })
     })?;
     let pitch = usable_pitch([pitch[0] * x, pitch[1] * y]);
-    Ok(Scan { format: "csv", channel: channels[column - 2].clone(), channels, pitch, heights: heights * z })
+    let unit = match [columns[0].1, columns[1].1, columns[column].1] {
+        [_, _, Some(_)] => Unit::Known,
+        [None, None, None] => Unit::MetresThroughout,
+        [_, _, None] => Unit::Metres,
+    };
+    let (channel, heights) = (channels[column - 2].clone(), heights * z);
+    Ok(Scan { format: "csv", channel, channels, pitch, heights, unit })
 }
 
 /// `height (nm)` is a height in nm.

@@ -13,7 +13,7 @@
 //! kind is a topography (4), and images of a thickness (0x80).
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
+use super::{Decoded, Fault, Scan, Unit, choose, distinct, from_last_y_to_first, usable_pitch};
 use crate::error::Defect;
 
 /// How the file begins.
@@ -34,7 +34,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     from_last_y_to_first(&mut heights);
     let [nx, ny] = raster.shape;
     let pitch = usable_pitch([file.lengths[0] / nx as f64, file.lengths[1] / ny as f64]);
-    Ok(Scan { format: "frt", channel: channels[chosen].clone(), channels, pitch, heights })
+    Ok(Scan { format: "frt", channel: channels[chosen].clone(), channels, pitch, heights, unit: Unit::Known })
 }
 
 /// What is used of the blocks.

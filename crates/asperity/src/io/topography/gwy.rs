@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text, unit_of_length};
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, Unit, choose, distinct, usable_pitch};
 use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
@@ -94,6 +94,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         channels,
         pitch: usable_pitch(pitch),
         heights,
+        unit: Unit::Known,
     })
 }
 

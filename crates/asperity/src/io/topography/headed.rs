@@ -12,7 +12,7 @@
 use super::binary::{shape, unit_of_length};
 use super::header::{Header, excerpt};
 use super::text::matrix;
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, Unit, choose, finite, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -39,7 +39,14 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
         let channels = vec![read.channel];
         choose(&channels, channel)?;
         let channel = channels[0].clone();
-        Ok(Scan { format, channel, channels, pitch: usable_pitch(read.pitch), heights: read.heights })
+        Ok(Scan {
+            format,
+            channel,
+            channels,
+            pitch: usable_pitch(read.pitch),
+            heights: read.heights,
+            unit: Unit::Known,
+        })
     };
     Some(read(bytes).map_err(|defect| Fault::defect(format, defect)).and_then(scan))
 }

@@ -46,27 +46,69 @@ pub struct Scan {
     pub pitch: Option<[Metre; 2]>,
     /// Heights in metres, `[ix, iy]`, NaN where missing.
     pub heights: Field,
+    /// Where the unit of its numbers comes from.
+    pub unit: Unit,
+}
+
+/// What a file says of the unit of its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// It has one.
+    Known,
+    /// It has none for its heights: they are in metres unless a unit is given.
+    Metres,
+    /// It has none at all: heights and pitch are in metres unless a unit is given.
+    MetresThroughout,
+    /// Its heights are levels, which are no lengths until a unit is given.
+    Levels,
 }
 
 /// Reads the heights of the topography file at `path`.
 ///
 /// The content tells the format, never the name: a module here for each. Any of them may be gzipped.
-/// Without `channel` the first one is read; files of one unnamed channel call it `height`.
+/// Without `channel` the first one is read; files of one unnamed channel call it `height`. `unit`, above 0, is what a 1
+/// in a file without units stands for: metres by default, see [`Unit`].
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if it is of no known format,
-/// [`Error::CorruptTopography`] if it is damaged or uses what is not read, [`Error::NoChannel`].
-pub fn read(path: &Path, channel: Option<&str>) -> Result<Scan> {
+/// [`Error::CorruptTopography`] if it is damaged, uses what is not read or lacks a unit that it needs,
+/// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given to a file that has one.
+pub fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<Scan> {
     let bytes = contents(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
-    from_bytes(path, &bytes, channel)
+    from_bytes(path, &bytes, channel, unit)
 }
 
 /// As [`read`], from `bytes`, the content of a file that errors call `name`.
 ///
 /// # Errors
 /// As [`read`], without [`Error::File`].
-pub fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>) -> Result<Scan> {
-    decode(bytes, channel).map_err(|fault| fault.at(name, channel))
+pub fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>, unit: Option<Metre>) -> Result<Scan> {
+    let scan = decode(bytes, channel).and_then(|scan| scan.in_unit(unit));
+    scan.map_err(|fault| fault.at(name, channel))
+}
+
+impl Scan {
+    /// With its numbers multiplied by the unit that is given, if they have none of their own.
+    fn in_unit(mut self, unit: Option<Metre>) -> Decoded {
+        match (self.unit, unit) {
+            (Unit::Known, Some(_)) => return Err(Fault::OwnUnit { format: self.format }),
+            (Unit::Levels, None) => {
+                let expected = "heights, or with them the unit that one level stands for";
+                let defect =
+                    Defect::Value { what: "the kind of pixels", found: "levels".to_owned(), expected };
+                return Err(Fault::defect(self.format, defect));
+            }
+            (_, None) => {}
+            (kind, Some(unit)) => {
+                self.heights.mapv_inplace(|z| finite(unit * z));
+                self.unit = Unit::Known;
+                if kind == Unit::MetresThroughout {
+                    self.pitch = self.pitch.and_then(|pitch| usable_pitch(pitch.map(|p| unit * p)));
+                }
+            }
+        }
+        Ok(self)
+    }
 }
 
 /// The most heights that are read: 2 GiB of them.
@@ -167,6 +209,7 @@ enum Fault {
     NotATopography(&'static str),
     Corrupt { format: &'static str, reason: Defect },
     NoChannel { available: Vec<String> },
+    OwnUnit { format: &'static str },
 }
 
 impl Fault {
@@ -179,6 +222,7 @@ impl Fault {
         match self {
             Self::NotATopography(reason) => Error::NotATopography { path, reason },
             Self::Corrupt { format, reason } => Error::CorruptTopography { path, format, reason },
+            Self::OwnUnit { format } => Error::OwnUnit { path, format },
             Self::NoChannel { available } => {
                 Error::NoChannel { path, channel: channel.unwrap_or_default().to_owned(), available }
             }
@@ -226,7 +270,14 @@ fn only(
 ) -> Decoded {
     let channels = only_channel(channel)?;
     let (pitch, heights) = read().map_err(|defect| Fault::defect(format, defect))?;
-    Ok(Scan { format, channel: channels[0].clone(), channels, pitch: usable_pitch(pitch), heights })
+    Ok(Scan {
+        format,
+        channel: channels[0].clone(),
+        channels,
+        pitch: usable_pitch(pitch),
+        heights,
+        unit: Unit::Known,
+    })
 }
 
 /// The product of the sizes that a header announces, if heights of that number are read at all.

@@ -7,7 +7,7 @@ use std::path::Path;
 use npyz::{DType, Endianness, NpyHeader, TypeChar, WriterBuilder};
 
 use super::binary::{Number, Order, Raster};
-use super::{Decoded, Fault, Scan, cells, only_channel};
+use super::{Decoded, Fault, Scan, Unit, cells, only_channel};
 use crate::error::{Defect, Result};
 use crate::grid::Field;
 use crate::io::atomic;
@@ -28,7 +28,14 @@ pub fn write(path: &Path, heights: &Field) -> Result<()> {
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
     let heights = array(bytes).map_err(|defect| Fault::defect("npy", defect))?;
-    Ok(Scan { format: "npy", channel: channels[0].clone(), channels, pitch: None, heights })
+    Ok(Scan {
+        format: "npy",
+        channel: channels[0].clone(),
+        channels,
+        pitch: None,
+        heights,
+        unit: Unit::Metres,
+    })
 }
 
 fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
-use super::{Decoded, Fault, Scan, choose, distinct, from_last_y_to_first, usable_pitch};
+use super::{Decoded, Fault, Scan, Unit, choose, distinct, from_last_y_to_first, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -31,7 +31,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let pixel = numbers.get("Pixel_size").copied().unwrap_or(f64::NAN) * 1e-3;
     let aspect = numbers.get("Aspect").copied().unwrap_or(1.0);
     let pitch = usable_pitch([pixel, pixel * aspect]);
-    Ok(Scan { format: "opd", channel: channels[chosen].clone(), channels, pitch, heights })
+    Ok(Scan { format: "opd", channel: channels[chosen].clone(), channels, pitch, heights, unit: Unit::Known })
 }
 
 const ARRAY: u16 = 3;

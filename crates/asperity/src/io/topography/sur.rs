@@ -18,7 +18,7 @@
 use std::io::Read;
 
 use super::binary::{Number, Order, Raster, text, unit_of_length};
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, distinct, usable_pitch};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, Unit, cells, choose, distinct, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 use crate::units::Metre;
@@ -31,7 +31,14 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let object = &objects[chosen];
     let heights = object.heights().map_err(fault)?;
     let channel = channels[chosen].clone();
-    Ok(Scan { format: "sur", channel, channels, pitch: usable_pitch(object.pitch), heights })
+    Ok(Scan {
+        format: "sur",
+        channel,
+        channels,
+        pitch: usable_pitch(object.pitch),
+        heights,
+        unit: Unit::Known,
+    })
 }
 
 const HEADER: usize = 512;

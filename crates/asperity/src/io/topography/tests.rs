@@ -34,7 +34,7 @@ fn assert_as_expected(name: &str, format: &str, unit: f64) {
     let expected: serde_json::Value = serde_json::from_slice(&std::fs::read(expected).unwrap()).unwrap();
     let expected = &expected[name];
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
-    let scan = read(&path, None).unwrap();
+    let scan = read(&path, None, None).unwrap();
     assert_eq!((scan.format, &scan.channels[0]), (format, &scan.channel));
     let (nx, ny) = scan.heights.dim();
     assert_eq!(serde_json::json!([nx, ny]), expected["shape"]);
@@ -93,7 +93,7 @@ fn a_table_of_points_is_read_as_others_read_it() {
 #[test]
 fn what_is_not_read_is_named() {
     let Some(path) = measured("opdx-3.opdx") else { return };
-    let error = read(&path, None).unwrap_err();
+    let error = read(&path, None, None).unwrap_err();
     let message = format!("{} is not a topography: it is a Wyko OPDx file", path.display());
     assert_eq!(error.to_string(), message);
     assert!(error.hint().is_some());
@@ -102,12 +102,12 @@ fn what_is_not_read_is_named() {
 #[test]
 fn files_that_are_no_files_are_errors() {
     let directory = tempfile::tempdir().unwrap();
-    let message = read(directory.path(), None).unwrap_err().to_string();
+    let message = read(directory.path(), None, None).unwrap_err().to_string();
     assert!(message.ends_with(": is a directory, expected a topography file"), "{message}");
     let missing = directory.path().join("no.x3p");
-    assert!(matches!(read(&missing, None), Err(Error::File { path, .. }) if path == missing));
+    assert!(matches!(read(&missing, None, None), Err(Error::File { path, .. }) if path == missing));
     if cfg!(unix) {
-        let message = read(Path::new("/dev/zero"), None).unwrap_err().to_string();
+        let message = read(Path::new("/dev/zero"), None, None).unwrap_err().to_string();
         assert_eq!(message, "/dev/zero: is not a regular file");
     }
 }
@@ -146,10 +146,10 @@ fn an_x3p_written_reads_back_to_the_last_bit() {
     let path = directory.path().join("a");
     let (grid, heights) = example();
     x3p::write(&path, &grid, &heights).unwrap();
-    let scan = read(&path, None).unwrap();
+    let scan = read(&path, None, None).unwrap();
     assert_eq!((scan.format, scan.channel.as_str(), scan.pitch), ("x3p", "height", Some(grid.pitch)));
     assert_same(&scan.heights, &heights);
-    let error = read(&path, Some("phase")).unwrap_err();
+    let error = read(&path, Some("phase"), None).unwrap_err();
     assert_eq!(error.to_string(), format!("no height channel `phase` in {}", path.display()));
     assert_eq!(error.hint().unwrap(), "it holds `height`; choose one with --channel");
 }
@@ -300,12 +300,12 @@ fn an_npy_written_reads_back_to_the_last_bit() {
     let path = directory.path().join("z.npy");
     let (_, heights) = example();
     npy::write(&path, &heights).unwrap();
-    let scan = read(&path, Some("height")).unwrap();
+    let scan = read(&path, Some("height"), None).unwrap();
     assert_eq!((scan.format, scan.pitch), ("npy", None));
     assert_same(&scan.heights, &heights);
     // Indexed [ix, iy] in C order whatever the order in memory.
     npy::write(&path, &heights.t().as_standard_layout().into_owned().reversed_axes()).unwrap();
-    assert_same(&read(&path, None).unwrap().heights, &heights);
+    assert_same(&read(&path, None, None).unwrap().heights, &heights);
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x93NUMPY\x01\0"));
 }
 

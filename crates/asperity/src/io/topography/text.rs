@@ -12,7 +12,7 @@
 use ndarray::{Axis, Slice};
 
 use super::header::excerpt;
-use super::{Decoded, Fault, MAX_CELLS, Scan, only_channel};
+use super::{Decoded, Fault, MAX_CELLS, Scan, Unit, only_channel};
 use crate::error::Defect;
 use crate::grid::Field;
 use crate::units::Metre;
@@ -20,11 +20,11 @@ use crate::units::Metre;
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
     let heights = matrix(bytes, 0).map_err(|defect| Fault::defect("text", defect))?;
-    let (format, pitch, heights) = match xyz(&heights) {
-        Some((pitch, heights)) => ("xyz", Some(pitch), heights),
-        None => ("text", None, heights),
+    let (format, pitch, heights, unit) = match xyz(&heights) {
+        Some((pitch, heights)) => ("xyz", Some(pitch), heights, Unit::MetresThroughout),
+        None => ("text", None, heights, Unit::Metres),
     };
-    Ok(Scan { format, channel: channels[0].clone(), channels, pitch, heights })
+    Ok(Scan { format, channel: channels[0].clone(), channels, pitch, heights, unit })
 }
 
 /// The lines of values in `bytes`, before which the file has `lines_before` others.

@@ -1,8 +1,8 @@
-//! TIFF: pictures of one floating-point number per pixel, which are heights in metres; only read.
+//! TIFF: pictures of one number per pixel; only read.
 //!
-//! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Integers are
-//! levels of grey, whose height nothing tells: they are refused. There is no pitch, as resolutions are those of a
-//! print. Each page is a channel.
+//! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Floating-point
+//! numbers are heights in metres; integers are levels, whose height the file does not tell. There is no pitch, as
+//! resolutions are those of a print. Each page is a channel.
 
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
 use super::binary::shape;
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, choose, finite, x_fastest};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, Unit, choose, finite, x_fastest};
 use crate::error::Defect;
 use crate::grid::Field;
 
@@ -30,8 +30,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         _ => (1..=pages).map(|page| format!("{ONLY_CHANNEL} {page}")).collect(),
     };
     let page = choose(&channels, channel)?;
-    let heights = heights(bytes, page).map_err(fault)?;
-    Ok(Scan { format: "tiff", channel: channels[page].clone(), channels, pitch: None, heights })
+    let (heights, unit) = heights(bytes, page).map_err(fault)?;
+    Ok(Scan { format: "tiff", channel: channels[page].clone(), channels, pitch: None, heights, unit })
 }
 
 type File<'a> = Decoder<Cursor<&'a [u8]>>;
@@ -45,22 +45,28 @@ fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
     Ok(Decoder::new(Cursor::new(bytes)).map_err(container)?.with_limits(limits))
 }
 
-fn heights(bytes: &[u8], page: usize) -> Result<Field, Defect> {
+fn heights(bytes: &[u8], page: usize) -> Result<(Field, Unit), Defect> {
     let mut file = open(bytes)?;
     for _ in 0..page {
         file.next_image().map_err(container)?;
     }
     let (nx, ny) = file.dimensions().map_err(container)?;
     let shape = shape([nx, ny])?;
+    // Levels of less than a byte are not unpacked.
     let bits = match file.colortype().map_err(container)? {
-        ColorType::Gray(bits) => bits,
+        ColorType::Gray(bits @ (8 | 16 | 32 | 64)) => bits,
         colour => return Err(unlike_heights(format!("{colour:?}"))),
     };
     match file.read_image().map_err(container)? {
-        DecodingResult::F32(pixels) => turned(shape, &pixels),
-        DecodingResult::F64(pixels) => turned(shape, &pixels),
-        DecodingResult::F16(_) => Err(unlike_heights("floating point of 16 bits".to_owned())),
-        _ => Err(unlike_heights(format!("integers of {bits} bits"))),
+        DecodingResult::F32(pixels) => Ok((turned(shape, &pixels)?, Unit::Metres)),
+        DecodingResult::F64(pixels) => Ok((turned(shape, &pixels)?, Unit::Metres)),
+        DecodingResult::U8(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        DecodingResult::U16(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        DecodingResult::U32(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        DecodingResult::I8(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        DecodingResult::I16(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        DecodingResult::I32(pixels) => Ok((turned(shape, &pixels)?, Unit::Levels)),
+        _ => Err(unlike_heights(format!("numbers of {bits} bits"))),
     }
 }
 
@@ -76,8 +82,7 @@ fn turned<T: Copy + Into<f64>>(shape: [usize; 2], pixels: &[T]) -> Result<Field,
 }
 
 fn unlike_heights(found: String) -> Defect {
-    let expected =
-        "heights in metres, floating point of 32 or 64 bits: nothing tells the height of a level of grey";
+    let expected = "one number per pixel, floating point of 32 or 64 bits or an integer of 8, 16 or 32";
     Defect::Value { what: "the kind of pixels", found, expected }
 }
 

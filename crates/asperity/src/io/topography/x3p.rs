@@ -14,7 +14,7 @@ use zip::ZipArchive;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::binary::{Number, Order, Raster};
-use super::{Decoded, Fault, ONLY_CHANNEL, Scan, cells, choose, finite, usable_pitch, x_fastest};
+use super::{Decoded, Fault, ONLY_CHANNEL, Scan, Unit, cells, choose, finite, usable_pitch, x_fastest};
 use crate::error::{Defect, Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
@@ -151,7 +151,14 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let layer = choose(&channels, channel)?;
     let heights = header.heights(root, &mut archive, layer).map_err(fault)?;
     let channel = channels[layer].clone();
-    Ok(Scan { format: "x3p", channel, channels, pitch: usable_pitch(header.increments), heights })
+    Ok(Scan {
+        format: "x3p",
+        channel,
+        channels,
+        pitch: usable_pitch(header.increments),
+        heights,
+        unit: Unit::Known,
+    })
 }
 
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;

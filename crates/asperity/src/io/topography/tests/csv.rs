@@ -26,3 +26,20 @@ fn a_csv_that_is_no_grid_is_an_error() {
     assert_eq!(with(",other", ""), "csv: line 2 has 4 values, the lines before it have 3");
     assert_eq!(with("X [um]", "a"), "text: line 1: `a,Y` is not a height");
 }
+
+#[test]
+fn a_unit_serves_where_the_numbers_have_none_and_only_there() {
+    let read = |text: &str, unit| from_bytes(Path::new("table.csv"), text.as_bytes(), None, unit);
+    let table = |heading: &str| format!("{heading}\n0,0,1\n2,0,2\n0,3,3\n2,3,4\n");
+    let bare = read(&table("x,y,z"), Some(1e-6)).unwrap();
+    assert_eq!((bare.pitch, bare.heights[[1, 1]], bare.unit), (Some([2e-6, 3e-6]), 4e-6, Unit::Known));
+    let lateral = read(&table("x (mm),y (mm),z"), Some(1e-6)).unwrap();
+    assert_eq!((lateral.pitch, lateral.heights[[1, 1]]), (Some([2e-3, 3e-3]), 4e-6));
+    let own = read(&table("x (mm),y (mm),z (nm)"), Some(1e-6)).unwrap_err().to_string();
+    assert_eq!(own, "table.csv: csv: its heights have a unit of their own, expected none to be given");
+    // A matrix has a unit for its heights alone, a table of points for all.
+    let matrix = read("1 2 3\n4 5 6\n", Some(1e-6)).unwrap();
+    assert_eq!((matrix.pitch, matrix.heights[[1, 2]], matrix.format), (None, 6e-6, "text"));
+    let points = read("0 0 1\n2 0 2\n0 3 3\n2 3 4\n", Some(1e-3)).unwrap();
+    assert_eq!((points.pitch, points.heights[[0, 1]], points.format), (Some([2e-3, 3e-3]), 3e-3, "xyz"));
+}

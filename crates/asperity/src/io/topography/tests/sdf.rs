@@ -12,7 +12,7 @@ fn an_sdf_written_reads_back_to_the_last_bit() {
     let path = directory.path().join("a");
     let (grid, heights) = example();
     super::super::sdf::write(&path, &grid, &heights).unwrap();
-    let scan = read(&path, Some("height")).unwrap();
+    let scan = read(&path, Some("height"), None).unwrap();
     assert_eq!((scan.format, scan.pitch), ("sdf", Some(grid.pitch)));
     assert_same(&scan.heights, &heights);
     assert_eq!(std::fs::metadata(&path).unwrap().len(), 81 + 15 * 8);
@@ -21,7 +21,7 @@ fn an_sdf_written_reads_back_to_the_last_bit() {
     let heights = Field::from_shape_fn(grid.shape, |(_, iy)| iy as f64 * 1e-9);
     super::super::sdf::write(&path, &grid, &heights).unwrap();
     assert!(std::fs::read(&path).unwrap().starts_with(b"bISO-2.0"));
-    assert_same(&read(&path, None).unwrap().heights, &heights);
+    assert_same(&read(&path, None, None).unwrap().heights, &heights);
 }
 
 pub(super) fn samples() -> [Vec<u8>; 2] {

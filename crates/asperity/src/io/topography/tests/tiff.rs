@@ -40,13 +40,29 @@ fn floats_of_a_tiff_are_heights_and_pages_are_channels() {
 }
 
 #[test]
+fn levels_of_grey_are_heights_once_they_have_a_unit() {
+    let name = Path::new("grey.tif");
+    let levels = [0, 1, 2, 3, 40_000, 65_535];
+    let files = [
+        tiff::<colortype::Gray16>(&[&levels], Compression::Lzw),
+        tiff::<colortype::Gray32>(&[&levels.map(u32::from)], Compression::Uncompressed),
+    ];
+    for file in files {
+        let message = from_bytes(name, &file, None, None).unwrap_err().to_string();
+        assert!(
+            message.ends_with("`levels`, expected heights, or with them the unit that one level stands for")
+        );
+        let scan = from_bytes(name, &file, None, Some(2e-9)).unwrap();
+        assert_same(&scan.heights, &(ndarray::array![[0.0, 3.0], [1.0, 40_000.0], [2.0, 65_535.0]] * 2e-9));
+    }
+}
+
+#[test]
 fn a_tiff_of_something_else_than_heights_is_an_error() {
-    let grey = tiff::<colortype::Gray16>(&[&[1; 6]], Compression::Uncompressed);
-    let message = "tiff: the kind of pixels is `integers of 16 bits`, expected heights in metres, floating point of 32 or \
-                   64 bits: nothing tells the height of a level of grey";
-    assert_eq!(defect(&grey), message);
     let colours = tiff::<colortype::RGB8>(&[&[1; 18]], Compression::Uncompressed);
-    assert!(defect(&colours).starts_with("tiff: the kind of pixels is `RGB(8)`, expected heights in metres"));
+    assert!(
+        defect(&colours).starts_with("tiff: the kind of pixels is `RGB(8)`, expected one number per pixel")
+    );
     let mut wide = tiff::<colortype::Gray32Float>(&[&[1.0; 6]], Compression::Uncompressed);
     assert!(decode(&wide, None).is_ok());
     // The width is the first entry of the directory.
