@@ -213,6 +213,14 @@ fn a_topography_is_drawn_with_its_curves() {
     // A plane has no roughness to draw, and is drawn all the same.
     ok(&at("surface generate flat --shape 16x16 --pitch 1um --out flat.x3p"));
     ok(&at("surface plot flat.x3p --out figures --overwrite"));
+    // Nor has a surface so high that its square is no number a spectrum.
+    fs::write(folder.path().join("high.txt"), "1e300 2e300 0\n0 1e300 3e300\n4e300 0 1e300\n").unwrap();
+    ok(&at("surface plot high.txt --pitch 1um --out high"));
+    fs::write(folder.path().join("nothing.txt"), "nan nan\nnan nan\n").unwrap();
+    assert!(
+        refused(&at("surface plot nothing.txt --pitch 1um --out nothing")).contains("none of the 4 samples")
+    );
+    assert!(!folder.path().join("nothing").exists());
 }
 
 #[test]

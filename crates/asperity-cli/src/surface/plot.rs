@@ -33,6 +33,9 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
         let message = "the figures need a pitch, which the heights have not";
         return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
     }
+    if file.topography.defined() == 0 {
+        return Err(asperity::Error::NothingDefined { samples: file.topography.grid().cells() }.into());
+    }
     let folder = |source| asperity::Error::File { path: out.clone(), source };
     std::fs::create_dir_all(out).map_err(folder)?;
     let sheet = Sheet { folder: out.clone(), topography: &file.topography };
@@ -186,7 +189,8 @@ impl Sheet<'_> {
             spectrum.at([wave(0, i), wave(1, j)])
         });
         let largest = field.iter().copied().fold(0.0, f64::max);
-        if largest == 0.0 {
+        // Of a plane nothing is left, of heights of 10¹⁵⁰ m nothing that is a number.
+        if largest == 0.0 || !largest.is_finite() {
             return Ok(());
         }
         let figure = PlaneFigure {

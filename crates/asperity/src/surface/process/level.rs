@@ -58,7 +58,7 @@ impl fmt::Display for Level {
 /// A text that is not that of a [`Level`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "expected one of {}, the order of a polynomial from 0 to {}",
+    "expected one of {}; the order of a polynomial is from 0 to {}",
     Level::WORDS.join(", "),
     Level::HIGHEST_ORDER
 )]
