@@ -8,26 +8,26 @@ use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
 
 use super::description::{Description, Profiles, Statistics};
-use super::{Read, read_prepared};
+use super::{Read, read_prepared, without_pitch};
 use crate::args::Info;
-use crate::report::{Failure, Outcome, print};
+use crate::report::{Outcome, print};
 
 pub(super) fn info(arguments: &Info) -> Outcome {
     let file = read_prepared(&arguments.input)?;
     if arguments.cutoff.is_some() && file.pitch.is_none() {
         let message = "a cut-off needs a pitch, which the heights have not";
-        return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+        return Err(without_pitch(message));
     }
     let description = Description::of(&file, arguments.cutoff)?;
     if arguments.json {
-        print(&format!("{:#}\n", json(&file, &description)?));
+        print(&format!("{:#}\n", json(&file, &description)));
     } else {
         print(&text(&file, &description));
     }
     Ok(())
 }
 
-fn json(file: &Read, description: &Description) -> Outcome<Value> {
+fn json(file: &Read, description: &Description) -> Value {
     let [low, high] = extremes(file);
     let mut json = json!({
         "format": file.scan.format,
@@ -44,7 +44,7 @@ fn json(file: &Read, description: &Description) -> Outcome<Value> {
     if let (Some(all), Value::Object(more)) = (json.as_object_mut(), described) {
         all.extend(more);
     }
-    Ok(json)
+    json
 }
 
 /// A table in sections.

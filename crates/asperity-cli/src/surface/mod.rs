@@ -47,11 +47,16 @@ fn read_prepared(input: &Input) -> Outcome<Read> {
     let read = read(&input.file, &input.reading)?;
     if let (None, Some(argument)) = (read.pitch, input.preparing.needs_pitch()) {
         let message = format!("{argument} needs a pitch, which `{}` has not", input.file.display());
-        return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+        return Err(without_pitch(message));
     }
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
     report(&findings);
     Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
+}
+
+/// The failure of what needs a pitch, where neither the file nor an argument gives one.
+fn without_pitch(message: impl Into<String>) -> Failure {
+    Failure::usage(message, Some("give it: --pitch 0.5um"))
 }
 
 fn report(findings: &Findings) {

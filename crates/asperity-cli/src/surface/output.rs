@@ -6,6 +6,7 @@ use asperity::io::topography::{gwy, npy, sdf, vtk, x3p};
 use asperity::surface::Topography;
 use asperity::units::Metre;
 
+use super::without_pitch;
 use crate::draw::{self, Colours, MapFigure, Quantity, Unit};
 use crate::report::{Failure, Outcome};
 
@@ -56,7 +57,7 @@ impl Output {
         let (grid, heights) = (topography.grid(), topography.heights());
         if pitch.is_none() && self.format != Format::Npy {
             let message = format!("`{}` needs a pitch, which the heights have not", self.path.display());
-            return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+            return Err(without_pitch(message));
         }
         match self.format {
             Format::Npy => npy::write(&self.path, heights)?,

@@ -1,7 +1,7 @@
 //! `asperity surface plot`: the figures of a topography, and the curves in them as numbers.
 
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use asperity::Field;
 use asperity::surface::{
@@ -12,7 +12,7 @@ use asperity::units::Metre;
 use serde_json::{Value, json};
 
 use super::description::RINGS;
-use super::read_prepared;
+use super::{read_prepared, without_pitch};
 use crate::args::PlotSurface;
 use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, PlaneFigure, Quantity, Series, Unit};
 use crate::report::{Failure, Outcome, note};
@@ -31,7 +31,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     let file = read_prepared(&arguments.input)?;
     if file.pitch.is_none() {
         let message = "the figures need a pitch, which the heights have not";
-        return Err(Failure::usage(message, Some("give it: --pitch 0.5um")));
+        return Err(without_pitch(message));
     }
     if file.topography.defined() == 0 {
         return Err(asperity::Error::NothingDefined { samples: file.topography.grid().cells() }.into());
@@ -249,7 +249,7 @@ impl Sheet<'_> {
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        Path::new(&self.folder).join(name)
+        self.folder.join(name)
     }
 }
 

@@ -187,8 +187,7 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
 }
 
 fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
-    let all: Vec<&str> = SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
-    table.known(&all, |key| belongs(key, table.path()))?;
+    known_of_topographies(table)?;
     let kind = table.exactly_one(
         &["file", "generate", "form"],
         "for example `file = \"disc.x3p\"`, `generate = \"low-pass\"` or `form = \"sphere\"`",
@@ -200,6 +199,12 @@ fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
     };
     let plus = table.get("plus").map(|entry| layers(&entry)).transpose()?.unwrap_or_default();
     Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
+}
+
+/// No key but those of some topography; which go together, `suits` tells.
+fn known_of_topographies(table: &Table<'_>) -> Result<()> {
+    let all: Vec<&str> = SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
+    table.known(&all, |key| belongs(key, table.path()))
 }
 
 fn preparation(table: &Table<'_>) -> Result<Preparation> {
@@ -270,9 +275,7 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
 
 fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {
     let layer = |table: &Table<'_>| {
-        let all: Vec<&str> =
-            SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
-        table.known(&all, |key| belongs(key, table.path()))?;
+        known_of_topographies(table)?;
         let hint = "for example `generate = \"low-pass\"` or `form = \"sphere\"`";
         match table.exactly_one(&["generate", "form"], hint)? {
             "generate" => Ok(Layer::Generate { generate: generator(table)?, seed: seed(table)? }),
