@@ -1,6 +1,5 @@
 //! The figures of a results directory, drawn from what it holds and from nothing else.
 
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use asperity::io::fields::{Attribute, Fields};
@@ -88,6 +87,23 @@ impl Stored {
         self.map(title, "pressure", Unit::Pressure, Colours::Pressure)
     }
 
+    /// What the pressure is of the largest that its cell bears.
+    fn over(&self, cap: &Cap) -> Self {
+        let field = match cap {
+            Cap::Field(cap) if cap.dim() == self.field.dim() => &self.field / cap,
+            Cap::Field(_) => self.field.clone(),
+            Cap::Number(cap) if cap.is_finite() => self.field.mapv(|p| p / cap),
+            Cap::Number(_) => self.field.clone(),
+        };
+        Self { field, ..*self }
+    }
+
+    /// Where a share of the cap is elastic and where it is plastic.
+    fn contact(&self, title: impl Into<String>, yields: bool) -> MapFigure<'_> {
+        let hardness = if yields { 1.0 } else { f64::INFINITY };
+        self.map(title, "pressure", Unit::Number, Colours::Contact { hardness })
+    }
+
     fn heights(&self, title: impl Into<String>) -> MapFigure<'_> {
         self.map(title, "height", Unit::Length, Colours::Heights)
     }
@@ -102,8 +118,8 @@ fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
     let bodies = [lower.heights("lower body"), upper.heights("upper body, underside")];
     sheet.add("topographies.png", |path| draw::maps(path, &bodies, 2))?;
     sheet.add("pressure.png", |path| draw::map(path, &pressure.pressure("pressure")))?;
-    let contact = pressure.map("contact", "pressure", Unit::Pressure, Colours::Contact { hardness });
-    sheet.add("contact.png", |path| draw::map(path, &contact))?;
+    let share = pressure.over(&Cap::read(&fields)?);
+    sheet.add("contact.png", |path| draw::map(path, &share.contact("contact", hardness.is_finite())))?;
     let gap = gap.map("deformed gap", "gap", Unit::Length, Colours::Heights);
     sheet.add("gap.png", |path| draw::map(path, &gap))?;
     if hardness.is_finite() {
@@ -135,12 +151,14 @@ fn friction(results: &Results, fields: &Fields, pressure: &Stored, sheet: &mut S
     Ok(())
 }
 
-/// Force over displacement along the direction of the largest force.
+/// Force over displacement along the direction of the loading.
 fn loading(increments: &[IncrementRecord]) -> LineFigure {
-    let size = |i: &&IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y);
-    let largest = increments.iter().max_by(|a, b| size(a).total_cmp(&size(b))).expect("increments");
-    let (x, y) = (largest.tangential_force_x, largest.tangential_force_y);
-    let [x, y] = if x.hypot(y) > 0.0 { [x / x.hypot(y), y / x.hypot(y)] } else { [1.0, 0.0] };
+    let [x, y] = direction(increments);
+    let along = match [x, y] {
+        [1.0, 0.0] => "along x".to_owned(),
+        [0.0, 1.0] => "along y".to_owned(),
+        _ => format!("along {:.1}° from x to y", y.atan2(x).to_degrees()).replace('-', "−"),
+    };
     let points = std::iter::once([0.0, 0.0]).chain(increments.iter().map(|i| {
         [
             x * i.tangential_displacement_x + y * i.tangential_displacement_y,
@@ -149,10 +167,27 @@ fn loading(increments: &[IncrementRecord]) -> LineFigure {
     }));
     LineFigure {
         title: "tangential force over displacement".to_owned(),
-        x: Axis::linear("displacement of the upper body", Unit::Length),
-        y: Axis::linear("force", Unit::Force),
+        x: Axis::linear(format!("displacement of the upper body {along}"), Unit::Length),
+        y: Axis::linear(format!("force {along}"), Unit::Force),
         right: None,
         series: vec![Series::new("loading", points.collect(), Mark::LineAndPoints)],
+    }
+}
+
+/// The direction in which a contact is loaded: that of most of its force, signed towards +x, or towards +y where it lies
+/// along y. Rounding decides neither the axis nor the sign: a force to and fro along x has the direction +x.
+fn direction(increments: &[IncrementRecord]) -> [f64; 2] {
+    let forces = || increments.iter().map(|i| [i.tangential_force_x, i.tangential_force_y]);
+    // The principal axis of the forces, which has no sign yet.
+    let [xx, yy, xy] = forces().fold([0.0; 3], |s, [x, y]| [s[0] + x * x, s[1] + y * y, s[2] + x * y]);
+    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+    let (y, x) = angle.sin_cos();
+    const ROUNDING: f64 = 1e-6;
+    match [x, y] {
+        [_, y] if y.abs() < ROUNDING => [1.0, 0.0],
+        [x, _] if x.abs() < ROUNDING => [0.0, 1.0],
+        [x, y] if x < 0.0 => [-x, -y],
+        both => both,
     }
 }
 
@@ -281,14 +316,21 @@ fn pressures(
         .map(|(title, stored)| MapFigure { range: Some(range), ..stored.pressure(title) })
         .collect();
     sheet.add("pressure.png", |path| draw::maps(path, &maps, 3))?;
+    let cap = Cap::read(fields)?;
+    let shares: Vec<Stored> = shown.iter().map(|(_, stored)| stored.over(&cap)).collect();
     let contacts: Vec<MapFigure> = shown
         .iter()
-        .map(|(title, stored)| stored.map(title, "pressure", Unit::Pressure, Colours::Contact { hardness }))
+        .zip(&shares)
+        .map(|((title, _), share)| share.contact(title, hardness.is_finite()))
         .collect();
     sheet.add("contact.png", |path| draw::maps(path, &contacts, 3))?;
-    let frames: Vec<(String, Stored)> = kept
+    let frames: Vec<(String, Field)> = kept
         .iter()
-        .map(|step| Ok((format!("pass {pass}, position {}", step.step), pressure(step)?)))
+        .map(|step| {
+            let stored = pressure(step)?;
+            let title = format!("pass {pass}, position {}", step.step);
+            Ok((title, in_frame_of(&stored.field, stored.column, lower)))
+        })
         .collect::<Outcome<_>>()?;
     let animation = Animation {
         grid: &lower,
@@ -297,11 +339,7 @@ fn pressures(
         range,
         delay: 12,
     };
-    let frames = frames.iter().map(|(title, stored)| Frame {
-        title: title.clone(),
-        field: Cow::Borrowed(&stored.field),
-        offset: stored.column,
-    });
+    let frames = frames.iter().map(|(title, field)| Frame { title: title.clone(), field });
     sheet.add("pressure.gif", |path| draw::animation(path, &animation, frames))?;
     Ok(())
 }
@@ -370,9 +408,33 @@ fn approach_over_passes(passes: &[PassRecord]) -> LineFigure {
     }
 }
 
+/// The largest pressure that a cell bears: below the hardness where shear softens what is plastic.
+enum Cap {
+    /// Of each cell.
+    Field(Field),
+    /// Of all cells.
+    Number(f64),
+}
+
+impl Cap {
+    /// The field `cap`, else the attribute `cap` of the file, else the hardness.
+    fn read(fields: &Fields) -> Outcome<Self> {
+        if fields.names()?.iter().any(|name| name == "cap") {
+            return Ok(Self::Field(Stored::read(fields, "cap")?.field));
+        }
+        match fields.attributes()?.get("cap") {
+            Some(Attribute::Number(cap)) => Ok(Self::Number(*cap)),
+            _ => Ok(Self::Number(hardness(fields)?)),
+        }
+    }
+}
+
 fn hardness(fields: &Fields) -> Outcome<f64> {
     match fields.attributes()?.get("hardness") {
         Some(Attribute::Number(hardness)) => Ok(*hardness),
         _ => Ok(f64::INFINITY),
     }
 }
+
+#[cfg(test)]
+mod tests;

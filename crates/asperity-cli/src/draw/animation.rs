@@ -1,11 +1,9 @@
 //! A field that changes, as an endless GIF.
 
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 
 use asperity::grid::{Field, Grid};
-use ndarray::{Axis, Slice};
 
 use super::axis::Quantity;
 use super::canvas::{Canvas, INK, PAPER, Rgb, mix};
@@ -32,10 +30,8 @@ pub(crate) struct Animation<'a> {
 pub(crate) struct Frame<'a> {
     /// Stands above the frame, such as "pass 2, position 17 of 96".
     pub(crate) title: String,
-    /// The field; it may have fewer columns than the common frame.
-    pub(crate) field: Cow<'a, Field>,
-    /// Column of the common frame where the field begins; all beyond the field is grey.
-    pub(crate) offset: usize,
+    /// The field on the common frame; what is not defined is grey.
+    pub(crate) field: &'a Field,
 }
 
 /// Width of the map, px.
@@ -52,8 +48,7 @@ pub(crate) fn animation<'f>(
     frames: impl IntoIterator<Item = Frame<'f>>,
 ) -> Result<()> {
     let shape = figure.grid.shape;
-    let mut common = Field::from_elem(shape, f64::NAN);
-    let background = common.clone();
+    let background = Field::from_elem(shape, f64::NAN);
     let still = MapFigure {
         // Room for a title of one line.
         title: " ".to_owned(),
@@ -75,18 +70,12 @@ pub(crate) fn animation<'f>(
     encoder.set_repeat(gif::Repeat::Infinite).map_err(io)?;
     let mut before: Option<Vec<u8>> = None;
     for frame in frames {
-        let (columns, rows) = frame.field.dim();
-        if rows != shape[1] || frame.offset + columns > shape[0] {
-            let offset = frame.offset;
-            let found = format!("a field of shape [{columns}, {rows}] at column {offset}");
-            return Err(invalid(path, format!("{found} of a frame of shape {shape:?}")));
+        if frame.field.shape() != shape {
+            let found = frame.field.shape();
+            return Err(invalid(path, format!("a field of shape {found:?} in a frame of shape {shape:?}")));
         }
-        common.fill(f64::NAN);
-        let covered = Slice::from(frame.offset..frame.offset + columns);
-        common.slice_axis_mut(Axis(0), covered).assign(&*frame.field);
-
         let mut image = base.clone();
-        let map = shading.image(common.view(), sheet.map.width as usize, sheet.map.height as usize);
+        let map = shading.image(frame.field.view(), sheet.map.width as usize, sheet.map.height as usize);
         image.paste(&map, sheet.map.x as usize, sheet.map.y as usize);
         let mut strip = Canvas::new(image.width as i32, STRIP);
         heading(&mut strip, &frame.title, sheet.title, image.width as f64);

@@ -1,0 +1,185 @@
+//! Figures of computed results: all there, all whole, for whatever a case asks for.
+
+use std::collections::BTreeSet;
+
+use arbtest::arbitrary::{Result as Arbitrary, Unstructured};
+use asperity::io::case::Case;
+use asperity::io::engine;
+use asperity::io::fields::FieldFile;
+use asperity::io::results::Existing;
+
+use super::*;
+
+fn under(forces: &[[f64; 2]]) -> Vec<IncrementRecord> {
+    let of = |(i, force): (usize, &[f64; 2])| IncrementRecord {
+        increment: i + 1,
+        stage: 1,
+        load: 1.0,
+        approach: 0.0,
+        tangential_force_x: force[0],
+        tangential_force_y: force[1],
+        tangential_displacement_x: 0.0,
+        tangential_displacement_y: 0.0,
+        contact_area: 1.0,
+        stick_area: 1.0,
+        max_pressure: 1.0,
+        max_shear: 1.0,
+        elastic_energy: 0.0,
+        dissipation: 0.0,
+        iterations: 0,
+        convolutions: 0.0,
+        residual: 0.0,
+    };
+    forces.iter().enumerate().map(of).collect()
+}
+
+#[test]
+fn rounding_decides_neither_the_axis_nor_the_sign_of_a_loading() {
+    let tiny = 1e-14;
+    for turned in [0.18 * (1.0 - 1e-12), 0.18, 0.18 * (1.0 + 1e-12)] {
+        let to_and_fro = under(&[[0.0, 0.0], [0.18, tiny], [-turned, -tiny], [0.18, 0.0]]);
+        assert_eq!(direction(&to_and_fro), [1.0, 0.0]);
+        let across = under(&[[tiny, 0.18], [-tiny, -turned]]);
+        assert_eq!(direction(&across), [0.0, 1.0]);
+        let [x, y] = direction(&under(&[[0.1, -0.1], [-turned / 1.8, turned / 1.8]]));
+        assert!((x - 0.5f64.sqrt()).abs() < 1e-12 && (y + 0.5f64.sqrt()).abs() < 1e-12, "{x}, {y}");
+    }
+    assert_eq!(direction(&under(&[[0.0, 0.0]])), [1.0, 0.0]);
+}
+
+#[test]
+fn a_cell_at_its_own_cap_is_plastic_whatever_the_hardness() {
+    let grid = Grid::new([3, 1], [1e-6; 2]).unwrap();
+    let row = |values: [f64; 3]| Field::from_shape_fn([3, 1], |(i, _)| values[i]);
+    let folder = tempfile::tempdir().unwrap();
+    let classes = |attribute: Option<f64>, field: Option<[f64; 3]>| {
+        let path = folder.path().join("fields.h5");
+        let mut file = FieldFile::new();
+        file.set("hardness", 2e9);
+        if let Some(cap) = attribute {
+            file.set("cap", cap);
+        }
+        if let Some(caps) = field {
+            file.add_field("cap", "Pa", &grid, [0.0; 2], &row(caps));
+        }
+        file.add_field("pressure", "Pa", &grid, [0.0; 2], &row([0.0, 1.6e9, 2e9]));
+        file.write(&path).unwrap();
+        let fields = Fields::open(&path).unwrap();
+        let share = Stored::read(&fields, "pressure").unwrap().over(&Cap::read(&fields).unwrap());
+        share.field.iter().map(|p| *p >= 1.0).collect::<Vec<_>>()
+    };
+    assert_eq!(classes(None, None), [false, false, true]);
+    assert_eq!(classes(Some(1.6e9), None), [false, true, true]);
+    assert_eq!(classes(None, Some([2e9, 1.6e9, 2e9])), [false, true, true]);
+}
+
+/// A motion of any strategy, shape, stride and speeds, in the words of a case file.
+fn moving(u: &mut Unstructured) -> Arbitrary<String> {
+    let shift = u.arbitrary()?;
+    let [columns, rows, other]: [usize; 3] =
+        [u.int_in_range(1..=14)?, u.int_in_range(1..=10)?, u.int_in_range(1..=14)?];
+    let rough = u.int_in_range(0..=3)? > 0;
+    let mut body = |name: &str, columns: usize| -> Arbitrary<String> {
+        let hardness = ["", "hardness = 4e9, ", "hardness = 1e12, "][u.choose_index(3)?];
+        let seed = u.int_in_range(1..=99)?;
+        let shape = format!("shape = [{columns}, {rows}], pitch = 1e-6");
+        let topography = match rough && columns.min(rows) > 4 {
+            true => format!("generate = \"low-pass\", {shape}, sq = 20e-9, cutoff = 4e-6, seed = {seed}"),
+            false => format!("form = \"flat\", {shape}"),
+        };
+        Ok(format!(
+            "{name} = {{ young = 210e9, poisson = 0.3, {hardness}topography = {{ {topography} }} }}\n"
+        ))
+    };
+    let lower = body("lower", columns)?;
+    let upper = body("upper", if shift { columns } else { other })?;
+    let [pressure, control] = match u.int_in_range(0..=3)? {
+        0 => ["mean_pressure = 5e6", "step-load"],
+        1 => ["approach = -1e-6", "approach"],
+        2 => ["approach = 1e-9", "approach"],
+        _ => ["mean_pressure = 5e6", "pass-load"],
+    };
+    let boundary = if shift && u.arbitrary()? { "periodic" } else { "free" };
+    let strategy = if shift {
+        let speeds = [[0, 1], [1, 0], [1, 1], [2, 1], [3, -1], [-1, 2]][u.choose_index(6)?];
+        format!("strategy = \"shift\", speed_lower = {}, speed_upper = {}", speeds[0], speeds[1])
+    } else {
+        "strategy = \"overlap\"".to_owned()
+    };
+    let passes = u.int_in_range(1..=3)?;
+    let stride = u.int_in_range(1..=16)?;
+    let update = ["pass", "step"][u.choose_index(2)?];
+    let kept = u.int_in_range(0..=5)?;
+    let friction =
+        ["", "friction = { coefficient = 0.3 }\n", "friction = { coefficient = 0.3, junction_growth = 9 }\n"]
+            [u.choose_index(3)?];
+    Ok(format!(
+        "{lower}{upper}contact = {{ {pressure}, boundary = \"{boundary}\" }}\n\
+         motion = {{ {strategy}, passes = {passes}, stride = {stride}, control = \"{control}\", \
+         plastic_update = \"{update}\" }}\noutput = {{ pressure_every = {kept} }}\n{friction}"
+    ))
+}
+
+#[test]
+fn any_motion_has_all_its_figures() {
+    // More by hand: ASPERITY_CASES=300.
+    let cases = std::env::var("ASPERITY_CASES").map_or(8, |cases| cases.parse::<u64>().unwrap());
+    let (mut drawn, mut seed) = (0, 0);
+    while drawn < cases {
+        seed += 1;
+        drawn += u64::from(has_all_its_figures(&case_of(seed)));
+    }
+    assert!(seed < 2 * cases + 10, "of {seed} cases only {drawn} could be computed");
+}
+
+fn case_of(seed: u64) -> String {
+    // SplitMix64.
+    let bytes: Vec<u8> = (1..=32)
+        .flat_map(|i| {
+            let mut z = (seed << 32).wrapping_add(i).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            (z ^ (z >> 31)).to_le_bytes()
+        })
+        .collect();
+    moving(&mut Unstructured::new(&bytes)).unwrap()
+}
+
+/// Whether the case can be computed; then all its figures are there and whole.
+fn has_all_its_figures(text: &str) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    let Ok(case) = Case::parse(text, Path::new("case.toml"), folder.path()) else { return false };
+    let directory = folder.path().join("results");
+    if engine::run(&case, &directory, Existing::Keep, &()).is_err() {
+        return false;
+    }
+    let paths = draw(&Results::open(&directory).unwrap()).unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
+    let names: BTreeSet<_> = paths.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
+    for name in ["topographies", "mean_pressure", "load", "contact_area", "roughness", "approach"] {
+        assert!(names.contains(format!("{name}.png").as_str()), "no {name} of\n{text}");
+    }
+    let kept = !text.contains("pressure_every = 0");
+    for name in ["pressure.png", "contact.png", "pressure.gif"] {
+        assert_eq!(names.contains(name), kept, "{name} of\n{text}");
+    }
+    for path in &paths {
+        assert!(is_whole(path), "{} of\n{text}", path.display());
+    }
+    true
+}
+
+/// Whether a picture can be decoded to its last pixel.
+fn is_whole(path: &Path) -> bool {
+    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+    if path.extension().is_some_and(|extension| extension == "gif") {
+        let mut decoder = gif::Decoder::new(file).unwrap();
+        let mut frames = 0;
+        while decoder.read_next_frame().unwrap().is_some() {
+            frames += 1;
+        }
+        return frames > 0;
+    }
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).is_ok()
+}
