@@ -18,7 +18,7 @@ pub(crate) fn check(arguments: &Check) -> Outcome {
     let bodies = bodies(&case)?;
     let outlook = outlook(&case, &bodies)?;
     print(&text(&case, &bodies, &outlook));
-    for warning in &outlook.warnings {
+    for warning in outlook.warnings.iter().chain(&outlook.foreseen) {
         note(&format!("warning: {warning}"));
     }
     Ok(())
@@ -111,6 +111,10 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
     {
         let share = 100.0 * load / outlook.plastic_limit;
         let _ = write!(text, " ({share:.1} % of the plastic limit {})", force(outlook.plastic_limit));
+    }
+    if let Control::PassLoad(load) | Control::StepLoad(load) = outlook.control {
+        let mean = units::format(load / outlook.mean_facing_area, Dimension::Pressure);
+        let _ = write!(text, ", mean pressure {mean} on what faces");
     }
     let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);
     text

@@ -126,7 +126,7 @@ impl Watch for Display {
 fn table(summary: &Summary) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(record),
-        Outcome::Passes(passes) => passes_table(passes),
+        Outcome::Passes(passes) => passes_table(passes, rim(&summary.case)),
     };
     contact + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
@@ -144,6 +144,7 @@ fn static_table(record: &StaticRecord) -> String {
     let share = 100.0 * record.contact_area / record.apparent_area;
     let mut rows = vec![
         ("load", format(record.load, Dimension::Force)),
+        ("mean pressure", format(record.load / record.apparent_area, Dimension::Pressure)),
         ("approach", format(record.approach, Dimension::Length)),
         ("contact area", format!("{} ({share:.3} %)", format(record.contact_area, Dimension::Area))),
         ("largest pressure", format(record.max_pressure, Dimension::Pressure)),
@@ -176,32 +177,46 @@ fn static_table(record: &StaticRecord) -> String {
     rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
 }
 
-fn passes_table(passes: &[PassRecord]) -> String {
-    const HEADS: [&str; 8] = [
+/// The part of the bodies' length that is their rim at free ends; 0 where they have none.
+fn rim(case: &serde_json::Value) -> f64 {
+    let is_free = case["contact"]["boundary"] == "free";
+    case["output"]["rim"].as_f64().filter(|_| is_free).unwrap_or(0.0)
+}
+
+/// A line for each pass; what has a rim is told without it.
+fn passes_table(passes: &[PassRecord], rim: f64) -> String {
+    const HEADS: [&str; 9] = [
         "pass",
         "approach",
         "mean load",
-        "mean area",
+        "mean pressure",
         "max pressure",
+        "mean area",
         "plastic volume",
         "Sq lower",
         "Sq upper",
     ];
     let slides = passes.iter().any(|pass| pass.mean_tangential_force != 0.0);
     let friction = |text: String| if slides { format!("{text:>17}\n") } else { "\n".to_owned() };
-    let mut text = HEADS.map(|head| format!("{head:>15}")).concat();
+    let mut text = String::new();
+    if rim > 0.0 {
+        let over = format!("interior: farther than {rim} of the length from free ends");
+        text = format!("{over:>135}\n");
+    }
+    text.push_str(&HEADS.map(|head| format!("{head:>15}")).concat());
     text.push_str(&friction("friction coeff.".to_owned()));
     for pass in passes {
-        let plastic = pass.plastic_volume_lower + pass.plastic_volume_upper;
+        let plastic = pass.plastic_volume_lower_interior + pass.plastic_volume_upper_interior;
         let cells = [
             pass.pass.to_string(),
             format(pass.approach, Dimension::Length),
             format(pass.mean_load, Dimension::Force),
-            format(pass.mean_contact_area, Dimension::Area),
+            format(pass.mean_pressure, Dimension::Pressure),
             format(pass.max_pressure, Dimension::Pressure),
+            format(pass.mean_contact_area_interior, Dimension::Area),
             format(plastic, Dimension::Volume),
-            format(pass.sq_lower, Dimension::Length),
-            format(pass.sq_upper, Dimension::Length),
+            format(pass.sq_lower_interior, Dimension::Length),
+            format(pass.sq_upper_interior, Dimension::Length),
         ];
         text.push_str(&cells.map(|cell| format!("{cell:>15}")).concat());
         text.push_str(&friction(format!("{:.6}", pass.friction_coefficient)));

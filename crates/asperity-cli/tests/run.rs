@@ -23,9 +23,18 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
     let folder = folder_with("case.toml", &moving(2, 4));
     let output = run(&folder, "case.toml");
     let table = ok(&output);
-    assert_eq!(table.lines().count(), 3, "a head and a line per pass: {table}");
+    assert_eq!(table.lines().count(), 4, "a head of two lines and a line per pass: {table}");
     assert!(table.contains("mean load") && table.contains("20 mN"), "{table}");
-    assert_eq!(stderr(&output), "results and figures in case-results\n");
+    assert!(
+        table.starts_with(&format!("{:80}interior: farther than 0.1 of the length from free ends\n", ""))
+    );
+    let said = stderr(&output);
+    let (warnings, end) = said.trim_end().rsplit_once('\n').unwrap();
+    assert!(
+        warnings.lines().all(|line| line.starts_with("warning: ")) && warnings.contains("a comb"),
+        "{said}"
+    );
+    assert_eq!(end, "results and figures in case-results");
 
     let figures = [
         "approach.png",
@@ -50,7 +59,7 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
     let folder = folder_with("ball.toml", BALL);
     let output = run(&folder, "ball.toml --out results/of/ball");
     let table = ok(&output);
-    assert!(table.starts_with("load              20 mN\napproach  "), "{table}");
+    assert!(table.starts_with("load              20 mN\nmean pressure     19.53 MPa\napproach  "), "{table}");
     let figures = ["contact.png", "gap.png", "plastic.png", "pressure.png", "topographies.png"];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
     expected.extend(["case.json", "fields.h5", "summary.json"].map(str::to_owned));
@@ -403,7 +412,7 @@ fn a_motion_with_friction_bears_its_coefficient_and_less_under_a_film() {
     let rubbing = |friction: &str| format!("{}friction = {{ coefficient = 0.2{friction} }}\n", moving(2, 4));
     let folder = folder_with("case.toml", &rubbing(""));
     let table = ok(&run(&folder, "case.toml --out out"));
-    assert!(table.lines().next().unwrap().ends_with("friction coeff."), "{table}");
+    assert!(table.lines().nth(1).unwrap().ends_with("friction coeff."), "{table}");
     let out = folder.path().join("out");
     assert!(files(&out).contains("figures/friction.png"));
     for row in table_of(&out.join("steps.csv"), &STEP_COLUMNS) {
@@ -584,7 +593,7 @@ fn more_passes_are_appended_to_finished_ones() {
     ok(&run(&folder, "case.toml --out parts"));
     change(&folder, "passes = 1", "passes = 3");
     let table = ok(&run(&folder, "case.toml --out parts --resume"));
-    assert_eq!(table.lines().count(), 4, "{table}");
+    assert_eq!(table.lines().count(), 5, "{table}");
     assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
     assert_eq!(summary(&folder.path().join("parts"))["case"]["motion"]["passes"], 3);
     // Nothing is left to do, and nothing is done.

@@ -42,7 +42,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     let motion = case.motion(1.0).unwrap();
     assert_eq!(motion.control, Control::PassLoad(2.0));
     assert_eq!((motion.strategy, motion.passes, motion.stride), (Strategy::Overlap, 5, 1));
-    assert_eq!(case.output.pressure_every, 8);
+    assert_eq!((case.output.pressure_every, case.output.rim), (8, 0.25));
     assert_eq!(case.files().count(), 1);
 }
 
@@ -78,7 +78,7 @@ fn what_is_left_out_takes_its_default() {
     assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
     assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));
     assert!(case.motion.is_none() && case.motion(1.0).is_none());
-    assert_eq!(case.output.pressure_every, 8);
+    assert_eq!((case.output.pressure_every, case.output.rim), (8, 0.1));
 
     let motion = load("forms").motion.unwrap();
     assert_eq!((motion.passes, motion.stride, motion.load_tolerance), (1, 1, 1e-4));

@@ -136,6 +136,88 @@ fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
     }
 }
 
+/// Columns of records held against the fields, with free and with joined ends.
+#[test]
+fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
+    let slide = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    for (strategy, boundary, update) in [
+        (Strategy::Overlap, Boundary::Free, PlasticUpdate::Pass),
+        (Strategy::Overlap, Boundary::Free, PlasticUpdate::Step),
+        (slide, Boundary::Free, PlasticUpdate::Pass),
+        (slide, Boundary::Periodic, PlasticUpdate::Step),
+    ] {
+        let motion = Motion { strategy, plastic_update: update, ..motion(Control::PassLoad(20.0 * LOAD), 2) };
+        let [kept, whole] = [0.2, 0.0].map(|rim| {
+            let simulation = Simulation::new(rough_pair(24), boundary, motion, Params::default()).unwrap();
+            continued(simulation.with_rim(rim).unwrap())
+        });
+        // Of 24 cells those whose centres are farther than 4.8 cells from an end.
+        let interior = |field: &Field, columns: bool| {
+            let (inside, all) = (5..19, 0..24);
+            let x = if columns { inside.clone() } else { all.clone() };
+            let y = if boundary == Boundary::Free { inside } else { all };
+            field.slice(ndarray::s![x, y]).to_owned()
+        };
+        let ends =
+            [strategy == Strategy::Overlap || boundary == Boundary::Free, strategy == Strategy::Overlap];
+        let (mut before, mut lost_inside) = (rough_pair(24), 0.0);
+        for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
+            let told = [
+                [pass.plastic_volume_lower_interior, pass.sq_lower_interior, pass.plastic_volume_lower],
+                [pass.plastic_volume_upper_interior, pass.sq_upper_interior, pass.plastic_volume_upper],
+            ];
+            for (body, [lost, sq, all]) in told.into_iter().enumerate() {
+                let [from, to] = [&before, after].map(|pair| [&pair.lower, &pair.upper][body]);
+                let fell = interior(&(from - to), ends[body]).sum().abs() * before.cell_area();
+                let roundoff = 1e-14 * before.cell_area() * 576.0 * 35e-9;
+                assert!(
+                    (fell - lost).abs() <= 1e-9 * lost + roundoff,
+                    "{strategy:?}: {fell:e}, lost {lost:e}"
+                );
+                lost_inside += lost;
+                assert_close(&[interior(to, ends[body]).std(0.0)], &[sq], 1e-14, "Sq");
+                assert!(if boundary == Boundary::Periodic { lost == all } else { lost < all });
+            }
+            before = after.clone();
+        }
+        assert!(lost_inside > 0.0);
+        for (pass, other) in kept.passes.iter().zip(&whole.passes) {
+            let area = mean(&kept.steps_of(pass.pass).map(|s| s.contact_area_interior).collect::<Vec<_>>());
+            assert_close(&[area], &[pass.mean_contact_area_interior], 1e-13, "contact area");
+            assert_eq!(area < pass.mean_contact_area, boundary == Boundary::Free);
+            let PassRecord {
+                mean_contact_area, plastic_volume_lower, plastic_volume_upper, sq_lower, ..
+            } = *other;
+            let told = [
+                other.mean_contact_area_interior,
+                other.plastic_volume_lower_interior,
+                other.plastic_volume_upper_interior,
+                other.sq_lower_interior,
+            ];
+            assert_eq!(told, [mean_contact_area, plastic_volume_lower, plastic_volume_upper, sq_lower]);
+        }
+        assert!(whole.steps.iter().all(|s| s.plastic_volume_interior == s.plastic_volume));
+    }
+    for rim in [0.5, -0.1, f64::NAN] {
+        let simulation = Simulation::new(
+            rough_pair(24),
+            Boundary::Free,
+            motion(Control::PassLoad(LOAD), 1),
+            Params::default(),
+        );
+        let Err(error) = simulation.unwrap().with_rim(rim) else { panic!("a rim of {rim}") };
+        assert!(error.to_string().starts_with("rim is"), "{error}");
+    }
+}
+
+#[test]
+fn the_mean_pressure_is_the_mean_load_over_the_mean_area_that_faces() {
+    let pass = &run(rough_pair(24), motion(Control::PassLoad(LOAD), 1)).passes[0];
+    // Of 47 positions of 24 columns: 24²/47 face on the average.
+    let area = 24.0 * 24.0 / 47.0 * rough_pair(24).grid(1).area();
+    assert_close(&[pass.mean_pressure], &[pass.mean_load / area], 1e-12, "mean pressure");
+}
+
 #[test]
 fn the_harder_body_loses_nothing() {
     let [soft, hard] = [2e9, 7e9].map(|hardness| Material::new(STEEL[0], STEEL[1], hardness).unwrap());

@@ -8,6 +8,7 @@ use crate::io::case::{Case, Course};
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
 use crate::io::results::{Existing, PassWriter, Results};
+use crate::io::review;
 use crate::io::summary::{Outcome, Summary};
 use crate::motion::{Motion, Pair, Simulation, StaticRecord, Watch, load_in_stages, press, roll};
 use crate::solver::Params;
@@ -30,15 +31,19 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
     let params =
         Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
     let area = outlook.apparent_area;
+    let mut warnings = outlook.warnings;
     let (outcome, subsurface) = match case.motion(area) {
         None => {
             let (record, tractions) = rest(case, &results, &pair, area, &params, watch)?;
+            warnings.extend(review::static_contact(&pair, case.contact.boundary, &tractions.pressure));
             let stress = outlook.subsurface.map(|plan| results.write_subsurface(&plan, tractions));
             (Outcome::Static(record), stress.transpose()?.into_iter().collect())
         }
         Some(motion) => {
             let writer = results.writer(case.output.pressure_every, outlook.subsurface)?;
+            let shapes = [pair.lower_grid().shape, pair.upper_grid().shape];
             let writer = move_over(case, &results, writer, pair, motion, params, watch)?;
+            warnings.extend(review::motion(case, shapes, writer.passes()));
             (Outcome::Passes(writer.passes().to_vec()), writer.subsurface().to_vec())
         }
     };
@@ -47,7 +52,7 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
         case: resolved,
         outcome,
         subsurface,
-        warnings: outlook.warnings,
+        warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };
     results.finish(&summary)?;
@@ -95,17 +100,17 @@ fn move_over(
     params: Params,
     watch: &dyn Watch,
 ) -> Result<PassWriter> {
-    let boundary = case.contact.boundary;
+    let (boundary, rim) = (case.contact.boundary, case.output.rim);
     let done = results.passes()?;
     let mut simulation = match done.last() {
         None => {
-            let simulation = Simulation::new(initial, boundary, motion, params)?;
+            let simulation = Simulation::new(initial, boundary, motion, params)?.with_rim(rim)?;
             results.write_initial(simulation.pair())?;
             simulation
         }
         Some(last) => {
             let pair = pair(case, results.surfaces_after(done.len())?)?;
-            Simulation::new(pair, boundary, motion, params)?.resumed(done.len(), last.approach)
+            Simulation::new(pair, boundary, motion, params)?.with_rim(rim)?.resumed(done.len(), last.approach)
         }
     };
     simulation.run(watch, &mut [&mut writer])?;

@@ -7,6 +7,7 @@ pub mod fields; // HDF5: named fields with unit, axes, pitch
 pub mod outlook; // what a case will take, and what to be wary of
 pub mod prepare; // from a case to the two surfaces that meet
 pub mod results; // the results directory
+mod review; // what to be wary of in a result
 pub mod subsurface; // the stress under the surface: where it is wanted, its file
 pub mod summary; // summary.json
 pub mod tables; // steps.csv, passes.csv

@@ -1,12 +1,16 @@
 //! What a case will take, and what to be wary of, told before anything is solved.
 
+mod contact;
+
+pub(super) use contact::{cut_off, spot, too_few_cells};
+
 use super::case::{Body, Boundary, Case, Course, Layer, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Position, Stage, Strategy, memory_together};
+use crate::motion::{Control, Position, Stage, Strategy, initial_gap, memory_together};
 use crate::solver::{self, Coupling, Friction, Rolling, Sliding, Tangential};
 use crate::surface::Level;
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
@@ -32,6 +36,8 @@ pub struct Outlook {
     pub passes: usize,
     /// Largest apparent area of a position.
     pub apparent_area: SquareMetre,
+    /// Mean apparent area over the positions.
+    pub mean_facing_area: SquareMetre,
     /// Largest load that the control could ask for, every facing cell at the hardness; infinite for an elastic pair.
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, as if the surfaces were independent.
@@ -43,6 +49,8 @@ pub struct Outlook {
     pub subsurface: Option<Plan>,
     /// What the user should know before trusting the result.
     pub warnings: Vec<String>,
+    /// What to expect by Hertz' estimate; a result shows it by itself.
+    pub foreseen: Vec<String>,
 }
 
 /// What `case` will take on its `bodies`.
@@ -84,13 +92,16 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         positions: overlaps.len(),
         passes: case.motion.map_or(1, |motion| motion.passes),
         apparent_area,
+        mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
         memory: memory(case, bodies, &overlaps, hardness, &compliances),
         subsurface: Plan::new(case, &lower_grid, &positions)?,
         warnings: Vec::new(),
+        foreseen: Vec::new(),
     };
     outlook.warnings = warnings(case, bodies, &outlook);
+    contacts(case, bodies, &positions, &mut outlook);
     Ok(outlook)
 }
 
@@ -215,10 +226,50 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
             units::format(outlook.plastic_limit, Dimension::Force)
         ));
     }
+    if let Some(motion) = case.motion
+        && motion.stride > 1
+        && outlook.hardness.is_finite()
+    {
+        warnings.push(format!(
+            "with `stride = {}` each column meets {:.2} % of those that pass it: asperities that yield leave a comb \
+             instead of a track, and the plastic volume is too small; `stride = 1` lets all of them meet",
+            motion.stride,
+            100.0 / motion.stride as f64
+        ));
+    }
     if let Some(friction) = &case.friction {
         frictional(&friction.law, outlook, &mut warnings);
     }
     warnings
+}
+
+/// What can be told of the contacts: that there is none, that the rim of the grid cuts them off, that they have too few
+/// cells.
+fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], outlook: &mut Outlook) {
+    let surfaces = [bodies.lower.topography.heights(), bodies.upper.topography.heights()];
+    if let Control::Approach(approach) = outlook.control
+        && let Some(touch) = contact::apart(surfaces, positions, approach)
+    {
+        outlook.warnings.push(contact::no_contact(approach, touch));
+        return;
+    }
+    let most = positions.iter().map(|position| position.columns).max().unwrap_or(0);
+    let fullest: Vec<&Position> = positions.iter().filter(|position| position.columns == most).collect();
+    let Some(position) = fullest.get(fullest.len() / 2) else { return };
+    let control = match outlook.control {
+        Control::PassLoad(load) => {
+            solver::Control::Load(load * outlook.apparent_area / outlook.mean_facing_area)
+        }
+        Control::StepLoad(load) => solver::Control::Load(load),
+        Control::Approach(approach) => solver::Control::Approach(approach),
+    };
+    let gap = initial_gap(surfaces, position);
+    let pitch = bodies.lower.topography.grid().pitch;
+    let foreseen = contact::foreseen(&gap, pitch, outlook.modulus, case.contact.boundary, control);
+    // Of a motion only its tables are left, which do not tell where in a contact the pressure is.
+    let warnings = if case.motion.is_some() { &mut outlook.warnings } else { &mut outlook.foreseen };
+    warnings.extend(foreseen.rim);
+    outlook.foreseen.extend(foreseen.coarse);
 }
 
 /// Friction whose answer is not the one that is looked for.

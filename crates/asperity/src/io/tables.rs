@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::motion::{IncrementRecord, PassRecord, StepRecord};
 
 /// Columns of `steps.csv`.
-pub const STEP_COLUMNS: [&str; 14] = [
+pub const STEP_COLUMNS: [&str; 17] = [
     "pass",
     "step",
     "offset",
@@ -23,16 +23,19 @@ pub const STEP_COLUMNS: [&str; 14] = [
     "load",
     "tangential_force",
     "contact_area",
+    "contact_area_interior",
+    "largest_spot_cells",
     "max_pressure",
     "plastic_cells",
     "plastic_volume",
+    "plastic_volume_interior",
     "iterations",
     "convolutions",
     "residual",
 ];
 
 /// Columns of `passes.csv`.
-pub const PASS_COLUMNS: [&str; 16] = [
+pub const PASS_COLUMNS: [&str; 23] = [
     "pass",
     "approach",
     "mean_load",
@@ -40,12 +43,19 @@ pub const PASS_COLUMNS: [&str; 16] = [
     "friction_coefficient",
     "min_load",
     "max_load",
+    "mean_pressure",
     "mean_contact_area",
+    "mean_contact_area_interior",
+    "largest_spot_cells",
     "max_pressure",
     "plastic_volume_lower",
     "plastic_volume_upper",
+    "plastic_volume_lower_interior",
+    "plastic_volume_upper_interior",
     "sq_lower",
     "sq_upper",
+    "sq_lower_interior",
+    "sq_upper_interior",
     "outer_iterations",
     "convolutions",
     "wall_time_s",
@@ -154,9 +164,12 @@ mod tests {
             load: 0.1 + 0.2,
             tangential_force: -0.03,
             contact_area: 1e-300,
+            contact_area_interior: 0.0,
+            largest_spot_cells: 1,
             max_pressure: 4e9,
             plastic_cells: 0,
             plastic_volume: 0.0,
+            plastic_volume_interior: 0.0,
             iterations: 12,
             convolutions: 13.25,
             residual: f64::NAN,
@@ -172,12 +185,19 @@ mod tests {
             friction_coefficient: 0.1,
             min_load: 0.0,
             max_load: 3.0,
+            mean_pressure: 2e7,
             mean_contact_area: 1e-10,
+            mean_contact_area_interior: 8e-11,
+            largest_spot_cells: 7,
             max_pressure: 4e9,
             plastic_volume_lower: 1e-18,
             plastic_volume_upper: 2e-18,
+            plastic_volume_lower_interior: 6e-19,
+            plastic_volume_upper_interior: 1e-18,
             sq_lower: 2e-7,
             sq_upper: 1.0 / 7.0,
+            sq_lower_interior: 1.9e-7,
+            sq_upper_interior: 1.0 / 8.0,
             outer_iterations: 4,
             convolutions: 800.0,
             wall_time_s: 0.25,
@@ -199,16 +219,11 @@ mod tests {
             assert_eq!(names, sorted);
         }
         write_steps(&path, &[]).unwrap();
-        let header = "pass,step,offset,overlap_columns,approach,load,tangential_force,contact_area,max_pressure,plastic_cells,\
-                      plastic_volume,\
-                      iterations,convolutions,residual\n";
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
+        let header = |columns: &[&str]| columns.join(",") + "\n";
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), header(&STEP_COLUMNS));
         assert_eq!(read_steps(&path).unwrap(), []);
         write_passes(&path, &[]).unwrap();
-        let header = "pass,approach,mean_load,mean_tangential_force,friction_coefficient,min_load,max_load,mean_contact_area,max_pressure,\
-                      plastic_volume_lower,plastic_volume_upper,sq_lower,sq_upper,outer_iterations,convolutions,\
-                      wall_time_s\n";
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), header);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), header(&PASS_COLUMNS));
     }
 
     #[test]

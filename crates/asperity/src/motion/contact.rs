@@ -5,6 +5,8 @@ use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
+use crate::motion::rim::Interior;
+use crate::motion::spot::largest_spot;
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal, solve_sliding};
 use crate::units::{CubicMetre, Metre, Newton, Pascal};
@@ -130,7 +132,20 @@ impl Contact {
     }
 
     /// The row of `steps.csv`.
-    pub(super) fn record(&self, pair: &Pair, pass: usize, step: usize) -> StepRecord {
+    pub(super) fn record(
+        &self,
+        pair: &Pair,
+        interiors: &[Interior; 2],
+        boundary: Boundary,
+        [pass, step]: [usize; 2],
+    ) -> StepRecord {
+        let inside = |cell: u32| {
+            let [lower, upper] = pair.cells_of_bodies(&self.position, cell as usize);
+            interiors[0].holds(lower) && interiors[1].holds(upper)
+        };
+        let touching = self.pressure.iter().map(|(cell, _)| *cell as usize);
+        let shape = pair.grid(self.position.columns).shape;
+        let interference = self.plastic.iter().filter(|(cell, _)| inside(*cell)).map(|(_, w)| w);
         StepRecord {
             pass,
             step,
@@ -140,9 +155,13 @@ impl Contact {
             load: self.load,
             tangential_force: self.tangential_force,
             contact_area: pair.cell_area() * self.pressure.len() as f64,
+            contact_area_interior: pair.cell_area()
+                * self.pressure.iter().filter(|(cell, _)| inside(*cell)).count() as f64,
+            largest_spot_cells: largest_spot(touching, shape, boundary == Boundary::Periodic),
             max_pressure: self.max_pressure(),
             plastic_cells: self.plastic.len(),
             plastic_volume: self.plastic_volume(pair),
+            plastic_volume_interior: pair.cell_area() * interference.sum::<f64>(),
             iterations: self.stats.iterations,
             convolutions: self.stats.convolutions,
             residual: self.residual,

@@ -9,15 +9,20 @@ mod together;
 mod path;
 mod plastic;
 mod record;
+mod rim;
 mod simulation;
+mod spot;
 mod watch;
 
 pub use contact::{Contact, press};
 pub use loading::{FrictionalContact, Stage, load_in_stages, roll};
 pub use pair::Pair;
+pub(crate) use pair::initial_gap;
 pub use path::{Position, overlap_positions, shift_positions};
 pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord};
+pub use rim::Interior;
 pub use simulation::Simulation;
+pub(crate) use spot::largest_spot;
 pub(crate) use together::memory_together;
 pub use watch::{Output, PassReport, Progress, Watch};
 

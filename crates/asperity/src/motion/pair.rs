@@ -122,13 +122,7 @@ impl Pair {
 
     /// Undeformed gap h = z₂ − z₁ of the cells that face each other.
     pub fn initial_gap(&self, position: &Position) -> Field {
-        let mut gap = Field::zeros([position.columns, self.lower.ncols()]);
-        for (j, mut row) in gap.outer_iter_mut().enumerate() {
-            let lower = self.lower.row((position.lower + j) % self.lower.nrows());
-            let upper = self.upper.row((position.upper + j) % self.upper.nrows());
-            ndarray::Zip::from(&mut row).and(lower).and(upper).for_each(|h, z1, z2| *h = z2 - z1);
-        }
-        gap
+        initial_gap([&self.lower, &self.upper], position)
     }
 
     /// Of a flat cell of the contact at `position`: its flat cells of the lower and of the upper body.
@@ -140,4 +134,16 @@ impl Pair {
             (position.upper + column) % self.upper.nrows() * width + across,
         ]
     }
+}
+
+/// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.
+pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
+    let [lower, upper] = surfaces;
+    let mut gap = Field::zeros([position.columns, lower.ncols()]);
+    for (j, mut row) in gap.outer_iter_mut().enumerate() {
+        let lower = lower.row((position.lower + j) % lower.nrows());
+        let upper = upper.row((position.upper + j) % upper.nrows());
+        ndarray::Zip::from(&mut row).and(lower).and(upper).for_each(|h, z1, z2| *h = z2 - z1);
+    }
+    gap
 }

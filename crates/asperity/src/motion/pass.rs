@@ -10,6 +10,7 @@ use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::plastic::{LostVolume, deform_after, deform_at};
+use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::{Motion, PlasticUpdate};
 use crate::operator::Operators;
@@ -35,6 +36,7 @@ pub(super) struct Solver<'a> {
     pub(super) operators: &'a Operators,
     pub(super) positions: &'a [Position],
     pub(super) motion: &'a Motion,
+    pub(super) interiors: &'a [Interior; 2],
     pub(super) watch: &'a dyn Watch,
     /// Pass and trial, for the watch.
     pub(super) progress: Progress,
@@ -70,11 +72,10 @@ impl Solver<'_> {
         let mut after = pair.clone();
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
-            let mut lost = [0.0; 2];
+            let mut lost = LostVolume::default();
             for index in 0..self.positions.len() {
                 let contact = solve(&after, index)?;
-                let here = deform_at(&mut after, &contact);
-                lost = [lost[0] + here[0], lost[1] + here[1]];
+                lost.add(&deform_at(&mut after, self.interiors, &contact));
                 contacts.push(contact);
             }
             return Ok(Pass { contacts, pair: after, lost });
@@ -83,7 +84,7 @@ impl Solver<'_> {
             .into_par_iter()
             .map(|index| solve(pair, index))
             .collect::<Result<_>>()?;
-        let lost = deform_after(&mut after, &contacts);
+        let lost = deform_after(&mut after, self.interiors, &contacts);
         Ok(Pass { contacts, pair: after, lost })
     }
 }

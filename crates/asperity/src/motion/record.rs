@@ -116,12 +116,18 @@ pub struct StepRecord {
     pub tangential_force: Newton,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
+    /// Area of those of them that are in the interior of both bodies.
+    pub contact_area_interior: SquareMetre,
+    /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
+    pub largest_spot_cells: usize,
     /// Largest pressure.
     pub max_pressure: Pascal,
     /// Number of cells at the hardness.
     pub plastic_cells: usize,
     /// ΔA Σ w, w the interference left at the cells at the hardness.
     pub plastic_volume: CubicMetre,
+    /// The same over the cells that are in the interior of both bodies.
+    pub plastic_volume_interior: CubicMetre,
     /// Iterations of the solver at the last approach tried.
     pub iterations: usize,
     /// Convolutions over all approaches tried.
@@ -147,18 +153,33 @@ pub struct PassRecord {
     pub min_load: Newton,
     /// Largest load.
     pub max_load: Newton,
+    /// Mean load over the mean area that faces.
+    pub mean_pressure: Pascal,
     /// Mean real contact area over the positions.
     pub mean_contact_area: SquareMetre,
+    /// Mean real contact area over the positions, of the cells that are in the interior of both bodies.
+    pub mean_contact_area_interior: SquareMetre,
+    /// Cells across the largest contact spot met: of the spot with the most cells at a position, its columns or its rows,
+    /// the fewer.
+    pub largest_spot_cells: usize,
     /// Largest pressure met.
     pub max_pressure: Pascal,
     /// Volume that the lower body lost in this pass.
     pub plastic_volume_lower: CubicMetre,
     /// Volume that the upper body lost in this pass.
     pub plastic_volume_upper: CubicMetre,
+    /// Volume that the interior of the lower body lost in this pass.
+    pub plastic_volume_lower_interior: CubicMetre,
+    /// Volume that the interior of the upper body lost in this pass.
+    pub plastic_volume_upper_interior: CubicMetre,
     /// Rms height of the lower surface after the pass.
     pub sq_lower: Metre,
     /// Rms height of the upper surface after the pass.
     pub sq_upper: Metre,
+    /// Rms height of the interior of the lower surface after the pass.
+    pub sq_lower_interior: Metre,
+    /// Rms height of the interior of the upper surface after the pass.
+    pub sq_upper_interior: Metre,
     /// Approaches tried.
     pub outer_iterations: usize,
     /// Convolutions of the pass.

@@ -9,6 +9,7 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
@@ -23,6 +24,8 @@ pub struct Simulation {
     params: Params,
     positions: Vec<Position>,
     operators: Operators,
+    boundary: Boundary,
+    interiors: [Interior; 2],
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     passes_done: usize,
@@ -50,6 +53,8 @@ impl Simulation {
             memory_together(&motion, params.method, pair.hardness(), &columns, pair.lower.ncols()).is_some();
         Ok(Self {
             together,
+            boundary,
+            interiors: interiors(&pair, boundary, &motion, 0.0),
             pair,
             motion,
             params,
@@ -66,6 +71,21 @@ impl Simulation {
         self.passes_done = passes;
         self.guess = Some(Guess { approach, slope: 1.0 / self.height_scale() });
         self
+    }
+
+    /// The same motion, whose records tell what is in the interior of the bodies: farther than the part `rim` of their
+    /// length, 0 ≤ rim < ½, from their free ends. Without it, the interior is the whole body.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn with_rim(self, rim: f64) -> Result<Self> {
+        check("rim", rim, (0.0..0.5).contains(&rim), "a part of the length from 0, below a half")?;
+        Ok(Self { interiors: interiors(&self.pair, self.boundary, &self.motion, rim), ..self })
+    }
+
+    /// The interiors of the lower and of the upper body.
+    pub fn interiors(&self) -> &[Interior; 2] {
+        &self.interiors
     }
 
     /// The bodies as they are now.
@@ -92,9 +112,9 @@ impl Simulation {
                 .contacts
                 .iter()
                 .enumerate()
-                .map(|(k, c)| c.record(&outcome.pair, pass, k + 1))
+                .map(|(k, c)| c.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1]))
                 .collect();
-            let mut record = summarise(&outcome, &steps, pass);
+            let mut record = summarise(&outcome, &self.interiors, &steps, pass);
             record.outer_iterations = trials;
             record.wall_time_s = began.elapsed().as_secs_f64();
             for output in outputs.iter_mut() {
@@ -127,6 +147,7 @@ impl Simulation {
             operators: &self.operators,
             positions: &self.positions,
             motion: &self.motion,
+            interiors: &self.interiors,
             watch,
             progress,
         };
@@ -254,8 +275,15 @@ fn mean_columns(positions: &[Position]) -> f64 {
     positions.iter().map(|p| p.columns).sum::<usize>() as f64 / positions.len() as f64
 }
 
+fn interiors(pair: &Pair, boundary: Boundary, motion: &Motion, rim: f64) -> [Interior; 2] {
+    let shapes = [pair.lower_grid().shape, pair.upper_grid().shape];
+    Interior::of_bodies(shapes, boundary, motion.strategy, rim)
+}
+
 /// The row of `passes.csv`, but for what the search alone knows.
-fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
+fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord], pass: usize) -> PassRecord {
+    let pair = &outcome.pair;
+    let mean_columns = steps.iter().map(|s| s.overlap_columns as f64).sum::<f64>() / steps.len() as f64;
     let mean = |value: fn(&StepRecord) -> f64| steps.iter().map(value).sum::<f64>() / steps.len() as f64;
     let most = |value: fn(&StepRecord) -> f64| steps.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
     PassRecord {
@@ -266,12 +294,19 @@ fn summarise(outcome: &Pass, steps: &[StepRecord], pass: usize) -> PassRecord {
         friction_coefficient: mean(|s| s.tangential_force).abs() / mean(|s| s.load),
         min_load: -most(|s| -s.load),
         max_load: most(|s| s.load),
+        mean_pressure: mean(|s| s.load) / (mean_columns * pair.grid(1).area()),
         mean_contact_area: mean(|s| s.contact_area),
+        mean_contact_area_interior: mean(|s| s.contact_area_interior),
+        largest_spot_cells: steps.iter().map(|s| s.largest_spot_cells).max().unwrap_or(0),
         max_pressure: most(|s| s.max_pressure),
-        plastic_volume_lower: outcome.lost[0],
-        plastic_volume_upper: outcome.lost[1],
-        sq_lower: outcome.pair.lower.std(0.0),
-        sq_upper: outcome.pair.upper.std(0.0),
+        plastic_volume_lower: outcome.lost.whole[0],
+        plastic_volume_upper: outcome.lost.whole[1],
+        plastic_volume_lower_interior: outcome.lost.interior[0],
+        plastic_volume_upper_interior: outcome.lost.interior[1],
+        sq_lower: pair.lower.std(0.0),
+        sq_upper: pair.upper.std(0.0),
+        sq_lower_interior: interiors[0].of(&pair.lower).std(0.0),
+        sq_upper_interior: interiors[1].of(&pair.upper).std(0.0),
         outer_iterations: 1,
         convolutions: steps.iter().map(|s| s.convolutions).sum(),
         wall_time_s: 0.0,

@@ -147,10 +147,12 @@ pub enum ControlKind {
 }
 
 /// What is kept of the results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Output {
     /// The pressure field of every n-th position; 0: of none.
     pub pressure_every: usize,
+    /// The part of a body's length at its free ends that is left out of what is told of its interior, 0 ≤ rim < ½.
+    pub rim: f64,
 }
 
 impl Case {

@@ -53,7 +53,7 @@ const TABLES: [(&str, &[&str]); 7] = [
         ],
     ),
     ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
-    ("output", &["pressure_every"]),
+    ("output", &["pressure_every", "rim"]),
 ];
 
 /// The keys that each kind of topography has beyond the common ones.
@@ -552,11 +552,19 @@ fn control(table: &Table<'_>, prescribed: Prescribed) -> Result<ControlKind> {
 }
 
 fn output(table: Option<&Table<'_>>) -> Result<Output> {
-    let default = Output { pressure_every: 8 };
+    let default = Output { pressure_every: 8, rim: 0.1 };
     let Some(table) = table else { return Ok(default) };
     known_in(table)?;
     let pressure_every = table.get("pressure_every").map(|entry| entry.count(0)).transpose()?;
-    Ok(Output { pressure_every: pressure_every.unwrap_or(default.pressure_every) })
+    let part = |value: f64| (0.0..0.5).contains(&value);
+    let rim = table
+        .get("rim")
+        .map(|entry| entry.number(part, "a part of the length from 0, below 0.5"))
+        .transpose()?;
+    Ok(Output {
+        pressure_every: pressure_every.unwrap_or(default.pressure_every),
+        rim: rim.unwrap_or(default.rim),
+    })
 }
 
 pub(super) fn known_in(table: &Table<'_>) -> Result<()> {

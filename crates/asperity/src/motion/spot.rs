@@ -1,0 +1,174 @@
+//! Contact spots: connected cells that touch.
+
+/// Cells across the largest contact spot: of the spot with the most cells, the number of columns or, if fewer, of rows
+/// that it lies in; 0 without contact.
+///
+/// `cells` are the flat cells in contact in ascending order on a grid of `shape`, connected over edges and corners and,
+/// where the grid is `periodic`, over its rim.
+pub(crate) fn largest_spot(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: bool) -> usize {
+    let [columns, width] = shape;
+    let mut spots = Spots::default();
+    let mut lines: Vec<Vec<(usize, usize)>> = vec![Vec::new(); columns];
+    let mut cells_in_order = Vec::new();
+    for cell in cells {
+        let (x, y) = (cell / width, cell % width);
+        lines[x].push((y, spots.add()));
+        cells_in_order.push([x, y]);
+    }
+    for x in 0..columns {
+        for pair in lines[x].windows(2) {
+            if pair[1].0 == pair[0].0 + 1 {
+                spots.join(pair[0].1, pair[1].1);
+            }
+        }
+        if let (true, Some(first), Some(last)) = (periodic, lines[x].first(), lines[x].last())
+            && first.0 == 0
+            && last.0 == width - 1
+        {
+            spots.join(first.1, last.1);
+        }
+        if x + 1 < columns {
+            join_lines(&mut spots, &lines[x], &lines[x + 1], width, periodic);
+        } else if periodic {
+            join_lines(&mut spots, &lines[x], &lines[0], width, periodic);
+        }
+    }
+    across(&mut spots, &cells_in_order)
+}
+
+/// Joins what touches in two neighbouring lines.
+fn join_lines(
+    spots: &mut Spots,
+    line: &[(usize, usize)],
+    next: &[(usize, usize)],
+    width: usize,
+    periodic: bool,
+) {
+    let mut from = 0;
+    for &(y, spot) in line {
+        while from < next.len() && next[from].0 + 1 < y {
+            from += 1;
+        }
+        for &(_, other) in next[from..].iter().take_while(|(other, _)| *other <= y + 1) {
+            spots.join(spot, other);
+        }
+    }
+    if !periodic {
+        return;
+    }
+    for (one, other) in [(line, next), (next, line)] {
+        if let (Some(first), Some(last)) = (one.first(), other.last())
+            && first.0 == 0
+            && last.0 == width - 1
+        {
+            spots.join(first.1, last.1);
+        }
+    }
+}
+
+fn across(spots: &mut Spots, cells: &[[usize; 2]]) -> usize {
+    let mut counts = vec![0_usize; cells.len()];
+    for cell in 0..cells.len() {
+        counts[spots.root(cell)] += 1;
+    }
+    let Some(largest) = (0..cells.len()).rev().max_by_key(|&spot| counts[spot]) else { return 0 };
+    let members: Vec<[usize; 2]> =
+        (0..cells.len()).filter(|&cell| spots.root(cell) == largest).map(|cell| cells[cell]).collect();
+    let distinct = |axis: usize| {
+        let mut places: Vec<usize> = members.iter().map(|cell| cell[axis]).collect();
+        places.sort_unstable();
+        places.dedup();
+        places.len()
+    };
+    distinct(0).min(distinct(1))
+}
+
+/// Sets of connected cells.
+#[derive(Default)]
+struct Spots {
+    parent: Vec<usize>,
+}
+
+impl Spots {
+    fn add(&mut self) -> usize {
+        self.parent.push(self.parent.len());
+        self.parent.len() - 1
+    }
+
+    fn root(&mut self, mut cell: usize) -> usize {
+        while self.parent[cell] != cell {
+            self.parent[cell] = self.parent[self.parent[cell]];
+            cell = self.parent[cell];
+        }
+        cell
+    }
+
+    fn join(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.root(one), self.root(other));
+        self.parent[one.max(other)] = one.min(other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    #[test]
+    fn a_spot_is_as_wide_as_its_shorter_side() {
+        let width = 10;
+        let block = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
+            x.flat_map(move |x| y.clone().map(move |y| x * width + y)).collect::<Vec<_>>()
+        };
+        let spot = |cells: Vec<usize>, periodic| largest_spot(cells.into_iter(), [10, width], periodic);
+        assert_eq!(spot(vec![], false), 0);
+        assert_eq!(spot(vec![37], false), 1);
+        assert_eq!(spot(block(2..5, 1..9), false), 3);
+        // A diagonal is one spot; in the corners of a periodic grid lies one spot of two cells across.
+        assert_eq!(spot((0..5).map(|i| i * width + i).collect(), false), 5);
+        assert_eq!(spot(vec![0, 9, 90, 99], true), 2);
+        assert_eq!(spot(vec![0, 9, 90, 99], false), 1);
+    }
+
+    /// Held against a flood from cell to cell.
+    #[test]
+    fn spots_are_those_of_a_flood() {
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..2000 {
+            let shape = [random.random_range(1..9), random.random_range(1..9)];
+            let (share, periodic) = (random.random_range(0.0..1.0), random.random_bool(0.5));
+            let touches: Vec<bool> = (0..shape[0] * shape[1]).map(|_| random.random_bool(share)).collect();
+            let cells = (0..touches.len()).filter(|&cell| touches[cell]);
+            let (found, flooded) = (largest_spot(cells, shape, periodic), flood(&touches, shape, periodic));
+            assert!(flooded.contains(&found), "{found}, {flooded:?}: {shape:?} {periodic} {touches:?}");
+        }
+    }
+
+    /// The widths of the spots with the most cells.
+    fn flood(touches: &[bool], shape: [usize; 2], periodic: bool) -> Vec<usize> {
+        let mut left = touches.to_vec();
+        let mut spots = Vec::new();
+        for seed in 0..left.len() {
+            let (mut open, mut spot) = (vec![seed], Vec::new());
+            while let Some(cell) = open.pop() {
+                if !std::mem::take(&mut left[cell]) {
+                    continue;
+                }
+                spot.push([cell / shape[1], cell % shape[1]]);
+                for (dx, dy) in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
+                    let [nx, ny] = shape.map(|n| n as isize);
+                    let (x, y) = ((cell / shape[1]) as isize + dx, (cell % shape[1]) as isize + dy);
+                    if periodic || ((0..nx).contains(&x) && (0..ny).contains(&y)) {
+                        open.push((x.rem_euclid(nx) * ny + y.rem_euclid(ny)) as usize);
+                    }
+                }
+            }
+            spots.push(spot);
+        }
+        let most = spots.iter().map(Vec::len).max().unwrap_or(0);
+        let distinct = |spot: &Vec<[usize; 2]>, axis: usize| {
+            spot.iter().map(|cell| cell[axis]).collect::<std::collections::BTreeSet<_>>().len()
+        };
+        spots.iter().filter(|s| s.len() == most).map(|s| distinct(s, 0).min(distinct(s, 1))).collect()
+    }
+}
