@@ -33,9 +33,10 @@ fn a_ball_whose_contact_the_rim_cuts_off_is_told_of_with_the_pressures() {
     let (foreseen, seen) = cuts(1.0);
     assert!(foreseen.unwrap().contains("reaches 18.66 µm from the apex, the rim is 16 µm away"));
     let seen = seen.unwrap();
-    for part in
-        ["largest pressure there is 1.661 GPa, inside 1.382 GPa", " % of the load; take a larger `shape`"]
-    {
+    for part in [
+        "largest pressure there is 1.661 GPa, inside 1.382 GPa",
+        "bear 4.89 % of the load; take a larger `shape`",
+    ] {
         assert!(seen.contains(part), "{seen}");
     }
     let (foreseen, seen) = cuts(50.0);
@@ -74,6 +75,30 @@ fn a_hollow_that_touches_at_its_rim_is_told_of() {
     let hollow = Static { form, shape: [24, 24], load: 0.01, ..Static::default() };
     assert!(rim(&hollow.check()).unwrap().starts_with("the gap is hollow, of radius "));
     assert!(rim(&hollow.run().warnings).is_some());
+}
+
+#[test]
+fn a_rough_ball_is_told_of_where_a_smooth_one_is() {
+    let rough = format!(
+        "{}[[upper.topography.plus]]\ngenerate = \"low-pass\"\nsq = 5e-9\ncutoff = 4e-6\nseed = 5\n",
+        sphere()
+    );
+    for (load, cut) in [(0.4, false), (2.0, true)] {
+        let case = Static { form: rough.clone(), load, ..Static::default() };
+        let (foreseen, seen) = (rim(&case.check()), rim(&case.run().warnings));
+        assert_eq!((foreseen.is_some(), seen.is_some()), (cut, cut), "{load} N: {foreseen:?}, {seen:?}");
+    }
+}
+
+#[test]
+fn a_ball_that_passes_over_a_plane_is_told_of_by_hertz() {
+    for (load, cut) in [(0.05, false), (4.0, true)] {
+        let motion = "[motion]\nstride = 16\ncontrol = \"step-load\"\n";
+        let case = Static { form: sphere(), load, motion, ..Static::default() };
+        for warnings in [case.check(), case.run().warnings] {
+            assert_eq!(rim(&warnings).is_some(), cut, "{load} N: {warnings:?}");
+        }
+    }
 }
 
 /// Balls, ellipsoids, cones and cylinders on grids of all shapes under both boundaries.

@@ -199,7 +199,8 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
     const STEEP: f64 = 0.3;
     if outlook.gap_slope > STEEP {
         warnings.push(format!(
-            "the surfaces are steep for a half-space theory of small slopes: rms slope of the gap {:.2}",
+            "the surfaces are steep for a half-space theory of small slopes: the rms slope of the gap is {:.4}, up to {STEEP} \
+             tan and sin agree; an `s_filter` takes short waves out",
             outlook.gap_slope
         ));
     }
@@ -212,7 +213,8 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
     };
     if pressure > outlook.hardness && ![&case.lower, &case.upper].into_iter().any(is_form) {
         warnings.push(format!(
-            "most of the contact will be plastic: slopes of {:.2} call for pressures of {}, the hardness is {}",
+            "most of the contact will be plastic: slopes of {:.4} call for pressures of {}, the hardness is {}: \
+             the hardness, not elasticity, will make the answer",
             outlook.gap_slope,
             units::format(pressure, Dimension::Pressure),
             units::format(outlook.hardness, Dimension::Pressure)
@@ -222,7 +224,8 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
         && load > 0.5 * outlook.plastic_limit
     {
         warnings.push(format!(
-            "the load is near the plastic limit, {}: contact will be almost complete",
+            "the load is near the plastic limit, {}: contact will be almost complete; a lower load or a \
+             greater hardness leaves a gap",
             units::format(outlook.plastic_limit, Dimension::Force)
         ));
     }
@@ -323,7 +326,8 @@ fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
             if cells < CELLS_PER_WAVE {
                 warnings.push(format!(
                     "the mesh is coarse for the {name} surface: along {} the waves that make its slope have about \
-                     {cells:.1} cells, {CELLS_PER_WAVE} or more are needed for a contact area within some 10 %",
+                     {cells:.1} cells, {CELLS_PER_WAVE} or more are needed for a contact area within some 10 %; take a smaller `pitch`, or take \
+                     short waves out (`s_filter`)",
                     ["x", "y"][axis]
                 ));
                 return;
@@ -368,7 +372,8 @@ fn torn(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
         let jump: Metre = (sum / first.len() as f64).sqrt();
         if jump > 3.0 * difference(heights, axis, 1) {
             warnings.push(format!(
-                "the {name} surface is repeated, but its edges along {} do not meet: a step of {} rms",
+                "the {name} surface is repeated, but its edges along {} do not meet: a step of {} rms; `taper` \
+                 brings them together",
                 ["x", "y"][axis],
                 units::format(jump, Dimension::Length)
             ));

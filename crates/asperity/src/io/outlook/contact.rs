@@ -83,14 +83,18 @@ impl Paraboloid {
         Some(Self { curvatures, direction, apex, extent, pitch })
     }
 
+    /// Whether the gap does not open outwards in all directions: a line contact, a saddle or a hollow.
+    fn is_endless(&self) -> bool {
+        self.curvatures[1] <= 1e-6 * self.curvatures[0]
+    }
+
     /// Hertz' contact of the paraboloid under `control`, whose approach counts from the gap `touch`; none where the gap
     /// does not open outwards in all directions, or nothing presses.
     fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
-        let [large, small] = self.curvatures;
-        if small <= 1e-6 * large {
+        if self.is_endless() {
             return None;
         }
-        let contact = |load: f64| HertzEllipse::new([1.0 / large, 1.0 / small], modulus, load);
+        let contact = |load: f64| HertzEllipse::new(self.curvatures.map(f64::recip), modulus, load);
         let load = match control {
             Control::Load(load) => load,
             // δ goes with W^⅔.
@@ -254,27 +258,41 @@ pub(in crate::io) fn too_few_cells(across: usize) -> Option<String> {
 ///
 /// A sphere or an ellipsoid whose Hertzian contact reaches a little over the rim has its largest pressure to 1 % still;
 /// from where that of the rim exceeds it, it is wrong by more than 5 % soon.
-pub(in crate::io) fn cut_off(pressure: &Field, gap: &Field, pitch: [Metre; 2]) -> Option<String> {
+pub(in crate::io) fn cut_off(
+    pressure: &Field,
+    gap: impl FnOnce() -> Field,
+    pitch: [Metre; 2],
+) -> Option<String> {
     const SHARE_OF_A_LINE: f64 = 0.75;
-    Paraboloid::of(gap, pitch)?;
     let sides = [0, 1].map(|axis| Sides::of(pressure, axis));
-    let all = pressure.sum();
     let (axis, side) = sides
         .iter()
         .enumerate()
-        .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
         .filter(|(_, side)| side.rim > 0.0)
+        .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
         .max_by(|one, other| one.1.rim.total_cmp(&other.1.rim))?;
+    let paraboloid = Paraboloid::of(&gap(), pitch)?;
     let value = |value| units::format(value, Dimension::Pressure);
+    let way_out = if paraboloid.is_endless() {
+        "`boundary = \"periodic\"` gives a line contact no ends"
+    } else {
+        "take a larger `shape` or a lower load"
+    };
     Some(format!(
         "the rim of the grid cuts the contact off along {}: the largest pressure there is {}, inside {}, and the outermost \
-         cells bear {:.2} % of the load; take a larger `shape`, a lower load, or `boundary = \"periodic\"` for a line \
-         without ends",
+         cells bear {:.2} % of the load; {way_out}",
         ["x", "y"][axis],
         value(side.rim),
         value(side.inside),
-        100.0 * side.load / all
+        100.0 * outermost(pressure) / pressure.sum()
     ))
+}
+
+/// What the outermost cells of a field add up to.
+fn outermost(field: &Field) -> f64 {
+    let [nx, ny] = [field.nrows(), field.ncols()];
+    let is_rim = |i: usize, n: usize| i == 0 || i + 1 == n;
+    field.indexed_iter().filter(|((i, j), _)| is_rim(*i, nx) || is_rim(*j, ny)).map(|(_, p)| p).sum()
 }
 
 /// Pressures at the two sides of the grid across an axis.
@@ -287,8 +305,6 @@ struct Sides {
     line: Pascal,
     /// Largest sum of a line between them.
     fullest: Pascal,
-    /// Sum over both.
-    load: Pascal,
 }
 
 impl Sides {
@@ -305,7 +321,6 @@ impl Sides {
             inside: most(&mut inside.map(|(_, p)| *p)),
             line: most(&mut ends().map(|line| line.sum())),
             fullest: most(&mut lines().take(n - 1).skip(1).map(|line| line.sum())),
-            load: ends().map(|line| line.sum()).sum(),
         }
     }
 }
