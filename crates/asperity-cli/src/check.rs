@@ -34,9 +34,15 @@ fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
         ("memory", memory(outlook)),
     ];
     let friction = case.friction.map(|spec| ("friction", friction(&spec.law, outlook)));
+    let history = match &outlook.course {
+        Some(Course::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
+            Some(("history", course(stages)))
+        }
+        _ => None,
+    };
     let stress = outlook.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
-    for (name, value) in rows.into_iter().chain(friction).chain(stress) {
+    for (name, value) in rows.into_iter().chain(friction).chain(history).chain(stress) {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page

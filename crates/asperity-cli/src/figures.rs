@@ -127,13 +127,17 @@ fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
         sheet.add("plastic.png", |path| draw::map(path, &plastic))?;
     }
     if fields.names()?.iter().any(|name| name == "stick") {
-        friction(results, &fields, &pressure, sheet)?;
+        friction(&fields, &pressure, sheet)?;
+    }
+    let increments = results.increments()?;
+    if increments.len() > 1 {
+        sheet.add("loading.png", |path| draw::lines(path, &loading(&increments)))?;
     }
     Ok(())
 }
 
-/// Shear and where it holds, and the way there.
-fn friction(results: &Results, fields: &Fields, pressure: &Stored, sheet: &mut Sheet) -> Outcome {
+/// Shear and where it holds.
+fn friction(fields: &Fields, pressure: &Stored, sheet: &mut Sheet) -> Outcome {
     let read = |name| Stored::read(fields, name);
     let [mut shear, y] = [read("traction_x")?, read("traction_y")?];
     shear.field.zip_mut_with(&y.field, |x, y| *x = x.hypot(*y));
@@ -144,15 +148,29 @@ fn friction(results: &Results, fields: &Fields, pressure: &Stored, sheet: &mut S
         stick.map("stick and slip", "", Unit::Number, Colours::Stick),
     ];
     sheet.add("shear.png", |path| draw::maps(path, &maps, 2))?;
-    let increments = results.increments()?;
-    if increments.len() > 1 {
-        sheet.add("loading.png", |path| draw::lines(path, &loading(&increments)))?;
-    }
     Ok(())
 }
 
-/// Force over displacement along the direction of the loading.
+/// Force over displacement: in the plane, or where nothing acts there, load over approach.
 fn loading(increments: &[IncrementRecord]) -> LineFigure {
+    // What rounding leaves of a force that is not there does not count.
+    let acts = |i: &IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y) > 1e-8 * i.load;
+    if increments.iter().any(acts) { pushing(increments) } else { pressing(increments) }
+}
+
+fn pressing(increments: &[IncrementRecord]) -> LineFigure {
+    let points = increments.iter().map(|i| [i.approach, i.load]).collect();
+    LineFigure {
+        title: "load over approach".to_owned(),
+        x: Axis::linear("approach", Unit::Length),
+        y: Axis::linear("load", Unit::Force),
+        right: None,
+        series: vec![Series::new("loading", points, Mark::LineAndPoints)],
+    }
+}
+
+/// Along the direction of the loading.
+fn pushing(increments: &[IncrementRecord]) -> LineFigure {
     let [x, y] = direction(increments);
     let along = match [x, y] {
         [1.0, 0.0] => "along x".to_owned(),

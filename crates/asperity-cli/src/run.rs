@@ -165,11 +165,14 @@ fn static_table(record: &StaticRecord) -> String {
         rows.extend([
             ("tangential force", both(shear.tangential_force, record.load, Dimension::Force)),
             ("displacement", both(shear.tangential_displacement, 0.0, Dimension::Length)),
-            ("friction coeff.", format!("{:.6}", shear.friction_coefficient)),
+            ("force ratio", format!("{:.6}", shear.force_ratio)),
             ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
             ("largest shear", format(shear.max_shear, Dimension::Pressure)),
             ("dissipation", format(shear.dissipation, Dimension::Energy)),
         ]);
+        if let Some(coefficient) = shear.friction_coefficient {
+            rows.push(("friction coeff.", format!("{coefficient:.6}")));
+        }
         if let Some([x, y]) = shear.creepage {
             rows.push(("creepage", format!("{x:.6e}, {y:.6e}")));
         }

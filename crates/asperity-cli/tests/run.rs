@@ -280,7 +280,9 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     let folder = folder_with("ball.toml", &pushed(PUSH));
     let table = ok(&run(&folder, "ball.toml --out out"));
     assert!(
-        table.contains("tangential force  3 mN, ") && table.contains("friction coeff.   0.150000"),
+        table.contains("tangential force  3 mN, ")
+            && table.contains("force ratio       0.150000")
+            && !table.contains("friction coeff."),
         "{table}"
     );
     let out = folder.path().join("out");
@@ -307,8 +309,8 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     ] {
         assert_eq!(found, last[key], "{key}");
     }
-    assert!((number(&record["friction_coefficient"]) - 0.15).abs() < 1e-9);
-    assert!(record.get("creepage").is_none());
+    assert!((number(&record["force_ratio"]) - 0.15).abs() < 1e-9);
+    assert!(record["friction_coefficient"].is_null() && record.get("creepage").is_none());
     let lost: f64 = rows.iter().map(|row| row["dissipation"]).sum();
     assert!(lost > 0.0 && (number(&record["dissipation"]) / lost - 1.0).abs() < 1e-12);
 

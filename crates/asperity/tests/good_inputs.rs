@@ -199,16 +199,13 @@ fn what_a_stage_does_not_name_stays() {
         stage(1.0, Tangential::Displacement([0.1e-6, 0.0]), 1),
         stage(1.0, Tangential::Sliding([0.6, 0.8]), 1),
     ];
-    let course = friction.course(case.contact.prescribed, &case.history, 1.0);
+    let course = case.course(1.0).unwrap();
     assert_eq!(course, Course::Stages(expected.to_vec()));
 }
 
 #[test]
 fn what_rolls_has_a_creepage_or_a_force() {
-    let rolling = |name| {
-        let case = load(name);
-        case.friction.unwrap().course(case.contact.prescribed, &case.history, 1.0)
-    };
+    let rolling = |name| load(name).course(1.0).unwrap();
     assert_eq!(rolling("rolled"), Course::Rolling(Rolling::Creepage([1e-3, -5e-4])));
     assert_eq!(rolling("driven"), Course::Rolling(Rolling::Force([0.2, 0.0])));
 }

@@ -24,6 +24,7 @@ fn under(forces: &[[f64; 2]]) -> Vec<IncrementRecord> {
         stick_area: 1.0,
         max_pressure: 1.0,
         max_shear: 1.0,
+        plastic_volume: 0.0,
         elastic_energy: 0.0,
         dissipation: 0.0,
         iterations: 0,

@@ -5,12 +5,15 @@ use std::time::Instant;
 
 use crate::error::Result;
 use crate::io::case::{Case, Course};
+use crate::io::loading::LoadingWriter;
 use crate::io::outlook::outlook;
 use crate::io::prepare::bodies;
 use crate::io::results::{Existing, PassWriter, Results};
 use crate::io::review;
 use crate::io::summary::{Outcome, Summary};
-use crate::motion::{Motion, Pair, Simulation, StaticRecord, Watch, load_in_stages, press, roll};
+use crate::motion::{
+    Equilibrium, LoadedContact, Motion, Pair, Simulation, StaticRecord, Watch, load_in_stages, press, roll,
+};
 use crate::solver::Params;
 use crate::subsurface::Tractions;
 use crate::surface::Topography;
@@ -20,24 +23,27 @@ use crate::units::SquareMetre;
 ///
 /// # Errors
 /// Everything that can be wrong with a case, its surfaces, the contact or the directory. A motion that ends early
-/// leaves its finished passes, from which [`Existing::Resume`] goes on.
+/// leaves its finished passes, a loading its finished increments, from which [`Existing::Resume`] goes on.
 pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch) -> Result<Summary> {
     let began = Instant::now();
     let bodies = bodies(case)?;
     let outlook = outlook(case, &bodies)?;
+    let pair = pair(case, [bodies.lower.topography, bodies.upper.topography])?;
     let resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let results = Results::create(directory, &resolved, existing)?;
-    let pair = pair(case, [bodies.lower.topography, bodies.upper.topography])?;
     let params =
         Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
     let area = outlook.apparent_area;
     let mut warnings = outlook.warnings;
+    let mut under_way = None;
     let (outcome, subsurface) = match case.motion(area) {
         None => {
-            let (record, tractions) = rest(case, &results, &pair, area, &params, watch)?;
-            warnings.extend(review::static_contact(&pair, case.contact.boundary, &tractions.pressure));
-            let stress = outlook.subsurface.map(|plan| results.write_subsurface(&plan, tractions));
-            (Outcome::Static(record), stress.transpose()?.into_iter().collect())
+            let rest = rest(case, &results, &pair, area, &params, watch)?;
+            warnings.extend(rest.warnings);
+            warnings.extend(review::static_contact(&pair, case.contact.boundary, &rest.tractions.pressure));
+            let stress = outlook.subsurface.map(|plan| results.write_subsurface(&plan, rest.tractions));
+            under_way = rest.under_way;
+            (Outcome::Static(rest.record), stress.transpose()?.into_iter().collect())
         }
         Some(motion) => {
             let writer = results.writer(case.output.pressure_every, outlook.subsurface)?;
@@ -56,6 +62,7 @@ pub fn run(case: &Case, directory: &Path, existing: Existing, watch: &dyn Watch)
         wall_time_s: began.elapsed().as_secs_f64(),
     };
     results.finish(&summary)?;
+    under_way.map_or(Ok(()), |writer| writer.done())?;
     Ok(summary)
 }
 
@@ -64,7 +71,17 @@ fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
     Pair::new(lower, upper, [&case.lower.material, &case.upper.material])
 }
 
-/// A static contact: its numbers and what acts on the lower body.
+/// A static contact.
+struct Rest {
+    record: StaticRecord,
+    /// What acts on the lower body.
+    tractions: Tractions,
+    warnings: Vec<String>,
+    /// What has kept its increments.
+    under_way: Option<LoadingWriter>,
+}
+
+/// Computes a static contact and writes its fields.
 fn rest(
     case: &Case,
     results: &Results,
@@ -72,22 +89,37 @@ fn rest(
     apparent_area: SquareMetre,
     params: &Params,
     watch: &dyn Watch,
-) -> Result<(StaticRecord, Tractions)> {
+) -> Result<Rest> {
     let boundary = case.contact.boundary;
     let control = case.contact.prescribed.control(apparent_area);
-    let Some(friction) = case.friction else {
-        let (record, solution) = press(pair, boundary, control, params)?;
-        results.write_static(pair, &solution)?;
-        return Ok((record, Tractions::frictionless(solution.pressure)));
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    let (contact, under_way) = match (case.course(apparent_area), law) {
+        (Some(Course::Rolling(rolling)), Some(law)) => {
+            (roll(pair, boundary, law, control, rolling, params)?, None)
+        }
+        (Some(Course::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
+            let mut writer = results.loading(pair, stages.iter().map(|stage| stage.increments).sum());
+            let done = writer.under_way()?;
+            let contact = load_in_stages(pair, boundary, law, &stages, params, done, watch, &mut writer)?;
+            (contact, Some(writer))
+        }
+        _ => {
+            let (record, solution) = press(pair, boundary, control, params)?;
+            results.write_static(pair, &solution)?;
+            let tractions = Tractions::frictionless(solution.pressure);
+            return Ok(Rest { record, tractions, warnings: Vec::new(), under_way: None });
+        }
     };
-    let contact = match friction.course(case.contact.prescribed, &case.history, apparent_area) {
-        Course::Stages(stages) => load_in_stages(pair, boundary, &friction.law, &stages, params, watch)?,
-        Course::Rolling(rolling) => roll(pair, boundary, &friction.law, control, rolling, params)?,
+    results.write_loaded(pair, &contact)?;
+    let warnings = review::loaded(&contact);
+    let LoadedContact { record, solution, .. } = contact;
+    let tractions = match solution {
+        Equilibrium::Frictionless(solution) => Tractions::frictionless(solution.pressure),
+        Equilibrium::Frictional(solution) => {
+            Tractions { pressure: solution.normal.pressure, shear: solution.shear.map(Some) }
+        }
     };
-    results.write_frictional(pair, &contact)?;
-    let solution = contact.solution;
-    let tractions = Tractions { pressure: solution.normal.pressure, shear: solution.shear.map(Some) };
-    Ok((contact.record, tractions))
+    Ok(Rest { record, tractions, warnings, under_way })
 }
 
 /// The passes that are not yet there; the writer has then written them.

@@ -11,8 +11,9 @@ use crate::grid::Field;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
 use crate::motion::{Control, Position, Stage, Strategy, initial_gap, memory_together};
+use crate::reference::HertzSphere;
 use crate::solver::{self, Coupling, Friction, Rolling, Sliding, Tangential};
-use crate::surface::Level;
+use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
 /// What is known of a computation before it starts.
@@ -22,7 +23,7 @@ pub struct Outlook {
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
-    /// How a static contact with friction is computed.
+    /// How a static contact is computed; none of a motion.
     pub course: Option<Course>,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair.
     pub hardness: Pascal,
@@ -38,7 +39,8 @@ pub struct Outlook {
     pub apparent_area: SquareMetre,
     /// Mean apparent area over the positions.
     pub mean_facing_area: SquareMetre,
-    /// Largest load that the control could ask for, every facing cell at the hardness; infinite for an elastic pair.
+    /// Largest load that the control could ask for, every facing cell at the hardness, or at what the shear of bodies that
+    /// slide leaves of it; infinite for an elastic pair.
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, as if the surfaces were independent.
     pub gap_slope: f64,
@@ -72,14 +74,21 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         (None, solver::Control::Approach(approach)) => Control::Approach(approach),
     };
     let hardness = composite_hardness(lower, upper);
-    let plastic_limit = control.plastic_limit(&overlaps, column, hardness);
+    let course = case.course(apparent_area);
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    let cap = match (case.motion(apparent_area), &course) {
+        (Some(motion), _) => motion.cap(hardness),
+        (None, Some(Course::Stages(stages))) => {
+            bears(law, stages, hardness, apparent_area)?;
+            stage_cap(law, &stages[0], hardness)
+        }
+        _ => hardness,
+    };
+    let plastic_limit = control.plastic_limit(&overlaps, column, cap);
     control.check_limit(plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
-    let friction = case.friction.filter(|_| case.motion.is_none());
-    let course =
-        friction.map(|friction| friction.course(case.contact.prescribed, &case.history, apparent_area));
-    if let (Some(friction), Some(course)) = (friction, &course) {
-        holds(&friction.law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
+    if let (Some(law), Some(course)) = (law, &course) {
+        holds(law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
     }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
     let mut outlook = Outlook {
@@ -102,6 +111,8 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
     };
     outlook.warnings = warnings(case, bodies, &outlook);
     contacts(case, bodies, &positions, &mut outlook);
+    let yields = rolls_plastically(case, &outlook);
+    outlook.foreseen.extend(yields);
     Ok(outlook)
 }
 
@@ -111,6 +122,50 @@ fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
         None => vec![Position { offset: 0, lower: 0, upper: 0, columns: lower.min(upper) }],
         Some(motion) => motion.strategy.positions(lower, upper, motion.stride),
     }
+}
+
+/// The most pressure that cells of the `hardness` bear at the end of a stage, whatever force acts in the plane.
+fn stage_cap(friction: Option<&Friction>, stage: &Stage, hardness: Pascal) -> Pascal {
+    match (friction, stage.loading.tangential) {
+        (Some(friction), Tangential::Sliding(_)) => friction.sliding_cap(hardness),
+        _ => hardness,
+    }
+}
+
+/// An error if a stage asks for more load than its cells bear beside the shear that it asks for: the sums of p and of
+/// √α q are at most H on all cells together, as they are on each. What slides does so from the first increment of its
+/// stage, when it still bears most of the load before.
+fn bears(
+    friction: Option<&Friction>,
+    stages: &[Stage],
+    hardness: Pascal,
+    apparent_area: SquareMetre,
+) -> Result<()> {
+    let mut before = Some(0.0);
+    for stage in stages {
+        let solver::Control::Load(load) = stage.loading.normal else {
+            before = None;
+            continue;
+        };
+        let limit = apparent_area * stage_cap(friction, stage, hardness);
+        let (load_borne, limit) = match stage.loading.tangential {
+            Tangential::Sliding(_) => {
+                let first = before.map_or(load, |before| before + (load - before) / stage.increments as f64);
+                (first.max(load), limit)
+            }
+            Tangential::Force([x, y]) if limit.is_finite() => {
+                let growth = friction.map_or(0.0, |friction| friction.junction_growth);
+                let beside = growth * (x * x + y * y);
+                (load, (limit * limit - beside).max(0.0).sqrt())
+            }
+            _ => (load, limit),
+        };
+        if load_borne >= limit {
+            return Err(Error::BeyondPlasticLimit { load: load_borne, limit });
+        }
+        before = Some(load);
+    }
+    Ok(())
 }
 
 /// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
@@ -241,7 +296,7 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
         ));
     }
     if let Some(friction) = &case.friction {
-        frictional(&friction.law, outlook, &mut warnings);
+        frictional(case, &friction.law, outlook, &mut warnings);
     }
     warnings
 }
@@ -276,7 +331,7 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], outlook: &mut 
 }
 
 /// Friction whose answer is not the one that is looked for.
-fn frictional(friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>) {
+fn frictional(case: &Case, friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>) {
     /// Shear under pressure alone is some β p: below this it is not seen.
     const ALIKE: f64 = 0.01;
     /// From here on the coupling changes pressures and stick by more than some per cent.
@@ -287,19 +342,39 @@ fn frictional(friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>
             "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
         ));
     }
-    let Some(Course::Stages(stages)) = &outlook.course else { return };
+    let stages = match &outlook.course {
+        Some(Course::Stages(stages)) => stages,
+        Some(Course::Rolling(_)) => {
+            if ![&case.lower, &case.upper].into_iter().all(rolls_alike) {
+                warnings.push(
+                    "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
+                     creepage and force are those of a track that is the same everywhere"
+                        .to_owned(),
+                );
+            }
+            return;
+        }
+        None => return,
+    };
     let first = &stages[0];
-    let slips = !matches!(first.loading.tangential, Tangential::Sliding(_)) && friction.coefficient > 0.0;
-    if first.increments == 1
-        && slips
-        && friction.coupling != Coupling::None
-        && beta.abs() > ALIKE
-        && outlook.gap_slope > 0.0
-    {
+    let slips = !matches!(first.loading.tangential, Tangential::Sliding(_));
+    let matters = friction.coupling != Coupling::None && beta.abs().min(friction.coefficient) > ALIKE;
+    if slips && matters && outlook.gap_slope > 0.0 && loads_at_once(stages) {
         warnings.push(format!(
             "dissimilar bodies (Dundurs' β is {beta:.2}) shear while their contact grows: loaded in one step they \
              stick where they first touch; give `increments` in [friction]"
         ));
+    }
+    let pushes = match first.loading.tangential {
+        Tangential::Force([x, y]) | Tangential::Displacement([x, y]) => x.hypot(y) > 0.0,
+        Tangential::Sliding(_) => false,
+    };
+    if first.increments == 1 && pushes && friction.coefficient > 0.0 && friction.bound(1.0).is_finite() {
+        warnings.push(
+            "pressed and pushed in one step: `dissipation` is that of a push under the full load, and what sticks is \
+             found as if the load had come first; give `increments` in [friction], or push in a [[history]]"
+                .to_owned(),
+        );
     }
     let unloads = stages.windows(2).any(|pair| match (pair[0].loading.normal, pair[1].loading.normal) {
         (solver::Control::Load(before), solver::Control::Load(after))
@@ -311,6 +386,72 @@ fn frictional(friction: &Friction, outlook: &Outlook, warnings: &mut Vec<String>
             "under an infinite coefficient unloading may have no answer: cells that bear any shear open; give a large one"
                 .to_owned(),
         );
+    }
+}
+
+/// Steady rolling over what yields.
+fn rolls_plastically(case: &Case, outlook: &Outlook) -> Option<String> {
+    let Some(Course::Rolling(_)) = outlook.course else { return None };
+    let pressure = rolling_pressure(case, outlook).filter(|pressure| *pressure > outlook.hardness)?;
+    let [pressure, hardness] = [pressure, outlook.hardness].map(|p| units::format(p, Dimension::Pressure));
+    Some(format!(
+        "pressures of about {pressure} are beyond the hardness, {hardness}: cells yield {NOT_FLATTENED}"
+    ))
+}
+
+/// What is wrong with steady rolling over what yields.
+pub(super) const NOT_FLATTENED: &str = "in steady rolling, over a track that was not flattened before: what has been \
+                                        rolled over meets a lower surface; a [motion] with `passes` flattens it";
+
+/// About the largest pressure of a contact without a hardness, where it is known beforehand: Hertz' of a ball, or E* h'/2
+/// of what is rough.
+fn rolling_pressure(case: &Case, outlook: &Outlook) -> Option<Pascal> {
+    let bodies = [&case.lower, &case.upper];
+    if !bodies.into_iter().all(rolls_alike) {
+        return Some(0.5 * outlook.modulus * outlook.gap_slope);
+    }
+    let curvature = |body: &Body| match body.topography.source {
+        Source::Form { form: Form::Sphere { radius }, .. } => Some(1.0 / radius),
+        Source::Form { form: Form::Flat, .. } => Some(0.0),
+        _ => None,
+    };
+    let radius = 1.0 / (curvature(bodies[0])? + curvature(bodies[1])?);
+    let plain = bodies.iter().all(|body| body.topography.plus.is_empty());
+    let hertz = match outlook.control {
+        Control::StepLoad(load) => HertzSphere { radius, modulus: outlook.modulus, load },
+        Control::Approach(approach) => HertzSphere::from_approach(radius, outlook.modulus, approach),
+        Control::PassLoad(_) => return None,
+    };
+    (plain && radius.is_finite()).then(|| hertz.peak_pressure())
+}
+
+/// Whether a body is the same wherever it is rolled over, but for what its form changes slowly.
+fn rolls_alike(body: &Body) -> bool {
+    let smooth = |form: &Form| {
+        matches!(form, Form::Sphere { .. } | Form::Cylinder { .. } | Form::Cone { .. } | Form::Flat)
+    };
+    let TopographySpec { source, plus, .. } = &body.topography;
+    matches!(source, Source::Form { form, .. } if smooth(form))
+        && plus.iter().all(|layer| matches!(layer, Layer::Form { form, .. } if smooth(form)))
+}
+
+/// Whether one increment brings most of the load, or, of an approach, all of it.
+fn loads_at_once(stages: &[Stage]) -> bool {
+    let load = |stage: &Stage| match stage.loading.normal {
+        solver::Control::Load(load) => Some(load),
+        solver::Control::Approach(_) => None,
+    };
+    match stages.iter().map(load).collect::<Option<Vec<_>>>() {
+        Some(loads) => {
+            let before = std::iter::once(0.0).chain(loads.iter().copied());
+            let steps =
+                loads.iter().zip(before).zip(stages).map(|((to, from), s)| (to - from) / s.increments as f64);
+            steps.fold(0.0, f64::max) > 0.5 * loads.iter().copied().fold(0.0, f64::max)
+        }
+        None => {
+            let changes = |pair: &[Stage]| pair[1].loading.normal != pair[0].loading.normal;
+            stages[0].increments == 1 && !stages.windows(2).any(changes)
+        }
     }
 }
 

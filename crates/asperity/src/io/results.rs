@@ -7,7 +7,8 @@
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
-//!     increments.csv       with friction, a row per increment of its loading
+//!     increments.csv       with friction or a history, a row per increment of its loading
+//!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
 //!     summary.json         once all is done
 //!     figures/             pictures
@@ -19,12 +20,13 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use super::fields::{FieldFile, Fields};
+use super::loading::LoadingWriter;
 use super::{atomic, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
-use crate::motion::{FrictionalContact, IncrementRecord, Output, Pair, PassRecord, PassReport, StepRecord};
+use crate::motion::{IncrementRecord, LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
 use crate::subsurface::Tractions;
 use crate::surface::Topography;
@@ -192,33 +194,41 @@ impl Results {
         static_fields(pair, solution, &plastic).write(&self.directory.join("fields.h5"))
     }
 
-    /// Writes the fields of a static contact with friction, and the increments of its loading.
+    /// Writes the fields of a static contact that has been loaded in stages, or rolls.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn write_frictional(&self, pair: &Pair, contact: &FrictionalContact) -> Result<()> {
-        let solution = &contact.solution;
-        let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower));
-        let mut file = static_fields(pair, &solution.normal, &plastic);
-        for (name, unit, field) in [
-            ("traction_x", "Pa", &solution.shear[0]),
-            ("traction_y", "Pa", &solution.shear[1]),
-            ("displacement_x", "m", &solution.displacement[0]),
-            ("displacement_y", "m", &solution.displacement[1]),
-            ("slip_x", "m", &contact.slip[0]),
-            ("slip_y", "m", &contact.slip[1]),
-            ("stick", "1", &solution.stick),
-        ] {
-            file.add_field(name, unit, &pair.lower_grid(), [0.0, 0.0], field);
+    pub fn write_loaded(&self, pair: &Pair, contact: &LoadedContact) -> Result<()> {
+        let grid = pair.lower_grid();
+        let mut file = static_fields(pair, contact.solution.normal(), &contact.plastic);
+        let mut add = |name: &str, unit: &str, field: &Field| {
+            file.add_field(name, unit, &grid, [0.0, 0.0], field);
+        };
+        if let Some(solution) = contact.solution.frictional() {
+            add("traction_x", "Pa", &solution.shear[0]);
+            add("traction_y", "Pa", &solution.shear[1]);
+            add("displacement_x", "m", &solution.displacement[0]);
+            add("displacement_y", "m", &solution.displacement[1]);
         }
-        file.write(&self.directory.join("fields.h5"))?;
-        match contact.increments.as_slice() {
-            [] => Ok(()),
-            increments => tables::write_increments(&self.directory.join("increments.csv"), increments),
+        if let Some([x, y]) = &contact.slip {
+            add("slip_x", "m", x);
+            add("slip_y", "m", y);
         }
+        if let Some(solution) = contact.solution.frictional() {
+            add("stick", "1", &solution.stick);
+            if solution.cap.iter().any(|cap| *cap != pair.hardness()) {
+                add("cap", "Pa", &solution.cap);
+            }
+        }
+        file.write(&self.directory.join("fields.h5"))
     }
 
-    /// The increments of the loading of a static contact with friction; none of other contacts.
+    /// What keeps each increment of a loading of so many `increments` here.
+    pub fn loading(&self, pair: &Pair, increments: usize) -> LoadingWriter {
+        LoadingWriter::new(&self.directory, pair.lower_grid(), increments)
+    }
+
+    /// The increments of a static contact that was loaded in stages; none of other contacts.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -250,7 +260,8 @@ impl Results {
     /// [`Error::File`].
     pub fn write_initial(&self, pair: &Pair) -> Result<()> {
         let mut file = FieldFile::new();
-        file.set("version", env!("CARGO_PKG_VERSION")).set("pass", 0).set("hardness", pair.hardness());
+        file.set("version", env!("CARGO_PKG_VERSION")).set("pass", 0);
+        set_caps(&mut file, pair);
         add_surfaces(&mut file, pair);
         file.write(&self.fields_path(0))
     }
@@ -368,9 +379,8 @@ impl Output for PassWriter {
     fn pass(&mut self, report: &PassReport) -> Result<()> {
         let pair = report.pair;
         let mut file = FieldFile::new();
-        file.set("version", env!("CARGO_PKG_VERSION"))
-            .set("pass", report.record.pass)
-            .set("hardness", pair.hardness());
+        file.set("version", env!("CARGO_PKG_VERSION")).set("pass", report.record.pass);
+        set_caps(&mut file, pair);
         add_surfaces(&mut file, pair);
         let [lower, upper] = report.mean_pressure();
         file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
@@ -432,6 +442,11 @@ fn static_fields(pair: &Pair, solution: &Solution, plastic: &Field) -> FieldFile
         file.add_field(name, unit, &grid, [0.0, 0.0], field);
     }
     file
+}
+
+/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
+fn set_caps(file: &mut FieldFile, pair: &Pair) {
+    file.set("hardness", pair.hardness()).set("cap", pair.cap());
 }
 
 fn add_surfaces(file: &mut FieldFile, pair: &Pair) {

@@ -1,9 +1,9 @@
 //! What to be wary of in a result, told once it is there.
 
 use super::case::Case;
-use super::outlook::{cut_off, spot, too_few_cells};
+use super::outlook::{NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Interior, Pair, PassRecord};
+use crate::motion::{Interior, LoadedContact, Pair, PassRecord};
 use crate::operator::Boundary;
 
 /// Of a static contact, by its pressure.
@@ -11,6 +11,27 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     let gap = || &pair.upper - &pair.lower;
     let rim = (boundary == Boundary::Free).then(|| cut_off(pressure, gap, pair.pitch())).flatten();
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
+}
+
+/// What to be wary of in a static contact that was loaded in stages, or rolls.
+pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
+    /// Dissipation that is known less accurately than this is warned of.
+    const ACCURATE: f64 = 0.1;
+    let mut warnings = Vec::new();
+    let Some(shear) = &contact.record.shear else { return warnings };
+    let error = contact.dissipation_error / shear.dissipation;
+    if error > ACCURATE {
+        warnings.push(format!(
+            "cells slip while what they bear changes: `dissipation` is known within {:.0} % only; give more `increments` \
+             where the load and what acts in the plane change together",
+            (100.0 * error).ceil()
+        ));
+    }
+    let plastic = contact.record.plastic_cells;
+    if shear.creepage.is_some() && plastic > 0 {
+        warnings.push(format!("{plastic} cells yield {NOT_FLATTENED}"));
+    }
+    warnings
 }
 
 /// Of a motion of bodies of these `shapes`, by its passes.

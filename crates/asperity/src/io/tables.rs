@@ -62,7 +62,7 @@ pub const PASS_COLUMNS: [&str; 23] = [
 ];
 
 /// Columns of `increments.csv`.
-pub const INCREMENT_COLUMNS: [&str; 17] = [
+pub const INCREMENT_COLUMNS: [&str; 18] = [
     "increment",
     "stage",
     "load",
@@ -75,6 +75,7 @@ pub const INCREMENT_COLUMNS: [&str; 17] = [
     "stick_area",
     "max_pressure",
     "max_shear",
+    "plastic_volume",
     "elastic_energy",
     "dissipation",
     "iterations",

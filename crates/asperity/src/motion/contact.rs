@@ -46,15 +46,15 @@ impl Contact {
     ) -> Result<Self> {
         let gap = pair.initial_gap(&position);
         let shape = [position.columns, gap.ncols()];
-        let hardness = pair.hardness();
+        let cap = pair.cap();
         let solution = match sliding {
             Some(sliding) if sliding.lifts(pair.compliances()) => {
                 let mut operator = operators.coupled_on(shape);
-                solve_sliding(operator.as_mut(), &gap, hardness, sliding, control, start, params)?.normal
+                solve_sliding(operator.as_mut(), &gap, cap, sliding, control, start, params)?.normal
             }
             _ => {
                 let mut operator = operators.on(shape);
-                solve_normal(operator.as_mut(), &gap, hardness, control, start, params)?
+                solve_normal(operator.as_mut(), &gap, cap, control, start, params)?
             }
         };
         Ok(Self::new(pair, position, sliding, &gap, &solution))
@@ -96,7 +96,7 @@ impl Contact {
             if p > 0.0 {
                 pressure.push((cell as u32, p));
             }
-            if p >= pair.hardness() {
+            if p >= pair.cap() {
                 plastic.push((cell as u32, (solution.approach - h - u).max(0.0)));
             }
         }

@@ -1,94 +1,153 @@
-//! The history of a static contact with friction: what it bears depends on how it came there.
+//! The history of a static contact: what it bears depends on how it came there.
+
+use std::borrow::Cow;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::watch::{Progress, Watch};
-use crate::operator::{Boundary, CoupledOperator, Operators};
+use crate::operator::{Boundary, CoupledOperator, Operator, Operators};
 use crate::solver::{
-    Control, Friction, FrictionalSolution, Loading, Params, Rolling, Tangential, solve_frictional,
-    solve_rolling,
+    Control, Friction, FrictionalSolution, Loading, Params, Rolling, Solution, Tangential, solve_frictional,
+    solve_normal, solve_rolling,
 };
-use crate::units::SquareMetre;
+use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
 
 /// One stage of a loading: what is prescribed at its end, and in how many equal steps it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// At the end of the stage.
+    /// At the end of the stage. Without friction nothing acts in the plane, whatever is prescribed there.
     pub loading: Loading,
     /// Steps, ≥ 1.
     pub increments: usize,
 }
 
-/// A contact with friction, and how it came about.
+/// A static contact, and how it came about.
 #[derive(Debug, Clone)]
-pub struct FrictionalContact {
+pub struct LoadedContact {
     /// Its end in numbers.
     pub record: StaticRecord,
     /// Each increment; none of a rolling contact.
     pub increments: Vec<IncrementRecord>,
     /// Its end.
-    pub solution: FrictionalSolution,
-    /// Slip of all increments together along x and y, m; in rolling, while the contact moves on by a cell.
-    pub slip: [Field; 2],
+    pub solution: Equilibrium,
+    /// Plastic interference that both bodies have taken up together, m.
+    pub plastic: Field,
+    /// Slip of all increments together along x and y, m; in rolling, while the contact moves on by a cell; none without
+    /// friction.
+    pub slip: Option<[Field; 2]>,
+    /// How far the energy that friction took may be from what the record says, but for what the first increment brings:
+    /// see [`FrictionalSolution::dissipation_error`].
+    pub dissipation_error: Joule,
 }
 
-/// Loads a pair whose bodies face each other with all their columns, from where they do not touch, stage after stage.
+/// A contact in equilibrium.
+#[derive(Debug, Clone)]
+pub enum Equilibrium {
+    /// Without friction.
+    Frictionless(Solution),
+    /// With friction.
+    Frictional(Box<FrictionalSolution>),
+}
+
+/// A loading under way: all that its next increment depends on.
+#[derive(Debug, Clone)]
+pub struct LoadingState {
+    /// The increments done.
+    pub increments: Vec<IncrementRecord>,
+    /// The end of the last one.
+    pub contact: Equilibrium,
+    /// Where the stage of the last one began.
+    pub origin: Origin,
+    /// What its cells have taken up plastically.
+    pub flattening: Flattening,
+    /// Slip of all increments together along x and y, m; none without friction.
+    pub slip: Option<[Field; 2]>,
+    /// Sum over the increments of [`FrictionalSolution::dissipation_error`].
+    pub dissipation_error: Joule,
+}
+
+/// What the cells of a contact have taken up plastically in the course of its loading.
+#[derive(Debug, Clone)]
+pub struct Flattening {
+    /// For good, m: both bodies are lowered by it together. None before plastic cells are first unloaded.
+    pub kept: Option<Field>,
+    /// Largest plastic interference since then, m, on the surfaces so lowered.
+    pub deepest: Field,
+}
+
+/// Takes the increments of a loading. An output that cannot be written ends the loading.
+pub trait LoadingOutput {
+    /// Takes the state after an increment.
+    ///
+    /// # Errors
+    /// What kept it from being written.
+    fn increment(&mut self, state: &LoadingState) -> Result<()>;
+}
+
+/// Nobody takes them.
+impl LoadingOutput for () {
+    fn increment(&mut self, _: &LoadingState) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Loads a pair whose bodies face each other with all their columns, stage after stage: from where they do not touch, or
+/// from a state `under_way`, from which it comes to the same as without the interruption, bit by bit.
 ///
 /// Between the ends of its stages a load, an approach, a force or a displacement grows in equal steps; from 0 at first, an
 /// approach from the first touch, and where a stage prescribes another quantity than the one before, from what it is then.
 ///
+/// What has flowed plastically does not flow back. As long as no cell would, the plastic interference of an increment is
+/// that of all its loading at once; from where some cell would, the surfaces stay flattened by what each cell has taken up
+/// so far, and the increment is solved afresh on them. This is the incremental law of perfect plasticity: in each
+/// increment w grows where p is at its cap, and nowhere shrinks.
+///
 /// # Errors
-/// Those of [`solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`].
+/// Those of [`solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the output.
 ///
 /// # Panics
 /// If the bodies have different shapes.
+#[expect(clippy::too_many_arguments, reason = "the contact, its history, and who looks on")]
 pub fn load_in_stages(
     pair: &Pair,
     boundary: Boundary,
-    friction: &Friction,
+    friction: Option<&Friction>,
     stages: &[Stage],
     params: &Params,
+    under_way: Option<LoadingState>,
     watch: &dyn Watch,
-) -> Result<FrictionalContact> {
-    let (mut operator, gap) = facing(pair, boundary);
+    output: &mut dyn LoadingOutput,
+) -> Result<LoadedContact> {
+    let mut bodies = Bodies::new(pair, boundary, friction, params);
     let area = pair.cell_area();
-    let mut state: Option<FrictionalSolution> = None;
-    let mut slip = [Field::zeros(gap.raw_dim()), Field::zeros(gap.raw_dim())];
-    let mut increments = Vec::new();
     let positions = stages.iter().map(|stage| stage.increments).sum();
-    for (index, stage) in stages.iter().enumerate() {
-        let from = Origin::of(state.as_ref(), &gap, area);
-        for step in 1..=stage.increments {
-            if watch.stop() {
-                return Err(Error::Interrupted);
-            }
-            let loading = from.towards(stage.loading, step as f64 / stage.increments as f64);
-            let next = solve_frictional(
-                operator.as_mut(),
-                &gap,
-                pair.hardness(),
-                friction,
-                loading,
-                state.as_ref(),
-                params,
-            )?;
-            slip.iter_mut().zip(&next.slip).for_each(|(sum, slip)| *sum += slip);
-            let dissipation = next.dissipation(state.as_ref(), area);
-            increments.push(record(&next, increments.len() + 1, index + 1, dissipation, area));
-            let (solved, load) = (increments.len(), next.normal.load(area));
-            watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load });
-            state = Some(next);
+    let done = under_way.as_ref().map_or(0, |state| state.increments.len());
+    let increments = stages
+        .iter()
+        .enumerate()
+        .flat_map(|(index, stage)| (1..=stage.increments).map(move |step| (index, stage, step)));
+    let mut state = under_way;
+    for (index, stage, step) in increments.skip(done) {
+        if watch.stop() {
+            return Err(Error::Interrupted);
         }
+        let origin = match &state {
+            Some(state) if step > 1 => state.origin,
+            Some(state) => Origin::of(&state.contact, area),
+            None => Origin::apart(&bodies.gap),
+        };
+        let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
+        let next = bodies.load(index + 1, loading, origin, state)?;
+        let record = next.increments.last().expect("the increment just done");
+        let (solved, load) = (record.increment, record.load);
+        output.increment(&next)?;
+        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load });
+        state = Some(next);
     }
-    let solution = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
-    let dissipation = increments.iter().map(|increment| increment.dissipation).sum();
-    let mut record = normal_record(pair, &gap, &solution);
-    record.iterations = increments.iter().map(|increment| increment.iterations).sum();
-    record.convolutions = increments.iter().map(|increment| increment.convolutions).sum();
-    record.shear = Some(shear_record(&solution, dissipation, None, area));
-    Ok(FrictionalContact { record, increments, solution, slip })
+    let state = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
+    Ok(bodies.finish(pair, state))
 }
 
 /// The steady state of a pair that rolls along x, see [`solve_rolling`].
@@ -105,47 +164,272 @@ pub fn roll(
     control: Control,
     rolling: Rolling,
     params: &Params,
-) -> Result<FrictionalContact> {
-    let (mut operator, gap) = facing(pair, boundary);
+) -> Result<LoadedContact> {
+    let (operators, gap) = facing(pair, boundary);
+    let mut operator = operators.coupled_on(pair.lower_grid().shape);
     let area = pair.cell_area();
     let (solution, creepage) =
         solve_rolling(operator.as_mut(), &gap, pair.hardness(), friction, control, rolling, params)?;
-    let mut record = normal_record(pair, &gap, &solution);
+    let plastic = solution.plastic_interference(&gap);
     let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
-    record.shear = Some(shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area));
-    let slip = solution.slip.clone();
-    Ok(FrictionalContact { record, increments: Vec::new(), solution, slip })
+    let shear = shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area);
+    let slip = Some(solution.slip.clone());
+    let solution = Equilibrium::Frictional(Box::new(solution));
+    let record = StaticRecord { shear: Some(shear), ..static_record(pair, &solution, &plastic) };
+    Ok(LoadedContact { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
 }
 
-fn facing(pair: &Pair, boundary: Boundary) -> (Box<dyn CoupledOperator>, Field) {
+impl Equilibrium {
+    /// Pressure, displacement and approach.
+    pub fn normal(&self) -> &Solution {
+        match self {
+            Self::Frictionless(solution) => solution,
+            Self::Frictional(solution) => &solution.normal,
+        }
+    }
+
+    /// What there is with friction.
+    pub fn frictional(&self) -> Option<&FrictionalSolution> {
+        match self {
+            Self::Frictionless(_) => None,
+            Self::Frictional(solution) => Some(solution),
+        }
+    }
+
+    fn plastic_interference(&self, gap: &Field, hardness: Pascal) -> Field {
+        match self {
+            Self::Frictionless(solution) => solution.plastic_interference(gap, hardness),
+            Self::Frictional(solution) => solution.plastic_interference(gap),
+        }
+    }
+
+    fn plastic_cells(&self, hardness: Pascal) -> usize {
+        match self {
+            Self::Frictionless(solution) => solution.plastic_cells(hardness),
+            Self::Frictional(solution) => solution.plastic_cells(),
+        }
+    }
+
+    fn elastic_energy(&self, area: SquareMetre) -> Joule {
+        match self {
+            Self::Frictionless(solution) => solution.elastic_energy(area),
+            Self::Frictional(solution) => solution.elastic_energy(area),
+        }
+    }
+}
+
+/// Two bodies, and what solves an increment of their loading.
+struct Bodies<'a> {
+    /// As they are prepared.
+    gap: Field,
+    solver: Solver<'a>,
+    hardness: Pascal,
+    area: SquareMetre,
+    params: &'a Params,
+}
+
+enum Solver<'a> {
+    Frictionless(Box<dyn Operator>),
+    Frictional(Box<dyn CoupledOperator>, &'a Friction),
+}
+
+/// The plastic interference of a cell has gone back if by more than this many tolerances, as a share of std(u): each of
+/// the two answers is off by some.
+const GONE_BACK: f64 = 4.0;
+
+impl<'a> Bodies<'a> {
+    fn new(pair: &Pair, boundary: Boundary, friction: Option<&'a Friction>, params: &'a Params) -> Self {
+        let (operators, gap) = facing(pair, boundary);
+        let shape = pair.lower_grid().shape;
+        let solver = match friction {
+            None => Solver::Frictionless(operators.on(shape)),
+            Some(friction) => Solver::Frictional(operators.coupled_on(shape), friction),
+        };
+        Self { gap, solver, hardness: pair.hardness(), area: pair.cell_area(), params }
+    }
+
+    /// The state after an increment that begins with the state `before`.
+    fn load(
+        &mut self,
+        stage: usize,
+        loading: Loading,
+        origin: Origin,
+        before: Option<LoadingState>,
+    ) -> Result<LoadingState> {
+        let (last, mut flattening, mut increments, slip, error) = match before {
+            Some(LoadingState { contact, flattening, increments, slip, dissipation_error, .. }) => {
+                (Some(contact), flattening, increments, slip, dissipation_error)
+            }
+            None => {
+                let deepest = Field::zeros(self.gap.raw_dim());
+                (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0)
+            }
+        };
+        let (hardness, params) = (self.hardness, self.params);
+        let mut contact =
+            self.solver.solve(&flattening.open(&self.gap), hardness, loading, last.as_ref(), params)?;
+        let mut stats = contact.normal().stats;
+        let mut plastic = contact.plastic_interference(&flattening.open(&self.gap), hardness);
+        let allowed = GONE_BACK * params.tolerance * contact.normal().displacement.std(0.0);
+        if flattening.exceeds(&plastic, allowed) {
+            flattening.keep();
+            contact =
+                self.solver.solve(&flattening.open(&self.gap), hardness, loading, last.as_ref(), params)?;
+            stats = stats.and(&contact.normal().stats);
+            plastic = contact.plastic_interference(&flattening.open(&self.gap), hardness);
+        }
+        flattening.deepen(&plastic);
+        let of_friction = contact.frictional().map(|solution| {
+            let last = last.as_ref().and_then(Equilibrium::frictional);
+            let error = last.map_or(0.0, |last| solution.dissipation_error(last, self.area));
+            [solution.dissipation(last, self.area), error]
+        });
+        let slip = match (slip, contact.frictional()) {
+            (Some([x, y]), Some(solution)) => Some([x + &solution.slip[0], y + &solution.slip[1]]),
+            (_, solution) => solution.map(|solution| solution.slip.clone()),
+        };
+        let [dissipation, more_error] = of_friction.unwrap_or_default();
+        let normal = contact.normal();
+        let shear = contact.frictional();
+        let force = shear.map_or([0.0; 2], |solution| solution.force(self.area));
+        let shift = shear.map_or([0.0; 2], |solution| solution.shift);
+        increments.push(IncrementRecord {
+            increment: increments.len() + 1,
+            stage,
+            load: normal.load(self.area),
+            approach: normal.approach,
+            tangential_force_x: force[0],
+            tangential_force_y: force[1],
+            tangential_displacement_x: shift[0],
+            tangential_displacement_y: shift[1],
+            contact_area: self.area * normal.contact_cells() as f64,
+            stick_area: self.area * shear.map_or(0.0, |solution| solution.stick.sum()),
+            max_pressure: normal.max_pressure(),
+            max_shear: shear.map_or(0.0, FrictionalSolution::max_shear),
+            plastic_volume: self.area * flattening.whole(plastic).sum(),
+            elastic_energy: contact.elastic_energy(self.area),
+            dissipation,
+            iterations: stats.iterations,
+            convolutions: stats.convolutions,
+            residual: normal.residual,
+        });
+        let dissipation_error = error + more_error;
+        Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error })
+    }
+
+    /// The contact at the end of its loading.
+    fn finish(self, pair: &Pair, state: LoadingState) -> LoadedContact {
+        let LoadingState { increments, contact: solution, flattening, slip, dissipation_error, .. } = state;
+        let now = solution.plastic_interference(&flattening.open(&self.gap), self.hardness);
+        let plastic = flattening.whole(now);
+        let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
+        let shear = solution
+            .frictional()
+            .map(|solution| shear_record(solution, sum(|i| i.dissipation), None, self.area));
+        let record = StaticRecord {
+            iterations: increments.iter().map(|increment| increment.iterations).sum(),
+            convolutions: sum(|increment| increment.convolutions),
+            shear,
+            ..static_record(pair, &solution, &plastic)
+        };
+        LoadedContact { record, increments, solution, plastic, slip, dissipation_error }
+    }
+}
+
+impl Solver<'_> {
+    /// An increment over the initial `gap`, from the `last` one.
+    fn solve(
+        &mut self,
+        gap: &Field,
+        hardness: Pascal,
+        loading: Loading,
+        last: Option<&Equilibrium>,
+        params: &Params,
+    ) -> Result<Equilibrium> {
+        match self {
+            Self::Frictionless(operator) => {
+                let start = last.map(|last| &last.normal().pressure);
+                solve_normal(operator.as_mut(), gap, hardness, loading.normal, start, params)
+                    .map(Equilibrium::Frictionless)
+            }
+            Self::Frictional(operator, friction) => {
+                let last = last.and_then(Equilibrium::frictional);
+                solve_frictional(operator.as_mut(), gap, hardness, friction, loading, last, params)
+                    .map(|solution| Equilibrium::Frictional(Box::new(solution)))
+            }
+        }
+    }
+}
+
+impl Flattening {
+    /// The gap of the surfaces lowered for good.
+    fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
+        match &self.kept {
+            None => Cow::Borrowed(gap),
+            Some(kept) => Cow::Owned(gap + kept),
+        }
+    }
+
+    /// Whether some cell has had a larger interference than `now`, by more than is `allowed`.
+    fn exceeds(&self, now: &Field, allowed: Metre) -> bool {
+        self.deepest.iter().zip(now).any(|(deepest, now)| deepest - now > allowed)
+    }
+
+    /// Lowers the surfaces by the largest interference of each cell.
+    fn keep(&mut self) {
+        let virgin = Field::zeros(self.deepest.raw_dim());
+        let deepest = std::mem::replace(&mut self.deepest, virgin);
+        self.kept = Some(match self.kept.take() {
+            None => deepest,
+            Some(kept) => kept + deepest,
+        });
+    }
+
+    fn deepen(&mut self, now: &Field) {
+        self.deepest.zip_mut_with(now, |deepest, now| *deepest = deepest.max(*now));
+    }
+
+    /// What has been taken up in all, with the interference `now`.
+    fn whole(&self, now: Field) -> Field {
+        match &self.kept {
+            None => now,
+            Some(kept) => kept + &now,
+        }
+    }
+}
+
+fn facing(pair: &Pair, boundary: Boundary) -> (Operators, Field) {
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
-    let operators = Operators::new(pair.pitch(), *pair.compliances(), boundary);
-    (operators.coupled_on(pair.lower_grid().shape), &pair.upper - &pair.lower)
+    (Operators::new(pair.pitch(), *pair.compliances(), boundary), &pair.upper - &pair.lower)
 }
 
 /// Where a stage begins, in each quantity that it may prescribe.
-struct Origin {
-    load: f64,
-    approach: f64,
-    force: [f64; 2],
-    shift: [f64; 2],
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Origin {
+    /// Normal force.
+    pub load: Newton,
+    /// Approach.
+    pub approach: Metre,
+    /// Force of the upper body on the lower one along x and y.
+    pub force: [Newton; 2],
+    /// Displacement of the upper body against the lower one along x and y.
+    pub shift: [Metre; 2],
 }
 
 impl Origin {
-    fn of(state: Option<&FrictionalSolution>, gap: &Field, area: SquareMetre) -> Self {
-        match state {
-            Some(state) => Self {
-                load: state.normal.load(area),
-                approach: state.normal.approach,
-                force: state.force(area),
-                shift: state.shift,
-            },
-            None => Self {
-                load: 0.0,
-                approach: gap.iter().copied().fold(f64::INFINITY, f64::min),
-                force: [0.0; 2],
-                shift: [0.0; 2],
-            },
+    /// Bodies that just do not touch over this gap.
+    fn apart(gap: &Field) -> Self {
+        let approach = gap.iter().copied().fold(f64::INFINITY, f64::min);
+        Self { load: 0.0, approach, force: [0.0; 2], shift: [0.0; 2] }
+    }
+
+    fn of(contact: &Equilibrium, area: SquareMetre) -> Self {
+        let (normal, shear) = (contact.normal(), contact.frictional());
+        Self {
+            load: normal.load(area),
+            approach: normal.approach,
+            force: shear.map_or([0.0; 2], |solution| solution.force(area)),
+            shift: shear.map_or([0.0; 2], |solution| solution.shift),
         }
     }
 
@@ -167,59 +451,33 @@ impl Origin {
     }
 }
 
-fn record(
-    solution: &FrictionalSolution,
-    increment: usize,
-    stage: usize,
-    dissipation: f64,
-    area: SquareMetre,
-) -> IncrementRecord {
-    let force = solution.force(area);
-    let normal = &solution.normal;
-    IncrementRecord {
-        increment,
-        stage,
-        load: normal.load(area),
-        approach: normal.approach,
-        tangential_force_x: force[0],
-        tangential_force_y: force[1],
-        tangential_displacement_x: solution.shift[0],
-        tangential_displacement_y: solution.shift[1],
-        contact_area: area * normal.contact_cells() as f64,
-        stick_area: area * solution.stick.sum(),
-        max_pressure: normal.max_pressure(),
-        max_shear: solution.max_shear(),
-        elastic_energy: solution.elastic_energy(area),
-        dissipation,
-        iterations: normal.stats.iterations,
-        convolutions: normal.stats.convolutions,
-        residual: normal.residual,
-    }
-}
-
-/// What a contact without friction has in numbers too.
-fn normal_record(pair: &Pair, gap: &Field, solution: &FrictionalSolution) -> StaticRecord {
+/// The numbers of a contact that has flowed so far, but for its shear.
+fn static_record(pair: &Pair, contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     let area = pair.cell_area();
     StaticRecord {
-        elastic_energy: solution.elastic_energy(area),
-        plastic_cells: solution.plastic_cells(),
-        plastic_volume: area * solution.plastic_interference(gap).sum(),
-        ..StaticRecord::new(pair, &solution.normal)
+        elastic_energy: contact.elastic_energy(area),
+        plastic_cells: contact.plastic_cells(pair.hardness()),
+        plastic_volume: area * plastic.sum(),
+        ..StaticRecord::new(pair, contact.normal())
     }
 }
 
 fn shear_record(
     solution: &FrictionalSolution,
-    dissipation: f64,
+    dissipation: Joule,
     creepage: Option<[f64; 2]>,
     area: SquareMetre,
 ) -> ShearRecord {
     let force = solution.force(area);
+    let load = solution.normal.load(area);
+    let force_ratio = if load > 0.0 { force[0].hypot(force[1]) / load } else { 0.0 };
+    let sticks = solution.stick.sum();
     ShearRecord {
         tangential_force: force,
-        friction_coefficient: force[0].hypot(force[1]) / solution.normal.load(area),
+        force_ratio,
+        friction_coefficient: (load > 0.0 && sticks == 0.0).then_some(force_ratio),
         tangential_displacement: solution.shift,
-        stick_area: area * solution.stick.sum(),
+        stick_area: area * sticks,
         max_shear: solution.max_shear(),
         dissipation,
         creepage,

@@ -15,7 +15,9 @@ mod spot;
 mod watch;
 
 pub use contact::{Contact, press};
-pub use loading::{FrictionalContact, Stage, load_in_stages, roll};
+pub use loading::{
+    Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
+};
 pub use pair::Pair;
 pub(crate) use pair::initial_gap;
 pub use path::{Position, overlap_positions, shift_positions};
@@ -137,5 +139,10 @@ impl Motion {
     /// How the bodies slide, if there is friction: the upper one towards where it goes.
     pub(crate) fn sliding(&self) -> Option<Sliding> {
         self.friction.map(|friction| Sliding { friction, direction: [self.strategy.direction(), 0.0] })
+    }
+
+    /// The most pressure that cells of the `hardness` bear in this motion.
+    pub(crate) fn cap(&self, hardness: Pascal) -> Pascal {
+        self.friction.map_or(hardness, |friction| friction.sliding_cap(hardness))
     }
 }

@@ -17,6 +17,7 @@ pub struct Pair {
     pitch: [Metre; 2],
     compliances: Compliances,
     hardness: Pascal,
+    cap: Pascal,
     share: f64,
 }
 
@@ -50,12 +51,14 @@ impl Pair {
                 return Err(Error::UndefinedSamples { undefined, samples: body.grid().cells() });
             }
         }
+        let hardness = composite_hardness(materials[0], materials[1]);
         Ok(Self {
             pitch: a.pitch,
             lower: lower.into_heights(),
             upper: upper.into_heights(),
             compliances: Compliances::new(materials[0], materials[1])?,
-            hardness: composite_hardness(materials[0], materials[1]),
+            hardness,
+            cap: hardness,
             share: plastic_share(materials[0], materials[1]),
         })
     }
@@ -65,9 +68,9 @@ impl Pair {
         Self { share, ..self }
     }
 
-    /// The same pair, whose cells bear at most `hardness`, > 0.
-    pub fn with_hardness(self, hardness: Pascal) -> Self {
-        Self { hardness, ..self }
+    /// The same pair, whose cells bear at most the pressure `cap`, > 0.
+    pub fn with_cap(self, cap: Pascal) -> Self {
+        Self { cap, ..self }
     }
 
     /// Size of a cell.
@@ -88,6 +91,11 @@ impl Pair {
     /// Hardness of the pair, infinite where both bodies are elastic.
     pub fn hardness(&self) -> Pascal {
         self.hardness
+    }
+
+    /// The most pressure that a cell bears: the hardness, or what a shear leaves of it.
+    pub fn cap(&self) -> Pascal {
+        self.cap
     }
 
     /// The lower body's share of the plastic deformation.

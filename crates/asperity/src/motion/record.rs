@@ -21,9 +21,9 @@ pub struct StaticRecord {
     pub mean_gap: Metre,
     /// ½ ΔA Σ p u.
     pub elastic_energy: Joule,
-    /// Number of cells at the hardness.
+    /// Number of cells at the hardness, under shear at their caps.
     pub plastic_cells: usize,
-    /// ΔA Σ w, w the interference left at the cells at the hardness.
+    /// ΔA Σ w, w the plastic interference that the cells have taken up in the course of the loading.
     pub plastic_volume: CubicMetre,
     /// Iterations of the solver.
     pub iterations: usize,
@@ -43,8 +43,10 @@ pub struct StaticRecord {
 pub struct ShearRecord {
     /// Force of the upper body on the lower one, along x and y.
     pub tangential_force: [Newton; 2],
-    /// Its magnitude over the load.
-    pub friction_coefficient: f64,
+    /// Its magnitude over the load; 0 without load.
+    pub force_ratio: f64,
+    /// The same where no cell sticks: that of the contact as a whole.
+    pub friction_coefficient: Option<f64>,
     /// Rigid-body displacement of the upper body against the lower one, along x and y; 0 in sliding.
     pub tangential_displacement: [Metre; 2],
     /// Area of the cells that stick.
@@ -58,7 +60,7 @@ pub struct ShearRecord {
     pub creepage: Option<[f64; 2]>,
 }
 
-/// One increment of the loading of a contact with friction: a row of `increments.csv`.
+/// One increment of the loading of a static contact: a row of `increments.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct IncrementRecord {
     /// Increment, from 1.
@@ -79,12 +81,14 @@ pub struct IncrementRecord {
     pub tangential_displacement_y: Metre,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
-    /// Area of those that stick.
+    /// Area of those that stick; here and below 0 without friction.
     pub stick_area: SquareMetre,
     /// Largest pressure.
     pub max_pressure: Pascal,
     /// Largest shear traction.
     pub max_shear: Pascal,
+    /// What both bodies have lost so far.
+    pub plastic_volume: CubicMetre,
     /// Elastic energy of both tractions.
     pub elastic_energy: Joule,
     /// Energy that friction took in this increment.

@@ -43,14 +43,13 @@ impl Simulation {
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
         // What slides bears less pressure where it is plastic.
-        let hardness = pair.hardness();
-        let pair = pair.with_hardness(motion.friction.map_or(hardness, |f| f.sliding_cap(hardness)));
+        let cap = motion.cap(pair.hardness());
+        let pair = pair.with_cap(cap);
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
-        let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), pair.hardness());
+        let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), cap);
         motion.control.check_limit(limit)?;
         let operators = Operators::new(pair.pitch(), *pair.compliances(), boundary);
-        let together =
-            memory_together(&motion, params.method, pair.hardness(), &columns, pair.lower.ncols()).is_some();
+        let together = memory_together(&motion, params.method, cap, &columns, pair.lower.ncols()).is_some();
         Ok(Self {
             together,
             boundary,
@@ -205,7 +204,7 @@ impl Simulation {
     fn first_guess(&self, load: Newton) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
-        let limit = self.pair.hardness() * self.pair.grid(fullest.columns).area();
+        let limit = self.pair.cap() * self.pair.grid(fullest.columns).area();
         let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(self.pair.lower.ncols()));

@@ -74,8 +74,7 @@ impl Solver<'_> {
             true => f64::INFINITY,
             false => residual.min(PROGRESS * first.get_or_init(|| state.eta)).max(params.tolerance),
         };
-        let found =
-            solve_together(&sites, pair.hardness(), total, start, &tolerance, params.max_convolutions)?;
+        let found = solve_together(&sites, pair.cap(), total, start, &tolerance, params.max_convolutions)?;
         if self.watch.stop() {
             return Err(Error::Interrupted);
         }

@@ -96,7 +96,7 @@ pub struct Stats {
 
 impl Stats {
     /// Of both.
-    fn and(&self, other: &Self) -> Self {
+    pub(crate) fn and(&self, other: &Self) -> Self {
         Self {
             iterations: self.iterations + other.iterations,
             convolutions: self.convolutions + other.convolutions,

@@ -117,9 +117,9 @@ pub(super) const MINDLIN: Case = Case {
     },
 };
 
-/// The push is taken back and given again, in `a/Δx` increments. The states do not depend on them; in the closed cycle
-/// friction takes what the force has done. Chords cut the loop short by the square of the increments. In the
-/// displacement the order 3, of the edges of stick and slip, is still the larger.
+/// The push is taken back and given again, in `a/Δx` increments: neither the states nor what friction takes depends on
+/// them. The force does that work over the closed cycle, summed by its chords, which cut the loop short by the square of
+/// the increments. In displacement and loss the order 3, of the edges of stick and slip, is still the larger.
 pub(super) const HYSTERESIS: Case = Case {
     name: "hysteresis: Q = ±0.9 μW",
     source: "Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4",
@@ -130,9 +130,9 @@ fn hysteresis() -> Result<Vec<Check>> {
     let checks = [
         ("displacement, rms", Expected::Order { order: 1.8..=3.1, finest: 1e-4 }),
         ("shear, rms, Q = 0", Expected::Order { order: 0.8..=1.2, finest: 2e-2 }),
-        ("loss", Expected::Order { order: 1.8..=2.2, finest: 1e-2 }),
-        ("loss against ∮ Q dD", Expected::RoundOff(1e-8)),
-        ("gain in any increment", Expected::RoundOff(1e-8)),
+        ("loss", Expected::Order { order: 1.8..=3.1, finest: 5e-4 }),
+        ("loss against ∮ Q dD", Expected::Order { order: 1.8..=2.2, finest: 1e-2 }),
+        ("loss in two increments", Expected::RoundOff(1e-6)),
     ];
     study("a/Δx", &[8, 16, 32], checks, |n| {
         let mut pushed = Pushed::new(0.0, 0.9, n)?;
@@ -144,25 +144,27 @@ fn hysteresis() -> Result<Vec<Check>> {
             (way, MindlinDeresiewicz { turn, tangential_load: way * force(step) })
         };
         let mut state = pushed.under(turn.tangential_load, FRICTION, None)?;
-        let (mut losses, mut work, mut squares, mut shear) = (Vec::new(), 0.0, 0.0, f64::NAN);
+        let (mut loss, mut work, mut squares, mut shear) = (0.0, 0.0, 0.0, f64::NAN);
+        let there = pushed.under(force(n / 2), FRICTION, Some(&state))?;
+        let back = pushed.under(force(n), FRICTION, Some(&there))?;
+        let at_once = there.dissipation(Some(&state), area) + back.dissipation(Some(&there), area);
         for step in 1..=n {
             let next = pushed.under(force(step), FRICTION, Some(&state))?;
             let (way, exact) = exact(step);
             squares += (travel(&next) - way * exact.displacement()).powi(2);
-            losses.push(next.dissipation(Some(&state), area));
+            loss += next.dissipation(Some(&state), area);
             work += 0.5 * (force(step) + force(step - 1)) * (travel(&next) - travel(&state));
             if 4 * step == n {
                 shear = relative_rms(&along(&next.shear), &pushed.around(|r| exact.shear(r)));
             }
             state = next;
         }
-        let loss: f64 = losses.iter().sum();
         Ok([
             (squares / n as f64).sqrt() / turn.displacement(),
             shear,
             relative(loss, turn.cycle_loss()),
             relative(loss, work),
-            relative(loss, losses.iter().map(|loss| loss.abs()).sum()),
+            relative(at_once, loss),
         ])
     })
 }

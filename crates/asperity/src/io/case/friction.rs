@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
 use super::parse::{belongs, choice_or, known_in, prescribed};
-use super::{Number, Prescribed};
+use super::{Case, Number, Prescribed};
 use crate::error::Result;
 use crate::motion::Stage;
 use crate::solver::{Coupling, Friction, Loading, Rolling, Tangential};
@@ -53,7 +53,7 @@ pub struct StageSpec {
     pub increments: usize,
 }
 
-/// How a static contact with friction is computed.
+/// How a static contact is computed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Course {
     /// Loaded stage after stage.
@@ -62,19 +62,26 @@ pub enum Course {
     Rolling(Rolling),
 }
 
-impl FrictionSpec {
-    /// The course of a static contact that `first` presses together, and the `history` after that, on so large an apparent
-    /// area.
-    pub fn course(&self, first: Prescribed, history: &[StageSpec], apparent_area: SquareMetre) -> Course {
-        let tangential = match self.prescribed {
-            Some(InPlane::Creepage(creepage)) => return Course::Rolling(Rolling::Creepage(creepage)),
-            Some(InPlane::RollingForce(force)) => return Course::Rolling(Rolling::Force(force)),
+impl Case {
+    /// The course of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
+    /// `[motion]`.
+    ///
+    /// Without friction a first stage is a single increment: pressed for the first time, a contact does not depend on its
+    /// steps.
+    pub fn course(&self, apparent_area: SquareMetre) -> Option<Course> {
+        if self.motion.is_some() {
+            return None;
+        }
+        let tangential = match self.friction.and_then(|friction| friction.prescribed) {
+            Some(InPlane::Creepage(creepage)) => return Some(Course::Rolling(Rolling::Creepage(creepage))),
+            Some(InPlane::RollingForce(force)) => return Some(Course::Rolling(Rolling::Force(force))),
             other => other.and_then(|in_plane| in_plane.tangential()),
         };
-        let normal = first.control(apparent_area);
+        let normal = self.contact.prescribed.control(apparent_area);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
-        let mut stages = vec![Stage { loading, increments: self.increments }];
-        for stage in history {
+        let increments = self.friction.map_or(1, |friction| friction.increments);
+        let mut stages = vec![Stage { loading, increments }];
+        for stage in &self.history {
             if let Some(normal) = stage.normal {
                 loading.normal = normal.control(apparent_area);
             }
@@ -83,7 +90,7 @@ impl FrictionSpec {
             }
             stages.push(Stage { loading, increments: stage.increments });
         }
-        Course::Stages(stages)
+        Some(Course::Stages(stages))
     }
 }
 
@@ -158,24 +165,35 @@ fn rolls(prescribed: Option<InPlane>) -> bool {
     matches!(prescribed, Some(InPlane::Creepage(_) | InPlane::RollingForce(_)))
 }
 
-pub(super) fn history(tables: &[Table<'_>], friction: &FrictionSpec) -> Result<Vec<StageSpec>> {
+/// The stages after the first, in the plane only where there is friction.
+pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> Result<Vec<StageSpec>> {
     tables
         .iter()
         .map(|table| {
-            if rolls(friction.prescribed) {
+            if friction.is_some_and(|friction| rolls(friction.prescribed)) {
                 let message = "a rolling contact has no [[history]]".to_owned();
                 return Err(table.error(message, Some(STEADY.to_owned())));
             }
             table.known(&STAGE, |key| belongs(key, table.path()))?;
-            let given = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
-            if !given(&STAGE[..6]) {
-                let hint = "give 'load', 'force' or another; what a stage does not name stays".to_owned();
+            let (normal, plane) = (&STAGE[..3], &STAGE[3..6]);
+            let given = |keys: &[&str]| keys.iter().find_map(|key| table.get(key));
+            if let (None, Some(entry)) = (friction, given(plane)) {
+                let hint = "add a [friction] table with its `coefficient`".to_owned();
+                let message = format!("'{}' acts on a contact with friction", entry.key());
+                return Err(entry.error(message, Some(hint)));
+            }
+            if given(&STAGE[..6]).is_none() {
+                let keys =
+                    if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
+                let hint = format!("give {keys}; what a stage does not name stays");
                 return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
             }
-            let normal = given(&STAGE[..3]).then(|| prescribed(table)).transpose()?;
             Ok(StageSpec {
-                normal,
-                in_plane: in_plane(table, &STAGE[3..6], &friction.law)?,
+                normal: given(normal).is_some().then(|| prescribed(table)).transpose()?,
+                in_plane: match friction {
+                    Some(friction) => in_plane(table, plane, &friction.law)?,
+                    None => None,
+                },
                 increments: increments(table)?,
             })
         })

@@ -41,7 +41,7 @@ pub struct Case {
     /// Their friction; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
-    /// Stages of the loading of a static contact after the first, which `contact` and `friction` prescribe.
+    /// Stages of the loading of a static contact after the first, which `contact`, and `friction` if there is any, prescribe.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<StageSpec>,
     /// How they move; a static contact if absent.

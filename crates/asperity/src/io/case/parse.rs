@@ -139,7 +139,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
 }
 
-/// The stages after the first, which only a static contact with friction has.
+/// The stages after the first, which only a static contact has.
 fn history(
     entry: Option<&Entry<'_>>,
     moves: bool,
@@ -147,18 +147,16 @@ fn history(
 ) -> Result<Vec<StageSpec>> {
     let Some(entry) = entry else { return Ok(Vec::new()) };
     let tables = entry.tables()?;
-    let refused = |message: &str, hint: &str| {
-        let table = tables.first().map(|table| table.error(message.to_owned(), Some(hint.to_owned())));
-        Err(table.unwrap_or_else(|| entry.error(message.to_owned(), Some(hint.to_owned()))))
-    };
-    match friction {
-        _ if moves => refused("a [motion] has no [[history]]", "a history is that of a static contact"),
-        Some(friction) => super::friction::history(&tables, friction),
-        None => {
-            let hint = "without friction a contact does not depend on its history";
-            refused("[[history]] needs [friction]", hint)
-        }
+    if moves {
+        let table = tables.first();
+        let message = "a [motion] has no [[history]]".to_owned();
+        let hint = Some("a history is that of a static contact".to_owned());
+        return Err(match table {
+            Some(table) => table.error(message, hint),
+            None => entry.error(message, hint),
+        });
     }
+    super::friction::history(&tables, friction)
 }
 
 fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {

@@ -93,7 +93,7 @@ pub(super) fn alternate(
         if let (Some(lift), Some(supposed)) = (&mut lift, supposed) {
             *lift = &supposed + share * (&*lift - &supposed);
         }
-        tolerance = (SHARPER * reached).clamp(LAST * params.tolerance, FIRST);
+        tolerance = (SHARPER * reached).min(FIRST).max(LAST * params.tolerance);
         pressure = Some(normal.pressure);
     }
     let (iterations, tolerance) = (increment.stats.iterations, params.tolerance);

@@ -117,17 +117,38 @@ impl FrictionalSolution {
         self.normal.elastic_energy(cell_area) + 0.5 * cell_area * tangential
     }
 
-    /// Energy ΔA Σ ½(q₀ + q)·Δs that friction took in this increment, q₀ the shear `before` it.
+    /// Energy ΔA Σ ½(g₀ + g)|Δs| over the cells that slip, which friction took in this increment: g₀ is the most shear that
+    /// a cell bore `before` it, g the most that it bears after it. Without a state before, g alone: as if the load had come
+    /// before the shift.
     ///
-    /// Over a closed cycle of tangential loading this is the area of the hysteresis loop, but for what pressures and gaps
-    /// of cells that open and close leave, of second order in the increment.
+    /// A cell slips at its limit only, so this is exact, however large the increment, where pressures stay and the slip keeps
+    /// its direction. Where pressures change with the slip it is of the second order in the increment, and
+    /// [`FrictionalSolution::dissipation_error`] bounds its error.
     pub fn dissipation(&self, before: Option<&Self>, cell_area: SquareMetre) -> Joule {
-        let axis = |n: usize| {
-            let now = (&self.shear[n] * &self.slip[n]).sum();
-            let then = before.map_or(0.0, |before| (&before.shear[n] * &self.slip[n]).sum());
-            0.5 * (now + then)
-        };
-        cell_area * (axis(0) + axis(1))
+        self.over_slips(before, cell_area, |then, now| 0.5 * (then + now))
+    }
+
+    /// The most by which [`FrictionalSolution::dissipation`] can be wrong where the limit of each cell goes one way in the
+    /// increment, and its slip keeps its direction: ΔA Σ ½|g − g₀||Δs|, all the slip at one of the two limits.
+    pub fn dissipation_error(&self, before: &Self, cell_area: SquareMetre) -> Joule {
+        self.over_slips(Some(before), cell_area, |then, now| 0.5 * (now - then).abs())
+    }
+
+    /// ΔA Σ |Δs| times what `shear` makes of the limits before and after the increment, over the cells that slip.
+    fn over_slips(
+        &self,
+        before: Option<&Self>,
+        cell_area: SquareMetre,
+        shear: impl Fn(Pascal, Pascal) -> Pascal,
+    ) -> Joule {
+        let mut sum = 0.0;
+        for ((cell, &now), &sticks) in self.bound.indexed_iter().zip(&self.stick) {
+            if now > 0.0 && sticks == 0.0 {
+                let then = before.map_or(now, |before| before.bound[cell]);
+                sum += shear(then, now) * self.slip[0][cell].hypot(self.slip[1][cell]);
+            }
+        }
+        cell_area * sum
     }
 }
 

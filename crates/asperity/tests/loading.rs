@@ -1,0 +1,656 @@
+//! Static contacts loaded stage after stage: what has flowed does not flow back, and an interruption leaves no trace.
+
+#[path = "support/cell_by_cell.rs"]
+mod cell_by_cell;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use asperity::io::case;
+use asperity::io::engine;
+use asperity::io::results::Existing;
+use asperity::material::{Compliances, Material};
+use asperity::motion::{
+    Equilibrium, LoadedContact, LoadingOutput, LoadingState, Pair, Progress, Stage, Watch, load_in_stages,
+};
+use asperity::operator::{Boundary, CoupledSum};
+use asperity::solver::{Control, Coupling, Friction, Loading, Method, Params, Tangential};
+use asperity::surface::Topography;
+use asperity::{Error, Field, Grid};
+use cell_by_cell::CellByCell;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const FINE: Params = Params { method: Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };
+
+fn pair(grid: Grid, gap: Field, materials: [Material; 2]) -> Pair {
+    let topography = |heights| Topography::new(grid, heights).unwrap();
+    let [lower, upper] = &materials;
+    Pair::new(topography(grid.zeros()), topography(gap), [lower, upper]).unwrap()
+}
+
+fn load(
+    pair: &Pair,
+    friction: Option<&Friction>,
+    stages: &[Stage],
+    params: &Params,
+    output: &mut dyn LoadingOutput,
+) -> Result<LoadedContact, Error> {
+    load_in_stages(pair, Boundary::Free, friction, stages, params, None, &(), output)
+}
+
+/// A steel ball of 1 mm on steel of some hardness.
+fn ball(cells: usize, pitch: f64, hardness: f64) -> Pair {
+    let grid = Grid::new([cells; 2], [pitch; 2]).unwrap();
+    let middle = 0.5 * cells as f64 * pitch;
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+        ((grid.centre(0, i) - middle).powi(2) + (grid.centre(1, j) - middle).powi(2)) / 2e-3
+    });
+    let steel = Material::new(210e9, 0.3, hardness).unwrap();
+    pair(grid, gap, [steel; 2])
+}
+
+fn to(load: f64, force: f64, increments: usize) -> Stage {
+    let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([force, 0.0]) };
+    Stage { loading, increments }
+}
+
+/// By an independent bookkeeping of the heights: 242 µm², 281 MPa, 63.9 nm.
+#[test]
+fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
+    let pair = ball(64, 0.5e-6, 0.5e9);
+    let friction = Friction::coulomb(0.3).unwrap();
+    for friction in [None, Some(&friction)] {
+        for increments in [1, 5] {
+            let stages = [to(0.2, 0.0, 1), to(0.05, 0.0, increments)];
+            let contact = load(&pair, friction, &stages, &Params::default(), &mut ()).unwrap();
+            let record = &contact.record;
+            assert!((record.contact_area / 242e-12 - 1.0).abs() < 2e-3, "{record:?}");
+            assert!((record.max_pressure / 281e6 - 1.0).abs() < 2e-3, "{record:?}");
+            assert!((record.approach / 63.9e-9 - 1.0).abs() < 1e-3, "{record:?}");
+            // Back at the largest load it is as it was, and beyond it as if it had never been unloaded.
+            let virgin = load(&pair, friction, &[to(0.3, 0.0, 1)], &Params::default(), &mut ()).unwrap();
+            let stages = [to(0.2, 0.0, 1), to(0.05, 0.0, increments), to(0.3, 0.0, increments)];
+            let again = load(&pair, friction, &stages, &Params::default(), &mut ()).unwrap();
+            let most = virgin.record.max_pressure;
+            let difference = &again.solution.normal().pressure - &virgin.solution.normal().pressure;
+            assert!(difference.iter().all(|e| e.abs() < 1e-5 * most));
+            assert!((again.record.plastic_volume / virgin.record.plastic_volume - 1.0).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
+    let pair = ball(48, 0.6e-6, 0.7e9);
+    let whole = load(&pair, None, &[to(0.25, 0.0, 1)], &Params::default(), &mut ()).unwrap();
+    let (record, solution) =
+        asperity::motion::press(&pair, Boundary::Free, Control::Load(0.25), &Params::default()).unwrap();
+    assert_eq!(whole.record, record);
+    assert_eq!(whole.solution.normal().pressure, solution.pressure);
+    let mut states = Kept::default();
+    let stages = [to(0.1, 0.0, 4), to(0.25, 0.05, 6)];
+    let friction = Friction::coulomb(0.3).unwrap();
+    load(&pair, Some(&friction), &stages, &Params::default(), &mut states).unwrap();
+    assert!(states.0.iter().all(|state| state.flattening.kept.is_none()));
+}
+
+/// Every state of a loading.
+#[derive(Default)]
+struct Kept(Vec<LoadingState>);
+
+impl LoadingOutput for Kept {
+    fn increment(&mut self, state: &LoadingState) -> Result<(), Error> {
+        self.0.push(state.clone());
+        Ok(())
+    }
+}
+
+/// A contact and its loading, at random.
+struct Case {
+    materials: [Material; 2],
+    gap: Field,
+    grid: Grid,
+    friction: Option<Friction>,
+    stages: Vec<Stage>,
+}
+
+impl Case {
+    fn at_random(seed: u64, shape: [usize; 2], growth: bool) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let grid = Grid::new(shape, [1.0, random.random_range(0.7..1.3)]).unwrap();
+        let [cx, cy] = shape.map(|n| 0.5 * (n as f64 - 1.0));
+        let bump = random.random_range(0.005..0.03);
+        let gap = Field::from_shape_fn(shape, |(i, j)| {
+            let (x, y) = (i as f64 - cx, j as f64 - cy);
+            bump * (x * x + y * y) + random.random_range(-0.1..0.1)
+        });
+        let hardness = random.random_range(0.03..0.12);
+        let (young, poisson) = match random.random_bool(0.5) {
+            true => ([2.0, 2.0], [0.3, 0.3]),
+            false => ([1.0, random.random_range(1.5..30.0)], [random.random_range(0.1..0.4), 0.3]),
+        };
+        let harder = *[1.0, 2.0, f64::INFINITY].get(random.random_range(0..3)).unwrap();
+        let materials = [0, 1]
+            .map(|k| Material::new(young[k], poisson[k], if k == 0 { hardness } else { hardness * harder }));
+        let friction = random.random_bool(0.7).then(|| {
+            let couplings = [Coupling::Full, Coupling::Goodman, Coupling::None];
+            let strengths = [f64::INFINITY, f64::INFINITY, 0.02];
+            Friction {
+                coupling: couplings[random.random_range(0..3)],
+                shear_strength: strengths[random.random_range(0..3)],
+                junction_growth: if growth { random.random_range(0.0..15.0) } else { 0.0 },
+                ..Friction::coulomb(random.random_range(0.1..0.7)).unwrap()
+            }
+        });
+        let limit = hardness * grid.area();
+        let by_load = random.random_bool(0.5);
+        let by_force = by_load && random.random_bool(0.5);
+        let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
+        let stages = (0..random.random_range(2..6))
+            .map(|_| {
+                let load = limit * random.random_range(0.01..0.5);
+                // What is plastic all over bears the least shear.
+                let bound = friction.map_or(0.0, |f| f.bound(hardness) * load / hardness);
+                let angle = random.random_range(0.0..std::f64::consts::TAU);
+                let share = random.random_range(0.0..0.5);
+                let direction = [angle.cos(), angle.sin()];
+                Stage {
+                    loading: Loading {
+                        normal: match by_load {
+                            true => Control::Load(load),
+                            false => Control::Approach(lowest + random.random_range(-0.05..0.5)),
+                        },
+                        tangential: match by_force {
+                            true => Tangential::Force(direction.map(|n| n * share * bound)),
+                            false => Tangential::Displacement(direction.map(|n| n * share * 0.2)),
+                        },
+                    },
+                    increments: random.random_range(1..4),
+                }
+            })
+            .collect();
+        Self { materials: materials.map(Result::unwrap), gap, grid, friction, stages }
+    }
+
+    fn run(&self, params: &Params) -> Result<Vec<LoadingState>, Error> {
+        let mut states = Kept::default();
+        let pair = pair(self.grid, self.gap.clone(), self.materials);
+        load(&pair, self.friction.as_ref(), &self.stages, params, &mut states)?;
+        Ok(states.0)
+    }
+
+    fn hardness(&self) -> f64 {
+        self.materials[0].hardness.min(self.materials[1].hardness)
+    }
+}
+
+/// What the bodies have taken up by the end of a state.
+fn plastic(state: &LoadingState, gap: &Field, hardness: f64) -> Field {
+    let open = state.flattening.kept.as_ref().map_or(gap.clone(), |kept| gap + kept);
+    let now = match &state.contact {
+        Equilibrium::Frictionless(solution) => solution.plastic_interference(&open, hardness),
+        Equilibrium::Frictional(solution) => solution.plastic_interference(&open),
+    };
+    now + &state.flattening.kept.clone().unwrap_or_else(|| Field::zeros(gap.raw_dim()))
+}
+
+/// Cell by cell, in each increment on surfaces lowered by all that has flowed before: the law as it stands.
+fn against_cell_by_cell(seed: u64) {
+    let case = Case::at_random(seed, [7, 6], false);
+    let states = case.run(&FINE).unwrap_or_else(|error| panic!("case {seed}: {error}"));
+    let [lower, upper] = &case.materials;
+    let mut operator = CoupledSum::new(case.grid, Compliances::new(lower, upper).unwrap());
+    let none = Friction { coupling: Coupling::None, ..Friction::coulomb(0.0).unwrap() };
+    let friction = case.friction.unwrap_or(none);
+    let reference = CellByCell::new(&mut operator, friction.coupling);
+    let mut gap = case.gap.clone();
+    let mut slip = vec![[0.0; 2]; case.grid.cells()];
+    for (k, state) in states.iter().enumerate() {
+        let row = &state.increments[k];
+        let shift = [row.tangential_displacement_x, row.tangential_displacement_y];
+        let tractions = reference.solve(&gap, case.hardness(), &friction, row.approach, shift, &slip);
+        let mut taken = Field::zeros(gap.raw_dim());
+        for (cell, traction) in tractions.iter().enumerate() {
+            let u = reference.displacement(&tractions, cell);
+            slip[cell] = [shift[0] - u[0], shift[1] - u[1]];
+            let w = row.approach - gap.as_slice().unwrap()[cell] - u[2];
+            if traction[2] >= case.hardness() {
+                taken.as_slice_mut().unwrap()[cell] = w.max(0.0);
+            }
+        }
+        gap += &taken;
+        let most = case.hardness();
+        let what = format!("case {seed}, increment {}: {:?}", k + 1, case.stages);
+        let pressure = &state.contact.normal().pressure;
+        for (cell, p) in pressure.iter().enumerate() {
+            assert!((p - tractions[cell][2]).abs() < 1e-6 * most, "{what}: pressure of cell {cell}");
+            if let Some(solution) = state.contact.frictional() {
+                for (shear, expected) in solution.shear.iter().zip(&tractions[cell]) {
+                    let q = shear.as_slice().unwrap()[cell];
+                    assert!((q - expected).abs() < 1e-6 * most, "{what}: shear of cell {cell}");
+                }
+            }
+        }
+        let (found, expected) = (plastic(state, &case.gap, most), &gap - &case.gap);
+        let difference = (&found - &expected).iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        assert!(difference < 1e-6, "{what}: plastic interference off by {difference:e}");
+    }
+}
+
+#[test]
+fn any_loading_of_what_yields_is_that_of_a_cell_by_cell_iteration() {
+    (0..40).for_each(against_cell_by_cell);
+}
+
+/// Where plastic flow, contact and friction are what they are said to be, also with junction growth.
+fn keeps_the_law(seed: u64) {
+    let case = Case::at_random(seed, [22, 20], true);
+    let params = Params { tolerance: 1e-7, ..Params::default() };
+    let states = case.run(&params).unwrap_or_else(|error| panic!("case {seed}: {error}"));
+    let mut before = Field::zeros(case.gap.raw_dim());
+    for state in &states {
+        let normal = state.contact.normal();
+        let allowed = 1e-5 * normal.displacement.std(0.0).max(1e-3);
+        let taken = plastic(state, &case.gap, case.hardness());
+        let apart = normal.gap(&case.gap) + &taken;
+        let cap = state.contact.frictional().map(|solution| &solution.cap);
+        for (cell, p) in normal.pressure.indexed_iter() {
+            let what = format!("case {seed}, increment {}, cell {cell:?}", state.increments.len());
+            assert!(taken[cell] >= before[cell] - allowed, "{what}: flows back");
+            assert!(apart[cell] >= -allowed, "{what}: overlaps by {:e}", apart[cell]);
+            assert!(*p == 0.0 || apart[cell] <= allowed, "{what}: bears over a gap of {:e}", apart[cell]);
+            let cap = cap.map_or(case.hardness(), |cap| cap[cell]);
+            let flows = taken[cell] > before[cell] + allowed;
+            assert!(!flows || *p >= cap * (1.0 - 1e-9), "{what}: flows under {p:e} of {cap:e}");
+        }
+        let row = state.increments.last().unwrap();
+        assert!(row.dissipation >= 0.0);
+        before = taken;
+    }
+}
+
+#[test]
+fn what_flows_bears_its_cap_and_never_flows_back() {
+    (100..112).for_each(keeps_the_law);
+}
+
+/// `cargo test -p asperity --test loading -- --ignored`
+#[test]
+#[ignore = "some minutes"]
+fn many_loadings() {
+    (1000..1500).for_each(against_cell_by_cell);
+    (2000..2200).for_each(keeps_the_law);
+    (3000..3300).for_each(any_tolerance);
+}
+
+/// Loose as it may be, a tolerance is met, with pressures in their bounds and the load that is asked for.
+fn any_tolerance(seed: u64) {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let tolerance = match seed % 3 {
+        0 => random.random_range(0.05..0.999),
+        _ => 10f64.powf(random.random_range(-6.0..-1.0)),
+    };
+    let shape = if seed.is_multiple_of(2) { [24, 20] } else { [12, 10] };
+    let mut case = Case::at_random(seed, shape, seed.is_multiple_of(5));
+    let friction = case.friction.get_or_insert(Friction::coulomb(0.4).unwrap());
+    friction.coupling = Coupling::Full;
+    if seed.is_multiple_of(4) {
+        for stage in &mut case.stages {
+            stage.loading.tangential = Tangential::Sliding([0.6, -0.8]);
+        }
+    }
+    let modulus = pair(case.grid, case.gap.clone(), case.materials).modulus();
+    let params = Params { tolerance, ..Params::default() };
+    let states =
+        case.run(&params).unwrap_or_else(|error| panic!("case {seed}, tolerance {tolerance:e}: {error}"));
+    for state in &states {
+        let row = state.increments.last().unwrap();
+        assert!(row.residual <= tolerance, "case {seed}: {:e} of {tolerance:e}", row.residual);
+        let normal = state.contact.normal();
+        // Beside its shear a cell may bear more than its cap by what the tolerance leaves of the displacement.
+        let beyond = match case.friction.is_some_and(|friction| friction.junction_growth > 0.0) {
+            true => 1.5 * tolerance * normal.displacement.std(0.0) * modulus,
+            false => 0.0,
+        };
+        let most = case.hardness() + beyond;
+        assert!(
+            normal.pressure.iter().all(|p| (0.0..=most).contains(p)),
+            "case {seed}, tolerance {tolerance:e}"
+        );
+    }
+}
+
+#[test]
+fn any_tolerance_is_met() {
+    (0..60).for_each(any_tolerance);
+}
+
+// ---- what friction takes ---------------------------------------------------------------------------------
+
+/// The first example of CONTACT's user guide: a ball of polyethylene is pressed on its like, then shifted. Numbers of
+/// the reference output of CONTACT (Vollebregt), of four digits.
+#[test]
+fn contacts_example_of_a_shift_has_its_work_of_friction_in_one_increment() {
+    let pitch = 0.13333e-3;
+    let grid = Grid::new([19; 2], [pitch; 2]).unwrap();
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+        let [x, y] = [i, j].map(|n| (n as f64 - 9.0) * pitch);
+        10.0 * (x * x + y * y)
+    });
+    let polyethylene = Material::elastic(2.0 * 200e6 * 1.42, 0.42).unwrap();
+    let pair = pair(grid, gap, [polyethylene; 2]);
+    let friction = Friction::coulomb(0.4).unwrap();
+    let (w, q) = (9.1954, -0.875 * 0.4 * 9.1954);
+    for increments in [1, 4] {
+        let stages = [to(w, 0.0, 1), to(w, q, increments)];
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        let shear = contact.record.shear.as_ref().unwrap();
+        let area = pair.cell_area();
+        for (what, found, expected) in [
+            ("contact", contact.record.contact_area / area, 177.0),
+            ("stick", shear.stick_area / area, 45.0),
+            ("approach", contact.record.approach, 1.998e-5),
+            ("pressure", contact.record.max_pressure, 4.393e6),
+            ("shift", shear.tangential_displacement[0], -8.155e-6),
+            ("elastic energy", contact.record.elastic_energy, 8.525e-5),
+            ("work of friction", shear.dissipation, 2.750e-6),
+        ] {
+            assert!((found / expected - 1.0).abs() < 6e-4, "{what}: {found:e}, expected {expected:e}");
+        }
+    }
+}
+
+#[test]
+fn a_push_and_a_full_reversal_take_the_same_in_one_increment_as_in_many() {
+    let pair = ball(64, 0.8e-6, f64::INFINITY);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let losses = [1, 20].map(|increments| {
+        let stages = [to(1.0, 0.0, 1), to(1.0, 0.18, increments), to(1.0, -0.18, increments)];
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        assert!(contact.dissipation_error < 1e-9 * contact.record.shear.as_ref().unwrap().dissipation);
+        let rows = &contact.increments;
+        let of = |stage| rows.iter().filter(|row| row.stage == stage).map(|row| row.dissipation).sum::<f64>();
+        [of(2), of(3)]
+    });
+    for stage in 0..2 {
+        let (one, many) = (losses[0][stage], losses[1][stage]);
+        assert!((one / many - 1.0).abs() < 2e-3, "{losses:?}");
+    }
+    // After Mindlin and Deresiewicz 1.55 nJ in all.
+    let sum: f64 = losses[1].iter().sum();
+    assert!((sum / 1.554e-9 - 1.0).abs() < 2e-2, "{sum:e}");
+}
+
+/// The bound holds what finer increments find, and falls with them.
+#[test]
+fn where_load_and_push_grow_together_the_error_of_the_loss_is_bounded() {
+    let pair = ball(40, 1.2e-6, f64::INFINITY);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let [coarse, fine, finest] = [2, 8, 64].map(|increments| {
+        let stages = [to(0.2, 0.0, 1), to(1.0, 0.28, increments), to(0.4, 0.1, increments)];
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        (contact.record.shear.unwrap().dissipation, contact.dissipation_error)
+    });
+    for (loss, error) in [coarse, fine] {
+        assert!((loss - finest.0).abs() <= error + finest.1, "{coarse:?}, {fine:?}, {finest:?}");
+    }
+    assert!(coarse.1 > 0.1 * coarse.0 && finest.1 < 0.1 * coarse.1, "{coarse:?}, {fine:?}, {finest:?}");
+}
+
+#[test]
+fn a_coefficient_of_friction_is_that_of_what_slides() {
+    let pair = ball(32, 1.5e-6, f64::INFINITY);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let under = |tangential| {
+        let loading = Loading { normal: Control::Load(1.0), tangential };
+        let stages = [Stage { loading, increments: 1 }];
+        load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap().record.shear.unwrap()
+    };
+    let held = under(Tangential::Force([0.1, 0.0]));
+    assert_eq!(held.friction_coefficient, None);
+    assert!((held.force_ratio - 0.1).abs() < 1e-9);
+    for slides in [Tangential::Sliding([1.0, 0.0]), Tangential::Displacement([1e-3, 0.0])] {
+        let shear = under(slides);
+        assert!((shear.friction_coefficient.unwrap() - 0.3).abs() < 1e-9, "{shear:?}");
+        assert_eq!(shear.friction_coefficient, Some(shear.force_ratio));
+    }
+}
+
+// ---- interruptions ---------------------------------------------------------------------------------------
+
+/// Stops after so many increments of a run, or after none.
+struct Until {
+    solved: AtomicUsize,
+    most: usize,
+}
+
+impl Until {
+    fn increment(most: usize) -> Self {
+        Self { solved: AtomicUsize::new(0), most }
+    }
+}
+
+impl Watch for Until {
+    fn at(&self, progress: &Progress) {
+        self.solved.store(progress.solved, Relaxed);
+    }
+
+    fn stop(&self) -> bool {
+        self.solved.load(Relaxed) >= self.most
+    }
+}
+
+const BODIES: &str = "
+[lower]
+young = \"210 GPa\"
+poisson = 0.3
+hardness = \"0.6 GPa\"
+topography = { form = \"flat\", shape = [24, 22], pitch = \"1 um\" }
+[upper]
+young = \"70 GPa\"
+poisson = 0.25
+[upper.topography]
+form = \"sphere\"
+radius = \"1 mm\"
+shape = [24, 22]
+pitch = \"1 um\"
+plus = [{ generate = \"self-affine\", seed = 3, sq = \"20 nm\", hurst = 0.8, shortest = \"4 um\" }]
+";
+
+const PUSHED: &str = "
+[contact]
+load = \"50 mN\"
+[friction]
+coefficient = 0.3
+junction_growth = 9
+increments = 2
+[[history]]
+load = \"0.1 N\"
+force = [\"10 mN\", \"-5 mN\"]
+increments = 2
+[[history]]
+load = \"30 mN\"
+force = \"0 N\"
+increments = 2
+[[history]]
+approach = \"60 nm\"
+displacement = \"10 nm\"
+increments = 2
+";
+
+const PRESSED: &str = "
+[contact]
+mean_pressure = \"0.1 GPa\"
+[[history]]
+load = \"10 mN\"
+increments = 3
+[[history]]
+approach = \"80 nm\"
+increments = 2
+";
+
+fn parsed(text: &str) -> case::Case {
+    case::Case::parse(&format!("{BODIES}{text}"), "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+/// The bytes of all files but for times and the case, which tells of no loading.
+fn outcome(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let read = |name: &str| (name.to_owned(), fs::read(directory.join(name)).unwrap());
+    let mut files = BTreeMap::from(["increments.csv", "fields.h5"].map(read));
+    let summary = fs::read_to_string(directory.join("summary.json")).unwrap();
+    let lines = summary.lines().filter(|line| !line.contains("wall_time"));
+    files.insert("summary.json".to_owned(), lines.collect::<String>().into_bytes());
+    assert_eq!(fs::read_dir(directory.join("fields")).unwrap().count(), 0, "nothing is left under way");
+    files
+}
+
+#[test]
+fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
+    for (text, increments) in [(PUSHED, 8), (PRESSED, 6)] {
+        let case = parsed(text);
+        let folder = tempfile::tempdir().unwrap();
+        let whole = folder.path().join("whole");
+        engine::run(&case, &whole, Existing::Keep, &()).unwrap();
+        let expected = outcome(&whole);
+        // After each increment, and once more on the way.
+        for stopped in 1..increments {
+            let directory = folder.path().join(format!("after-{stopped}"));
+            let outcome_of =
+                |existing, most| engine::run(&case, &directory, existing, &Until::increment(most));
+            assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));
+            let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
+            assert_eq!(rows, stopped + 1);
+            if stopped + 2 < increments {
+                // Killed after the row of an increment was written, before its state was.
+                let state = directory.join("fields/increment-state.h5");
+                let kept = fs::read(&state).unwrap();
+                assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
+                fs::write(&state, kept).unwrap();
+            }
+            engine::run(&case, &directory, Existing::Resume, &()).unwrap();
+            assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
+        }
+    }
+}
+
+#[test]
+fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = engine::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap();
+    let results = asperity::io::results::Results::open(folder.path()).unwrap();
+    let rows = results.increments().unwrap();
+    assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
+    assert!(rows.iter().all(|row| row.tangential_force_x == 0.0 && row.stick_area == 0.0));
+    let fields = results.static_fields().unwrap();
+    let read = |name| fields.read(name).unwrap().into_field().unwrap();
+    let [lower, upper, gap, plastic] = ["lower", "upper", "gap", "plastic"].map(read);
+    let asperity::io::summary::Outcome::Static(record) = summary.outcome else { panic!("a static contact") };
+    assert!(record.shear.is_none());
+    let recomputed = &upper - &lower + &read("displacement") - record.approach;
+    assert_eq!(gap, recomputed);
+    let apart = &gap + &plastic;
+    let scale = read("displacement").std(0.0);
+    for (distance, p) in apart.iter().zip(&read("pressure")) {
+        assert!(*distance > -1e-5 * scale && (*p == 0.0 || *distance < 1e-5 * scale), "{distance:e}");
+    }
+    assert!(rows[0].plastic_volume > 0.0 && rows[3].plastic_volume >= rows[0].plastic_volume * (1.0 - 1e-6));
+    assert_eq!(rows[5].plastic_volume, record.plastic_volume);
+}
+
+/// Each is refused before anything is cleared.
+#[test]
+fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
+    let sliding =
+        "[contact]\nmean_pressure = \"0.5 GPa\"\n[friction]\ncoefficient = 0.5\njunction_growth = 9\n";
+    for (text, bears) in [
+        (format!("{sliding}sliding = [1, 0]"), false),
+        (format!("{sliding}increments = 2"), true),
+        (
+            format!("{sliding}[[history]]\nsliding = [1, 0]\nmean_pressure = \"0.1 GPa\"\nincrements = 20"),
+            false,
+        ),
+        (format!("{sliding}[[history]]\nsliding = [1, 0]\nmean_pressure = \"0.1 GPa\""), true),
+        (format!("{sliding}force = \"0.06 N\""), false),
+        (format!("{sliding}[motion]\nstrategy = \"overlap\"\nplastic_update = \"pass\""), false),
+        ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
+    ] {
+        let case = parsed(&text);
+        let bodies = asperity::io::prepare::bodies(&case).unwrap();
+        let found = asperity::io::outlook::outlook(&case, &bodies);
+        match found {
+            Ok(_) => assert!(bears, "{text}"),
+            Err(Error::BeyondPlasticLimit { load, limit }) => assert!(!bears && load >= limit, "{text}"),
+            Err(other) => panic!("{text}: {other}"),
+        }
+    }
+}
+
+#[test]
+fn what_friction_is_not_asked_rightly_is_said_beforehand() {
+    const ONE_STEP: &str = "loaded in one step";
+    const AT_ONCE: &str = "pressed and pushed in one step";
+    const ROUGH: &str = "steady rolling of a rough surface";
+    const TRACK: &str = "not flattened before";
+    let load = "[contact]\nload = \"50 mN\"\n[friction]\ncoefficient = 0.3\n";
+    let light = "[contact]\nload = \"5 mN\"\n[friction]\ncoefficient = 0.3\n";
+    let onwards = "[[history]]\nload = \"50 mN\"\nincrements = 20\n";
+    let elastic = |text: &str| text.replace("hardness = \"0.6 GPa\"\n", "");
+    let smooth =
+        |text: &str| text.lines().filter(|line| !line.starts_with("plus")).collect::<Vec<_>>().join("\n");
+    let rolling = format!("{BODIES}{load}creepage = 1e-3");
+    for (text, said) in [
+        (format!("{BODIES}{load}"), vec![ONE_STEP]),
+        (format!("{BODIES}{load}coupling = \"none\""), vec![]),
+        (format!("{BODIES}{load}increments = 10"), vec![]),
+        (format!("{BODIES}{light}{onwards}"), vec![]),
+        (format!("{BODIES}{load}").replace("0.3\n", "0.001\n"), vec![]),
+        (format!("{BODIES}{load}force = \"1 mN\""), vec![ONE_STEP, AT_ONCE]),
+        (format!("{BODIES}{load}increments = 10\nforce = \"1 mN\""), vec![]),
+        (format!("{BODIES}{load}sliding = [0, 1]"), vec![]),
+        (rolling.clone(), vec![ROUGH]),
+        (rolling.replace("0.6 GPa", "0.2 GPa"), vec![ROUGH, TRACK]),
+        (elastic(&rolling), vec![ROUGH]),
+        (smooth(&rolling), vec![]),
+        (smooth(&rolling).replace("0.6 GPa", "0.2 GPa"), vec![TRACK]),
+        (smooth(&elastic(&rolling)), vec![]),
+        (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
+    ] {
+        let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let bodies = asperity::io::prepare::bodies(&case).unwrap();
+        let outlook = asperity::io::outlook::outlook(&case, &bodies).unwrap();
+        let warnings = [outlook.warnings, outlook.foreseen].concat().join("\n");
+        for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
+            assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
+        }
+    }
+}
+
+#[test]
+fn what_only_the_answer_shows_is_said_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let warnings = |name: &str, text: &str| {
+        let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let summary = engine::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
+        summary.warnings.join("\n")
+    };
+    let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";
+    let both = |increments: usize| {
+        format!(
+            "{BODIES}{contact}[[history]]\nload = \"0.1 N\"\nforce = \"20 mN\"\nincrements = {increments}"
+        )
+    };
+    assert!(warnings("coarse", &both(1)).contains("`dissipation` is known within"));
+    let fine = both(60).replace("increments = 2", "increments = 30");
+    assert!(!warnings("fine", &fine).contains("`dissipation` is known within"));
+    // Said once, whether it could be foreseen or not.
+    let rolling = format!("{BODIES}{}creepage = 1e-3", contact.replace("increments = 2\n", ""));
+    let rolling = rolling.replace("0.6 GPa", "0.2 GPa");
+    assert_eq!(warnings("rolling", &rolling).matches("not flattened before").count(), 1);
+    let slow = rolling
+        .replace("sq = \"20 nm\"", "sq = \"5 nm\"")
+        .replace("shortest = \"4 um\"", "shortest = \"10 um\"");
+    assert_eq!(warnings("slow", &slow).matches("cells yield").count(), 1);
+}
