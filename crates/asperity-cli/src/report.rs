@@ -162,6 +162,7 @@ fn hint(error: &Error) -> Option<String> {
         ),
         Error::ResultsExist { results: false, .. } => Some("--out names another directory".to_owned()),
         Error::OtherCase { .. } => Some("without --resume, --out names another directory".to_owned()),
+        Error::NoWarmStart { .. } => Some("--overwrite computes all passes afresh".to_owned()),
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {

@@ -180,6 +180,16 @@ pub enum Error {
         /// The directory.
         path: PathBuf,
     },
+    /// Where the next pass of a motion begins cannot be had.
+    #[error(
+        "{path} {defect}: it says where the next pass begins, and without it the passes to come would not be those of an uninterrupted run"
+    )]
+    NoWarmStart {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        defect: &'static str,
+    },
     /// A directory without results.
     #[error("{path} holds no results of asperity (there is no case.json)")]
     NoResults {

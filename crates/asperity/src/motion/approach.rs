@@ -1,6 +1,7 @@
 //! The search for the one approach of a pass whose mean load is the load wanted.
 
 use crate::error::{Error, Result};
+use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
 /// Residual η of the roughest trial.
@@ -11,14 +12,6 @@ const MOST_TRIALS: usize = 100;
 /// A load from positions solved to the residual η is uncertain by some part of it, in η: no approach need meet a load
 /// more closely than that.
 const ROUNDOFF: f64 = 100.0;
-
-/// Where to begin: an approach, and the relative change of the load with it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Guess {
-    pub(super) approach: Metre,
-    /// d ln W/dδ, 1/m; the load of rough bodies grows about exponentially with the approach.
-    pub(super) slope: f64,
-}
 
 /// What is searched.
 pub(super) struct Search {

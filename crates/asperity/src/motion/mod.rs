@@ -10,6 +10,7 @@ mod path;
 mod plastic;
 mod record;
 mod simulation;
+mod warm_start;
 mod watch;
 
 pub use contact::{Contact, press};
@@ -19,6 +20,7 @@ pub use path::{Position, overlap_positions, shift_positions};
 pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord};
 pub use simulation::Simulation;
 pub(crate) use together::memory_together;
+pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::error::{Error, Result};

@@ -3,13 +3,14 @@
 use std::time::Instant;
 
 use crate::error::{Error, Result, check};
-use crate::motion::approach::{Guess, LOOSEST, Search};
+use crate::motion::approach::{LOOSEST, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::together::memory_together;
+use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
 use crate::operator::{Boundary, Operators};
@@ -26,9 +27,8 @@ pub struct Simulation {
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     passes_done: usize,
-    guess: Option<Guess>,
-    /// Contacts of the last pass.
-    latest: Option<Vec<Contact>>,
+    /// From where the next pass begins.
+    warm: WarmStart,
 }
 
 impl Simulation {
@@ -56,16 +56,18 @@ impl Simulation {
             positions,
             operators,
             passes_done: 0,
-            guess: None,
-            latest: None,
+            warm: WarmStart::default(),
         })
     }
 
-    /// The same motion with `passes` already done, the last one at `approach`; the pair is that after them.
-    pub fn resumed(mut self, passes: usize, approach: Metre) -> Self {
-        self.passes_done = passes;
-        self.guess = Some(Guess { approach, slope: 1.0 / self.height_scale() });
-        self
+    /// The same motion with `passes` already done; the pair is that after them, and `warm` what they left
+    /// ([`PassReport::warm_start`]). It goes on as if it had not stopped, to the last bit.
+    ///
+    /// # Panics
+    /// If `warm` has not as many positions as a pass.
+    pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
+        assert_eq!(warm.positions.len(), self.positions.len(), "positions of the warm start");
+        Self { passes_done: passes, warm, ..self }
     }
 
     /// The bodies as they are now.
@@ -87,7 +89,7 @@ impl Simulation {
         while self.passes_done < self.motion.passes {
             let began = Instant::now();
             let pass = self.passes_done + 1;
-            let (outcome, trials) = self.solve_pass(pass, watch)?;
+            let (outcome, guess, trials) = self.solve_pass(pass, watch)?;
             let steps: Vec<StepRecord> = outcome
                 .contacts
                 .iter()
@@ -100,21 +102,26 @@ impl Simulation {
             for output in outputs.iter_mut() {
                 let (contacts, pair) = (&outcome.contacts, &outcome.pair);
                 let sliding = self.motion.sliding();
-                output.pass(&PassReport { record: &record, steps: &steps, contacts, pair, sliding })?;
+                output.pass(&PassReport {
+                    record: &record,
+                    steps: &steps,
+                    contacts,
+                    pair,
+                    sliding,
+                    guess,
+                })?;
             }
+            self.warm = WarmStart::new(guess, &outcome.contacts);
             self.pair = outcome.pair;
-            self.latest = Some(outcome.contacts);
             self.passes_done = pass;
         }
         Ok(())
     }
 
-    /// One pass from the present geometry, and the number of approaches tried.
-    fn solve_pass(&mut self, pass: usize, watch: &dyn Watch) -> Result<(Pass, usize)> {
-        let mut earlier: Vec<Vec<Contact>> = self.latest.take().into_iter().collect();
-        for contact in earlier.iter_mut().flatten() {
-            contact.stats.convolutions = 0.0;
-        }
+    /// One pass from the present geometry, where the search of the next one begins, and the number of approaches tried.
+    fn solve_pass(&self, pass: usize, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+        let mut earlier: Vec<Vec<Contact>> =
+            self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
         let progress = Progress {
             pass,
             passes: self.motion.passes,
@@ -134,21 +141,22 @@ impl Simulation {
             Control::PassLoad(load) => load,
             Control::StepLoad(load) => {
                 let control = solver::Control::Load(load);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
             }
             Control::Approach(approach) => {
                 let control = solver::Control::Approach(approach);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
             }
         };
         let mut residual = LOOSEST;
+        let mut guess = self.warm.guess;
         if self.together {
             let accuracy = self.motion.load_tolerance;
             let start = earlier.first();
             match solver.solve_together(&self.pair, load, accuracy, &self.params, start) {
                 Ok(contacts) => {
-                    let slope = self.guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
-                    self.guess = Some(Guess { approach: contacts[0].approach, slope });
+                    let slope = guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
+                    guess = Some(Guess { approach: contacts[0].approach, slope });
                     earlier = vec![contacts];
                     residual = self.params.tolerance;
                 }
@@ -157,7 +165,7 @@ impl Simulation {
                 Err(other) => return Err(other),
             }
         }
-        let guess = match self.guess {
+        let guess = match guess {
             Some(guess) => guess,
             None => self.first_guess(load)?,
         };
@@ -176,8 +184,7 @@ impl Simulation {
             earlier.truncate(2);
             Ok((outcome.mean_load(), outcome))
         })?;
-        self.guess = Some(found.guess);
-        Ok((found.outcome, found.trials))
+        Ok((found.outcome, Some(found.guess), found.trials))
     }
 
     /// The position with the most columns, at two loads near its share of the pass-mean load.
