@@ -2,8 +2,10 @@
 
 use std::time::Instant;
 
-use crate::error::{Error, Result, check};
-use crate::motion::approach::{LOOSEST, Search};
+use crate::error::{Error, LoadLimit, Result, check};
+use crate::grid::Field;
+use crate::kernel::normal_displacement;
+use crate::motion::approach::{LOOSEST, Limit, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
@@ -26,6 +28,7 @@ pub struct Simulation {
     operators: Operators,
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
+    boundary: Boundary,
     passes_done: usize,
     /// From where the next pass begins.
     warm: WarmStart,
@@ -50,6 +53,7 @@ impl Simulation {
             memory_together(&motion, params.method, pair.hardness(), &columns, pair.lower.ncols()).is_some();
         Ok(Self {
             together,
+            boundary,
             pair,
             motion,
             params,
@@ -60,8 +64,8 @@ impl Simulation {
         })
     }
 
-    /// The same motion with `passes` already done; the pair is that after them, and `warm` what they left
-    /// ([`PassReport::warm_start`]). It goes on as if it had not stopped, to the last bit.
+    /// The same motion with `passes` already done; the pair has the heights after them and the hardness of
+    /// before, and `warm` is what they left ([`PassReport::warm_start`]). It goes on as if it had not stopped, to the last bit.
     ///
     /// # Panics
     /// If `warm` has not as many positions as a pass.
@@ -174,11 +178,11 @@ impl Simulation {
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
             touch: self.touch(),
+            limit: self.limit(),
         };
         let found = search.run(guess, residual, |approach, residual| {
-            let params = Params { tolerance: residual, ..self.params };
             let control = solver::Control::Approach(approach);
-            let outcome = solver.solve(&self.pair, control, &params, &earlier)?;
+            let outcome = solver.solve_roughly(&self.pair, control, (residual, &self.params), &earlier)?;
             solver.progress.trial += 1;
             earlier.insert(0, outcome.contacts.clone());
             earlier.truncate(2);
@@ -199,17 +203,57 @@ impl Simulation {
             Contact::solve(&self.pair, &self.operators, *fullest, None, control, start.as_ref(), &params)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
-        let first = solve(less, None)?;
-        let second = solve(more, Some(&first))?;
-        let slope = (more / less).ln() / (second.approach - first.approach);
-        let slope = if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / self.height_scale() };
-        Ok(Guess { approach: first.approach, slope })
+        let scale = self.height_scale();
+        let solved =
+            solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
+        let (approach, further) = match solved {
+            Ok(approaches) => approaches,
+            // A guess that cannot be had is no guess: from the first touch.
+            Err(Error::NotConverged { .. }) => {
+                return Ok(Guess { approach: self.touch() + scale, slope: 1.0 / scale });
+            }
+            Err(other) => return Err(other),
+        };
+        let slope = (more / less).ln() / (further - approach);
+        Ok(Guess { approach, slope: if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale } })
     }
 
     /// The approach at which some position of the pass first touches.
     fn touch(&self) -> Metre {
         let lowest = |position| self.pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
         self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
+    /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
+    /// they are in full contact at all positions.
+    fn limit(&self) -> Limit {
+        let hardness = self.pair.hardness();
+        let largest = |value: fn(&Field) -> f64| {
+            self.positions.iter().map(|p| value(&self.pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
+        };
+        match (hardness.is_finite(), self.boundary) {
+            (true, boundary) => {
+                let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+                let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
+                let [length, width] = self.pair.grid(columns).extent();
+                // In the middle of the hardness on all that faces; the shear of what slides adds less than μ times as much.
+                let sinks = match boundary {
+                    Boundary::Free => normal_displacement(0.0, 0.0, [length, width], self.pair.modulus()),
+                    Boundary::Periodic => 0.0,
+                };
+                let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+                let approach = highest + (1.0 + coefficient) * hardness * sinks;
+                Limit { approach, cause: LoadLimit::Yielded }
+            }
+            (false, Boundary::Periodic) => {
+                // Closer to it the load is less certain than the residual.
+                let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
+                let rough = largest(|gap| gap.std(0.0));
+                Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
+            }
+            (false, Boundary::Free) => Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact },
+        }
     }
 
     /// A length over which the load changes by a factor: a tenth of the roughness.
