@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use asperity::Error;
-use asperity::error::CaseError;
+use asperity::error::{CaseError, LoadLimit};
 use asperity::units::{self, Dimension};
 
 use crate::draw;
@@ -80,7 +80,9 @@ fn code(error: &Error) -> u8 {
         | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
         | Error::LoadNotReached { .. }
+        | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. } => 1,
+        Error::AtPosition { source, .. } => code(source),
         Error::Interrupted => 130,
         Error::File { source, .. } => code_of_io(source),
         _ => 2,
@@ -157,11 +159,21 @@ fn hint(error: &Error) -> Option<String> {
             "give an approach below {}, or a load, which also holds in full contact",
             units::format(*mean_gap, Dimension::Length)
         )),
+        Error::BeyondPass { most, cause, .. } => Some(format!(
+            "give a load below {}, or {}",
+            units::format(*most, Dimension::Force),
+            match cause {
+                LoadLimit::Yielded => "`plastic_update = \"pass\"` in [motion]",
+                LoadLimit::FullContact => "`control = \"step-load\"` in [motion], the load at every position",
+            }
+        )),
+        Error::AtPosition { source, .. } => hint(source),
         Error::ResultsExist { results: true, .. } => Some(
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),
         Error::ResultsExist { results: false, .. } => Some("--out names another directory".to_owned()),
         Error::OtherCase { .. } => Some("without --resume, --out names another directory".to_owned()),
+        Error::NoWarmStart { .. } => Some("--overwrite computes all passes afresh".to_owned()),
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {

@@ -159,6 +159,32 @@ pub enum Error {
         /// The last of them.
         approach: Metre,
     },
+    /// One approach for a whole pass bears no such load, whatever it is.
+    #[error(
+        "one approach for the whole pass bears {most:.6e} N in the mean at most, not {load:.6e} N: at {approach:.6e} m {cause}"
+    )]
+    BeyondPass {
+        /// The pass-mean load asked for.
+        load: Newton,
+        /// The most that was found.
+        most: Newton,
+        /// The approach there.
+        approach: Metre,
+        /// Why it is the most.
+        cause: LoadLimit,
+    },
+    /// A position of a motion could not be solved.
+    #[error("pass {pass}, position {position} of {positions}: {source}")]
+    AtPosition {
+        /// The pass, from 1.
+        pass: usize,
+        /// The position, from 1.
+        position: usize,
+        /// Positions of the pass.
+        positions: usize,
+        /// What is wrong there.
+        source: Box<Error>,
+    },
     /// The caller asked for the computation to stop.
     #[error("interrupted")]
     Interrupted,
@@ -179,6 +205,16 @@ pub enum Error {
     OtherCase {
         /// The directory.
         path: PathBuf,
+    },
+    /// Where the next pass of a motion begins cannot be had.
+    #[error(
+        "{path} {defect}: it says where the next pass begins, and without it the passes to come would not be those of an uninterrupted run"
+    )]
+    NoWarmStart {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        defect: &'static str,
     },
     /// A directory without results.
     #[error("{path} holds no results of asperity (there is no case.json)")]
@@ -204,6 +240,19 @@ pub enum Error {
         /// The fields there are.
         available: Vec<String>,
     },
+}
+
+/// Why the load of a pass under one approach has a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum LoadLimit {
+    /// Bodies that yield at each position fit together, and bear no more however close they come.
+    #[error("every cell yields where it first meets another, and bears less at the positions that follow")]
+    Yielded,
+    /// Periodic bodies in full contact: their mean displacement is free.
+    #[error(
+        "the whole periodic gap closes, and how the positions share a greater load is not determined (their mean displacement is free)"
+    )]
+    FullContact,
 }
 
 impl Error {

@@ -140,9 +140,12 @@ fn move_over(
             results.write_initial(simulation.pair())?;
             simulation
         }
-        Some(last) => {
+        // Nothing is left to do.
+        Some(_) if done.len() >= motion.passes => return Ok(writer),
+        Some(_) => {
             let pair = pair(case, results.surfaces_after(done.len())?)?;
-            Simulation::new(pair, boundary, motion, params)?.with_rim(rim)?.resumed(done.len(), last.approach)
+            let warm = results.warm_start_after(done.len(), &pair)?;
+            Simulation::new(pair, boundary, motion, params)?.with_rim(rim)?.resumed(done.len(), warm)
         }
     };
     simulation.run(watch, &mut [&mut writer])?;

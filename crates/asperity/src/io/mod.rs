@@ -13,3 +13,4 @@ pub mod subsurface; // the stress under the surface: where it is wanted, its fil
 pub mod summary; // summary.json
 pub mod tables; // steps.csv, passes.csv, increments.csv
 pub mod topography; // x3p, npy, sur, text in; x3p, npy, vtk out
+mod warm_start; // where the next pass begins

@@ -5,6 +5,7 @@
 //!     steps.csv passes.csv a motion: a row per position, a row per pass
 //!     fields/initial.h5    the surfaces before the first pass
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
+//!     fields/warm-start-0001.h5    where the next pass begins; of the last pass only
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
@@ -14,19 +15,22 @@
 //!     figures/             pictures
 //! ```
 //!
-//! A pass is there once its row stands in `passes.csv`, which is written last.
+//! A pass is there once its row stands in `passes.csv`, which is written last; the warm start of the pass before is then
+//! removed.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use super::fields::{FieldFile, Fields};
 use super::loading::LoadingWriter;
-use super::{atomic, summary, tables};
+use super::{atomic, summary, tables, warm_start};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
-use crate::motion::{IncrementRecord, LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
+use crate::motion::{
+    IncrementRecord, LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord, WarmStart,
+};
 use crate::solver::Solution;
 use crate::subsurface::Tractions;
 use crate::surface::Topography;
@@ -281,6 +285,14 @@ impl Results {
         Ok([topography("lower")?, topography("upper")?])
     }
 
+    /// Where the pass after so many begins, which have left the `pair` behind.
+    ///
+    /// # Errors
+    /// [`Error::NoWarmStart`].
+    pub fn warm_start_after(&self, passes: usize, pair: &Pair) -> Result<WarmStart> {
+        warm_start::read(&self.warm_start_path(passes), pair)
+    }
+
     /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none) and
     /// the stress under the surface, where there is a plan for it.
     ///
@@ -288,6 +300,7 @@ impl Results {
     /// [`Error::File`] if the results of earlier passes cannot be read.
     pub fn writer(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
         let passes = self.passes()?;
+        self.sweep_warm_starts(passes.len())?;
         let done = plan.iter().flat_map(|_| 1..=passes.len());
         Ok(PassWriter {
             steps: self.steps()?,
@@ -339,6 +352,25 @@ impl Results {
     fn fields_path(&self, passes: usize) -> PathBuf {
         let name = if passes == 0 { "initial.h5".to_owned() } else { format!("pass-{passes:04}.h5") };
         self.directory.join("fields").join(name)
+    }
+
+    fn warm_start_path(&self, passes: usize) -> PathBuf {
+        self.directory.join(warm_start_name(passes))
+    }
+
+    /// Removes the warm starts that killed runs have left, of all passes but one.
+    fn sweep_warm_starts(&self, passes: usize) -> Result<()> {
+        let kept = self.warm_start_path(passes);
+        let fields = self.directory.join("fields");
+        let entries = fs::read_dir(&fields).map_err(|source| self.failed(&fields, source))?;
+        for entry in entries {
+            let path = entry.map_err(|source| self.failed(&fields, source))?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if name.starts_with("warm-start-") && path != kept {
+                fs::remove_file(&path).map_err(|source| self.failed(&path, source))?;
+            }
+        }
+        Ok(())
     }
 
     fn subsurface_path(&self, pass: Option<usize>) -> PathBuf {
@@ -406,11 +438,18 @@ impl Output for PassWriter {
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
             self.subsurface.push(plan.write(&path, pass, tractions)?);
         }
+        let passes = report.record.pass;
+        warm_start::write(&self.results.warm_start_path(passes), passes, &report.warm_start(), pair)?;
         self.steps.extend_from_slice(report.steps);
         self.passes.push(report.record.clone());
         tables::write_steps(&self.results.directory.join("steps.csv"), &self.steps)?;
-        tables::write_passes(&self.results.directory.join("passes.csv"), &self.passes)
+        tables::write_passes(&self.results.directory.join("passes.csv"), &self.passes)?;
+        self.results.remove(&warm_start_name(passes - 1))
     }
+}
+
+fn warm_start_name(passes: usize) -> String {
+    format!("fields/warm-start-{passes:04}.h5")
 }
 
 /// Name of the pressure field of a position, which is counted from 1.

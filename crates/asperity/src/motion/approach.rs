@@ -1,6 +1,7 @@
 //! The search for the one approach of a pass whose mean load is the load wanted.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, LoadLimit, Result};
+use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
 /// Residual η of the roughest trial.
@@ -12,14 +13,6 @@ const MOST_TRIALS: usize = 100;
 /// more closely than that.
 const ROUNDOFF: f64 = 100.0;
 
-/// Where to begin: an approach, and the relative change of the load with it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Guess {
-    pub(super) approach: Metre,
-    /// d ln W/dδ, 1/m; the load of rough bodies grows about exponentially with the approach.
-    pub(super) slope: f64,
-}
-
 /// What is searched.
 pub(super) struct Search {
     pub(super) load: Newton,
@@ -29,6 +22,16 @@ pub(super) struct Search {
     pub(super) residual: f64,
     /// Approach at which the bodies first touch: there is no load below it.
     pub(super) touch: Metre,
+    /// Approach from which on the load grows no more, or is not determined; infinite where there is none.
+    pub(super) limit: Limit,
+}
+
+/// Where a search ends upwards.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limit {
+    pub(super) approach: Metre,
+    /// Why there is no more load beyond it.
+    pub(super) cause: LoadLimit,
 }
 
 /// An accepted trial.
@@ -52,17 +55,29 @@ impl Search {
         mut trial: impl FnMut(Metre, f64) -> Result<(Newton, T)>,
     ) -> Result<Found<T>> {
         let Guess { mut approach, mut slope } = first;
+        approach = approach.min(self.limit.approach);
+        let mut rough_misled = false;
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
         let mut excess_before = 1.0;
         for trials in 1..=MOST_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
+            let at_limit = approach >= self.limit.approach && excess < 0.0;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
-            if excess.abs() <= self.tolerance || exhausted {
+            if excess.abs() <= self.tolerance || exhausted || at_limit {
                 if residual > self.residual {
                     residual = self.residual;
                     continue;
+                }
+                if exhausted && !rough_misled && excess.abs() > self.tolerance {
+                    // Rough answers may have closed the bracket on the wrong side of the load: once more without them.
+                    (rough_misled, low, high, before) = (true, self.touch, f64::INFINITY, None);
+                    continue;
+                }
+                if at_limit && -excess > self.tolerance {
+                    let Limit { approach, cause } = self.limit;
+                    return Err(Error::BeyondPass { load: self.load, most: load, approach, cause });
                 }
                 if excess.abs() > self.tolerance.max(ROUNDOFF * self.residual) {
                     return Err(Error::LoadNotReached { load: self.load, trials, approach });
@@ -93,7 +108,8 @@ impl Search {
             } else {
                 approach + 1.0 / slope
             };
-            residual = self.residual_for(excess, excess_before);
+            approach = approach.min(self.limit.approach);
+            residual = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
             excess_before = excess;
         }
         Err(Error::LoadNotReached { load: self.load, trials: MOST_TRIALS, approach })
@@ -116,7 +132,12 @@ mod tests {
     use super::*;
 
     fn search(tolerance: f64) -> Search {
-        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0 }
+        limited(tolerance, f64::INFINITY)
+    }
+
+    fn limited(tolerance: f64, approach: f64) -> Search {
+        let limit = Limit { approach, cause: LoadLimit::Yielded };
+        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0, limit }
     }
 
     #[test]
@@ -150,6 +171,32 @@ mod tests {
             }
             other => panic!("{other:?}"),
         }
+    }
+
+    #[test]
+    fn a_load_beyond_the_most_there_is_names_it() {
+        let curve = |delta: f64| 1.5 * (1.0 - (-delta).exp());
+        let first = Guess { approach: 0.5, slope: 2.0 };
+        let found = limited(1e-4, 8.0).run(first, LOOSEST, |delta, _| Ok((curve(delta), ())));
+        match found.map(|found| found.guess) {
+            Err(Error::BeyondPass { load, most, approach, cause: LoadLimit::Yielded }) => {
+                assert_eq!((load, most, approach), (2.0, curve(8.0), 8.0));
+            }
+            other => panic!("{other:?}"),
+        }
+        // What is just below it is found.
+        let found = Search { load: 1.499, ..limited(1e-6, 8.0) };
+        let found = found.run(first, LOOSEST, |delta, _| Ok((curve(delta), ()))).unwrap();
+        assert!((curve(found.guess.approach) / 1.499 - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn rough_answers_on_the_wrong_side_do_not_mislead() {
+        // The rough load is twice too large below 1.2, half of it above.
+        let rough = |delta: f64| if delta < 1.2 { 2.0 * delta } else { 0.5 * delta };
+        let trial = |delta: f64, eta: f64| Ok((if eta > 1e-6 { rough(delta) } else { delta }, ()));
+        let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, LOOSEST, trial).unwrap();
+        assert!((found.guess.approach - 2.0).abs() < 1e-5, "{:?}", found.guess);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod record;
 mod rim;
 mod simulation;
 mod spot;
+mod warm_start;
 mod watch;
 
 pub use contact::{Contact, press};
@@ -26,6 +27,7 @@ pub use rim::Interior;
 pub use simulation::Simulation;
 pub(crate) use spot::largest_spot;
 pub(crate) use together::memory_together;
+pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::error::{Error, Result};

@@ -42,7 +42,30 @@ pub(super) struct Solver<'a> {
     pub(super) progress: Progress,
 }
 
+/// Convolutions after which a rough answer is given up.
+const ROUGH_CONVOLUTIONS: usize = 300;
+
 impl Solver<'_> {
+    /// Solves all positions roughly, to a residual above that of the `params`, or to theirs where that does not lead anywhere:
+    /// no rough answer is worth an error.
+    pub(super) fn solve_roughly(
+        &self,
+        pair: &Pair,
+        control: Control,
+        (residual, params): (f64, &Params),
+        earlier: &[Vec<Contact>],
+    ) -> Result<Pass> {
+        if residual > params.tolerance {
+            let max_convolutions = ROUGH_CONVOLUTIONS.min(params.max_convolutions);
+            let rough = Params { tolerance: residual, max_convolutions, ..*params };
+            match self.solve(pair, control, &rough, earlier) {
+                Err(Error::AtPosition { source, .. }) if matches!(*source, Error::NotConverged { .. }) => {}
+                other => return other,
+            }
+        }
+        self.solve(pair, control, params, earlier)
+    }
+
     /// Solves all positions, from the contacts of up to two earlier trials at the same positions, the latest first.
     pub(super) fn solve(
         &self,
@@ -60,8 +83,14 @@ impl Solver<'_> {
             }
             let position = self.positions[index];
             let start = first_guess(earlier, index, control, pair.lower.ncols());
-            let mut contact =
-                Contact::solve(pair, self.operators, position, sliding, control, start.as_ref(), params)?;
+            let contact =
+                Contact::solve(pair, self.operators, position, sliding, control, start.as_ref(), params);
+            let mut contact = contact.map_err(|source| Error::AtPosition {
+                pass: self.progress.pass,
+                position: index + 1,
+                positions: self.positions.len(),
+                source: Box::new(source),
+            })?;
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }

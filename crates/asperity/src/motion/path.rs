@@ -23,6 +23,8 @@ pub struct Position {
 /// Of the `lower + upper − 1` positions at which bodies of so many columns face each other, every `stride`-th, the
 /// one at which their left edges are flush always among them.
 pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Position> {
+    // Any stride beyond the bodies leaves the one position.
+    let stride = stride.min(lower + upper);
     let (lower, upper, stride) = (lower as isize, upper as isize, stride as isize);
     let first = -((upper - 1) / stride);
     let last = (lower - 1) / stride;
@@ -50,6 +52,7 @@ pub fn shift_positions(
     speed_lower: MetrePerSecond,
     speed_upper: MetrePerSecond,
 ) -> Vec<Position> {
+    let stride = stride.min(columns);
     let fastest = speed_lower.abs().max(speed_upper.abs());
     (0..columns.div_ceil(stride))
         .map(|step| {
@@ -76,14 +79,14 @@ mod tests {
 
     #[test]
     fn a_stride_keeps_the_position_at_which_all_faces_all() {
-        for (lower, upper, stride) in [(10, 10, 3), (10, 4, 4), (3, 12, 5), (7, 7, 20)] {
+        for (lower, upper, stride) in [(10, 10, 3), (10, 4, 4), (3, 12, 5), (7, 7, 20), (7, 7, usize::MAX)] {
             let positions = overlap_positions(lower, upper, stride);
             let flush = positions.iter().find(|p| p.offset == 0).unwrap();
             assert_eq!(flush.columns, lower.min(upper));
             for p in &positions {
                 assert!(p.columns >= 1 && p.lower + p.columns <= lower && p.upper + p.columns <= upper);
                 assert_eq!(p.lower as isize - p.upper as isize, p.offset);
-                assert_eq!(p.offset % stride as isize, 0);
+                assert_eq!(p.offset.unsigned_abs() % stride, 0);
             }
         }
     }

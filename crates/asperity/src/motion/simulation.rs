@@ -2,8 +2,10 @@
 
 use std::time::Instant;
 
-use crate::error::{Error, Result, check};
-use crate::motion::approach::{Guess, LOOSEST, Search};
+use crate::error::{Error, LoadLimit, Result, check};
+use crate::grid::Field;
+use crate::kernel::normal_displacement;
+use crate::motion::approach::{LOOSEST, Limit, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
@@ -11,6 +13,7 @@ use crate::motion::path::Position;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
+use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
 use crate::operator::{Boundary, Operators};
@@ -29,9 +32,8 @@ pub struct Simulation {
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     passes_done: usize,
-    guess: Option<Guess>,
-    /// Contacts of the last pass.
-    latest: Option<Vec<Contact>>,
+    /// From where the next pass begins.
+    warm: WarmStart,
 }
 
 impl Simulation {
@@ -60,16 +62,18 @@ impl Simulation {
             positions,
             operators,
             passes_done: 0,
-            guess: None,
-            latest: None,
+            warm: WarmStart::default(),
         })
     }
 
-    /// The same motion with `passes` already done, the last one at `approach`; the pair is that after them.
-    pub fn resumed(mut self, passes: usize, approach: Metre) -> Self {
-        self.passes_done = passes;
-        self.guess = Some(Guess { approach, slope: 1.0 / self.height_scale() });
-        self
+    /// The same motion with `passes` already done; the pair has the heights after them and the hardness of
+    /// before, and `warm` is what they left ([`PassReport::warm_start`]). It goes on as if it had not stopped, to the last bit.
+    ///
+    /// # Panics
+    /// If `warm` has not as many positions as a pass.
+    pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
+        assert_eq!(warm.positions.len(), self.positions.len(), "positions of the warm start");
+        Self { passes_done: passes, warm, ..self }
     }
 
     /// The same motion, whose records tell what is in the interior of the bodies: farther than the part `rim` of their
@@ -106,7 +110,7 @@ impl Simulation {
         while self.passes_done < self.motion.passes {
             let began = Instant::now();
             let pass = self.passes_done + 1;
-            let (outcome, trials) = self.solve_pass(pass, watch)?;
+            let (outcome, guess, trials) = self.solve_pass(pass, watch)?;
             let steps: Vec<StepRecord> = outcome
                 .contacts
                 .iter()
@@ -119,21 +123,26 @@ impl Simulation {
             for output in outputs.iter_mut() {
                 let (contacts, pair) = (&outcome.contacts, &outcome.pair);
                 let sliding = self.motion.sliding();
-                output.pass(&PassReport { record: &record, steps: &steps, contacts, pair, sliding })?;
+                output.pass(&PassReport {
+                    record: &record,
+                    steps: &steps,
+                    contacts,
+                    pair,
+                    sliding,
+                    guess,
+                })?;
             }
+            self.warm = WarmStart::new(guess, &outcome.contacts);
             self.pair = outcome.pair;
-            self.latest = Some(outcome.contacts);
             self.passes_done = pass;
         }
         Ok(())
     }
 
-    /// One pass from the present geometry, and the number of approaches tried.
-    fn solve_pass(&mut self, pass: usize, watch: &dyn Watch) -> Result<(Pass, usize)> {
-        let mut earlier: Vec<Vec<Contact>> = self.latest.take().into_iter().collect();
-        for contact in earlier.iter_mut().flatten() {
-            contact.stats.convolutions = 0.0;
-        }
+    /// One pass from the present geometry, where the search of the next one begins, and the number of approaches tried.
+    fn solve_pass(&self, pass: usize, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+        let mut earlier: Vec<Vec<Contact>> =
+            self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
         let progress = Progress {
             pass,
             passes: self.motion.passes,
@@ -154,21 +163,22 @@ impl Simulation {
             Control::PassLoad(load) => load,
             Control::StepLoad(load) => {
                 let control = solver::Control::Load(load);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
             }
             Control::Approach(approach) => {
                 let control = solver::Control::Approach(approach);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, 1));
+                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
             }
         };
         let mut residual = LOOSEST;
+        let mut guess = self.warm.guess;
         if self.together {
             let accuracy = self.motion.load_tolerance;
             let start = earlier.first();
             match solver.solve_together(&self.pair, load, accuracy, &self.params, start) {
                 Ok(contacts) => {
-                    let slope = self.guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
-                    self.guess = Some(Guess { approach: contacts[0].approach, slope });
+                    let slope = guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
+                    guess = Some(Guess { approach: contacts[0].approach, slope });
                     earlier = vec![contacts];
                     residual = self.params.tolerance;
                 }
@@ -177,7 +187,7 @@ impl Simulation {
                 Err(other) => return Err(other),
             }
         }
-        let guess = match self.guess {
+        let guess = match guess {
             Some(guess) => guess,
             None => self.first_guess(load)?,
         };
@@ -186,18 +196,17 @@ impl Simulation {
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
             touch: self.touch(),
+            limit: self.limit(),
         };
         let found = search.run(guess, residual, |approach, residual| {
-            let params = Params { tolerance: residual, ..self.params };
             let control = solver::Control::Approach(approach);
-            let outcome = solver.solve(&self.pair, control, &params, &earlier)?;
+            let outcome = solver.solve_roughly(&self.pair, control, (residual, &self.params), &earlier)?;
             solver.progress.trial += 1;
             earlier.insert(0, outcome.contacts.clone());
             earlier.truncate(2);
             Ok((outcome.mean_load(), outcome))
         })?;
-        self.guess = Some(found.guess);
-        Ok((found.outcome, found.trials))
+        Ok((found.outcome, Some(found.guess), found.trials))
     }
 
     /// The position with the most columns, at two loads near its share of the pass-mean load.
@@ -212,17 +221,57 @@ impl Simulation {
             Contact::solve(&self.pair, &self.operators, *fullest, None, control, start.as_ref(), &params)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
-        let first = solve(less, None)?;
-        let second = solve(more, Some(&first))?;
-        let slope = (more / less).ln() / (second.approach - first.approach);
-        let slope = if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / self.height_scale() };
-        Ok(Guess { approach: first.approach, slope })
+        let scale = self.height_scale();
+        let solved =
+            solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
+        let (approach, further) = match solved {
+            Ok(approaches) => approaches,
+            // A guess that cannot be had is no guess: from the first touch.
+            Err(Error::NotConverged { .. }) => {
+                return Ok(Guess { approach: self.touch() + scale, slope: 1.0 / scale });
+            }
+            Err(other) => return Err(other),
+        };
+        let slope = (more / less).ln() / (further - approach);
+        Ok(Guess { approach, slope: if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale } })
     }
 
     /// The approach at which some position of the pass first touches.
     fn touch(&self) -> Metre {
         let lowest = |position| self.pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
         self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
+    /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
+    /// they are in full contact at all positions.
+    fn limit(&self) -> Limit {
+        let hardness = self.pair.hardness();
+        let largest = |value: fn(&Field) -> f64| {
+            self.positions.iter().map(|p| value(&self.pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
+        };
+        match (hardness.is_finite(), self.boundary) {
+            (true, boundary) => {
+                let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+                let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
+                let [length, width] = self.pair.grid(columns).extent();
+                // In the middle of the hardness on all that faces; the shear of what slides adds less than μ times as much.
+                let sinks = match boundary {
+                    Boundary::Free => normal_displacement(0.0, 0.0, [length, width], self.pair.modulus()),
+                    Boundary::Periodic => 0.0,
+                };
+                let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+                let approach = highest + (1.0 + coefficient) * hardness * sinks;
+                Limit { approach, cause: LoadLimit::Yielded }
+            }
+            (false, Boundary::Periodic) => {
+                // Closer to it the load is less certain than the residual.
+                let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
+                let rough = largest(|gap| gap.std(0.0));
+                Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
+            }
+            (false, Boundary::Free) => Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact },
+        }
     }
 
     /// A length over which the load changes by a factor: a tenth of the roughness.

@@ -5,6 +5,7 @@ use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::warm_start::{Guess, WarmStart};
 use crate::solver::Sliding;
 use crate::units::Newton;
 
@@ -55,9 +56,16 @@ pub struct PassReport<'a> {
     pub pair: &'a Pair,
     /// How they slid, if there is friction.
     pub sliding: Option<Sliding>,
+    /// Where the search of the next pass begins, if a mean load is prescribed.
+    pub guess: Option<Guess>,
 }
 
 impl PassReport<'_> {
+    /// Where the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
+    pub fn warm_start(&self) -> WarmStart {
+        WarmStart::new(self.guess, self.contacts)
+    }
+
     /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [Field::zeros(self.pair.lower.raw_dim()), Field::zeros(self.pair.upper.raw_dim())];

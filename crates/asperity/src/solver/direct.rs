@@ -6,6 +6,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
+use crate::solver::bounds::make_feasible;
 use crate::solver::{Control, Params, Problem, Solution, Stats, Terms};
 use crate::units::Metre;
 
@@ -23,13 +24,18 @@ pub(super) fn solve(
 ) -> Result<Solution> {
     let mut pivoting = Pivoting::new(operator, problem);
     let mut bounds = start.map(|p| p.mapv(|p| Bound::of(p, problem.terms.hardness)));
-    let (answer, approach) = match problem.terms.control {
+    let (mut answer, approach) = match problem.terms.control {
         Control::Approach(approach) => {
             let first = bounds.take().unwrap_or_else(|| pivoting.first_guess(approach));
             (pivoting.solve(approach, first)?, approach)
         }
         Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, bounds)?,
     };
+    if !problem.terms.bears_the_load(answer.pressure.sum()) {
+        // Between one approach and the next in double precision.
+        make_feasible(&mut answer.pressure, &problem.terms);
+        pivoting.respond(&answer.pressure, &mut answer.displacement);
+    }
     let stats = Stats {
         iterations: pivoting.factorisations,
         convolutions: pivoting.convolutions as f64,
@@ -39,7 +45,7 @@ pub(super) fn solve(
     let displacement = answer.displacement.mapv(|u| u - mean);
     let approach = approach - mean;
     let residual = problem.residual_at(&answer.pressure, &displacement, approach);
-    if residual > params.tolerance {
+    if residual.is_nan() || residual > params.tolerance {
         return Err(Error::NotConverged {
             iterations: stats.iterations,
             residual,
@@ -100,11 +106,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
         let load_controlled = matches!(problem.terms.control, Control::Load(_));
-        let stiffening = if operator.periodic() && load_controlled {
-            problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
-        } else {
-            0.0
-        };
+        let periodic_load = operator.periodic() && load_controlled;
+        let stiffening = if periodic_load { stiffening(operator, problem) } else { 0.0 };
         Self { operator, problem, influence, stiffening, factorisations: 0, convolutions: 0 }
     }
 
@@ -115,23 +118,22 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     fn solve(&mut self, approach: Metre, mut bounds: ndarray::Array2<Bound>) -> Result<Answer> {
         const MOST_BLOCK_STEPS_WITHOUT_PROGRESS: usize = 10;
         let hardness = self.problem.terms.hardness;
-        let scale = self.problem.initial_gap.iter().fold(0.0f64, |m, h| m.max((approach - h).abs()));
         let (mut best, mut stalled) = (usize::MAX, 0);
         let mut displacement = Field::zeros(bounds.raw_dim());
-        for _ in 0..MAX_PIVOTS {
+        let mut pivots = 0;
+        loop {
+            self.anchor(approach, &mut bounds)?;
             let (pressure, slope) = self.between_bounds(approach, &bounds)?;
-            self.operator.apply(&pressure, &mut displacement);
-            self.convolutions += 1;
-            if self.stiffening > 0.0 {
-                displacement += self.stiffening * pressure.sum();
-            }
-            let largest = pressure.iter().fold(0.0f64, |m, p| m.max(p.abs()));
-            let (tiny_p, tiny_w) = (1e-14 * largest, 1e-14 * scale);
+            self.respond(&pressure, &mut displacement);
+            let largest = |field: &Field| field.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+            let (tiny_p, most_u) = (1e-14 * largest(&pressure), largest(&displacement));
             let mut next = bounds.clone();
             let mut wrong = Vec::new();
             for (index, bound) in next.indexed_iter_mut() {
                 let p = pressure[index];
-                let w = approach - self.problem.initial_gap[index] - displacement[index];
+                let interference = approach - self.problem.initial_gap[index];
+                let w = interference - displacement[index];
+                let tiny_w = 1e-14 * interference.abs().max(most_u);
                 let better = match *bound {
                     Bound::Free if p < -tiny_p => Bound::Zero,
                     Bound::Free if p > hardness + tiny_p => Bound::Hardness,
@@ -144,9 +146,18 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                     wrong.push(index);
                 }
             }
-            let Some(&last) = wrong.last() else {
-                let pressure = pressure.mapv(|p| p.clamp(0.0, hardness));
-                return Ok(Answer { pressure, displacement, bounds, slope });
+            pivots += 1;
+            let last = match wrong.last() {
+                Some(last) if pivots < MAX_PIVOTS => *last,
+                // Where the pivots are given up the residual tells how far they have come.
+                given_up => {
+                    let given_up = given_up.is_some();
+                    let pressure = pressure.mapv(|p| p.clamp(0.0, hardness));
+                    if given_up {
+                        self.respond(&pressure, &mut displacement);
+                    }
+                    return Ok(Answer { pressure, displacement, bounds, slope });
+                }
             };
             if wrong.len() < best {
                 (best, stalled) = (wrong.len(), 0);
@@ -159,7 +170,39 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                 bounds = next;
             }
         }
-        Err(Error::NotConverged { iterations: self.factorisations, residual: f64::INFINITY, tolerance: 0.0 })
+    }
+
+    /// A periodic contact whose cells are all between their bounds has no stiffness against a change of their mean: under an
+    /// approach beyond the mean gap it rises until the cell with the most pressure is at the hardness, under a lesser one it
+    /// falls until the cell with the least opens.
+    fn anchor(&mut self, approach: Metre, bounds: &mut ndarray::Array2<Bound>) -> Result<()> {
+        let floats =
+            self.operator.periodic() && self.stiffening == 0.0 && bounds.iter().all(|b| *b == Bound::Free);
+        if !floats {
+            return Ok(());
+        }
+        let mean_gap = self.problem.initial_gap.mean().unwrap_or(0.0);
+        let hardness = self.problem.terms.hardness;
+        let (side, bound) = match approach > mean_gap {
+            true if hardness.is_finite() => (1.0, Bound::Hardness),
+            false if approach < mean_gap => (-1.0, Bound::Zero),
+            _ => return Err(Error::PeriodicFullContact { approach, mean_gap }),
+        };
+        self.stiffening = stiffening(self.operator, self.problem);
+        let found = self.between_bounds(mean_gap, bounds);
+        self.stiffening = 0.0;
+        let (pressure, _) = found?;
+        let most = pressure.indexed_iter().max_by(|a, b| (side * a.1).total_cmp(&(side * b.1)));
+        bounds[most.expect("a cell").0] = bound;
+        Ok(())
+    }
+
+    fn respond(&mut self, pressure: &Field, displacement: &mut Field) {
+        self.operator.apply(pressure, displacement);
+        self.convolutions += 1;
+        if self.stiffening > 0.0 {
+            *displacement += self.stiffening * pressure.sum();
+        }
     }
 
     /// The pressure that closes the gap at the free cells while the others stay at their bounds.
@@ -212,7 +255,9 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             + self.problem.terms.self_influence * (wanted / 4.0).min(self.problem.terms.hardness)
             + self.stiffening * wanted;
         let (mut low, mut high) = (lowest, f64::INFINITY);
-        for _ in 0..MAX_TRIALS {
+        let mut trials = 0;
+        loop {
+            trials += 1;
             let first = bounds.take().unwrap_or_else(|| self.first_guess(approach));
             let answer = self.solve(approach, first)?;
             let excess = answer.pressure.sum() - wanted;
@@ -223,7 +268,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             }
             let newton = approach - excess / answer.slope;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * high.abs().max(low.abs());
-            if excess.abs() <= 1e-13 * wanted || exhausted {
+            if excess.abs() <= 1e-13 * wanted || exhausted || trials == MAX_TRIALS {
                 return Ok((answer, approach));
             }
             approach = if answer.slope > 0.0 && low < newton && newton < high {
@@ -235,12 +280,12 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             };
             bounds = Some(answer.bounds);
         }
-        Err(Error::NotConverged {
-            iterations: self.factorisations,
-            residual: f64::INFINITY,
-            tolerance: 1e-13,
-        })
     }
+}
+
+/// As much as makes the stiffness of the mean one among those of the waves.
+fn stiffening(operator: &dyn Operator, problem: &Problem) -> f64 {
+    problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
 }
 
 const MAX_PIVOTS: usize = 2000;

@@ -202,8 +202,8 @@ impl Terms {
         if error <= LOAD_TOLERANCE {
             return Ok(());
         }
-        let iterations = solution.stats.iterations;
-        Err(Error::NotConverged { iterations, residual: error, tolerance: LOAD_TOLERANCE })
+        let borne = self.cell_area * solution.pressure.sum();
+        check("load borne", borne, false, "the load prescribed, to 10 digits in double precision")
     }
 }
 
@@ -237,13 +237,39 @@ pub fn solve_normal(
     validate(operator, initial_gap, hardness, control, params)?;
     let self_influence = self_influence(operator);
     let terms = Terms { hardness, control, self_influence, cell_area: grid.cell_area() };
+    let solution = match far_datum(initial_gap, &terms) {
+        None => solve_as_given(operator, initial_gap, terms, start, params)?,
+        Some(datum) => {
+            let near = initial_gap.mapv(|h| h - datum);
+            let control = match control {
+                Control::Approach(approach) => Control::Approach(approach - datum),
+                load => load,
+            };
+            let solution = solve_as_given(operator, &near, Terms { control, ..terms }, start, params)?;
+            Solution { approach: solution.approach + datum, ..solution }
+        }
+    };
+    finite("load", solution.load(grid.cell_area()))?;
+    finite("approach", solution.approach)?;
+    finite("elastic energy", solution.elastic_energy(grid.cell_area()))?;
+    Ok(solution)
+}
+
+/// Solves by the method of the `params`, with the heights as they are given.
+fn solve_as_given(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    terms: Terms,
+    start: Option<&Field>,
+    params: &Params,
+) -> Result<Solution> {
     let problem = Problem { initial_gap, terms };
     if let Some(solution) = no_contact(&problem) {
         return Ok(solution);
     }
     let solution = match params.method {
         Method::Direct => direct::solve(operator, &problem, start, params),
-        Method::Auto if grid.cells() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
+        Method::Auto if initial_gap.len() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
         Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
         Method::Auto | Method::ActiveSet => {
             let site = Kept::new(operator, Cow::Borrowed(initial_gap));
@@ -266,6 +292,35 @@ fn self_influence(operator: &dyn Operator) -> f64 {
         c0 if c0 > 0.0 => c0,
         _ => normal_displacement(0.0, 0.0, operator.grid().pitch, operator.modulus()),
     }
+}
+
+/// The lowest height, where the heights are so far from zero against what they differ by, or against what they are pressed
+/// together, that h + u keeps too few digits of u: they are then taken from there, which costs them none.
+fn far_datum(initial_gap: &Field, terms: &Terms) -> Option<Metre> {
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for h in initial_gap {
+        (lowest, highest) = (lowest.min(*h), highest.max(*h));
+    }
+    let depth = match terms.control {
+        Control::Approach(approach) => (approach - lowest).max(0.0),
+        // No deeper than one cell under all of the load.
+        Control::Load(load) => terms.self_influence * (load / terms.cell_area).min(terms.hardness),
+    };
+    let far = lowest.abs() > FAR * depth.min(highest - lowest);
+    far.then_some(lowest)
+}
+
+/// Heights are far from zero at so many times what they differ by, or are pressed together.
+const FAR: f64 = 1e3;
+
+/// What comes of numbers near the ends of their range is an error.
+fn finite(quantity: &'static str, value: f64) -> Result<()> {
+    check(
+        quantity,
+        value,
+        value.is_finite(),
+        "a number in double precision: check the units of moduli, heights and load",
+    )
 }
 
 /// Relative error of the load at which an answer is accepted.

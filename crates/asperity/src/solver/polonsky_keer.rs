@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
 use crate::solver::bounds::make_feasible;
-use crate::solver::{Control, Params, Problem, Solution, Stats};
+use crate::solver::{Control, Params, Problem, Solution, Stats, finite};
 
 /// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at the hardness
 /// leave the conjugate directions as those at zero do.
@@ -43,6 +43,7 @@ pub(super) fn solve(
                 stats,
             });
         }
+        finite("residual", state.eta.min(f64::MAX))?;
         if stats.convolutions as usize >= params.max_convolutions {
             return Err(Error::NotConverged {
                 iterations: stats.iterations,

@@ -7,18 +7,18 @@ use crate::units::{Metre, Pascal};
 /// How far a pressure is from equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
-    /// η = max|φ| / std(u).
+    /// η = max|φ| / scale.
     pub eta: f64,
     /// The approach δ at which φ was taken.
     pub approach: Metre,
-    /// The scale std(u), or c₀ max p where the displacement is uniform.
+    /// The scale: std(u), but no less than 10⁻⁴ of the largest |u| or c₀ p, where the displacement is uniform.
     pub scale: Metre,
 }
 
 /// Scale-free complementarity residual η of a `pressure` and its `displacement` u = C p.
 ///
 /// ```text
-/// φ = c₀ (p − clip(p + w/c₀, 0, H)),   w = δ − h − u,   η = max|φ| / std(u)
+/// φ = c₀ (p − clip(p + w/c₀, 0, H)),   w = δ − h − u,   η = max|φ| / max(std(u), 10⁻⁴ max|u|, 10⁻⁴ c₀ max p)
 /// ```
 ///
 /// c₀ is the displacement of a cell per unit pressure on itself. φ is zero exactly in equilibrium. Without an
@@ -53,11 +53,15 @@ pub(super) fn residual_under<I: Iterator<Item = Pascal>>(
     Tally::of(cells(), approach, self_influence).residual(approach, self_influence)
 }
 
-/// What a residual is a share of, for displacements of this deviation and the largest that a cell makes by itself.
-pub(super) fn scale(deviation: Metre, local: Metre) -> Metre {
-    // A uniform displacement deviates by round-off alone.
-    if deviation <= 1e-12 * local { local } else { deviation }
+/// What a residual is a share of, for displacements of this deviation, of which the largest, and the largest that a cell makes
+/// by itself, are of that size.
+pub(super) fn scale(deviation: Metre, size: Metre) -> Metre {
+    if deviation < UNIFORM * size { UNIFORM * size } else { deviation }
 }
+
+/// Displacements that deviate by less than this share of their size are uniform: under flat bodies, and in full contact. What
+/// they deviate by may then be round-off, 10⁻¹⁵ of their size in double precision and 10⁻⁷ in single.
+const UNIFORM: f64 = 1e-4;
 
 /// What the residual asks of a cell.
 #[derive(Clone, Copy)]
@@ -116,11 +120,12 @@ impl Multiplier {
 }
 
 /// What φ and the displacement of some cells come to.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Tally {
     /// Largest |φ|.
     largest: Metre,
     max_pressure: Pascal,
+    max_displacement: Metre,
     cells: f64,
     /// Mean displacement, and the sum of the squares of its deviations.
     mean: Metre,
@@ -130,7 +135,7 @@ pub(super) struct Tally {
 impl Tally {
     /// At an approach.
     pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
-        let mut this = Self { largest: 0.0, max_pressure: 0.0, cells: 0.0, mean: 0.0, squares: 0.0 };
+        let mut this = Self::default();
         // Deviations from some displacement rather than from zero: nothing cancels.
         let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
         for Cell { pressure: p, displacement: u, touch, cap } in cells {
@@ -138,6 +143,7 @@ impl Tally {
             let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, cap));
             this.largest = this.largest.max(phi.abs());
             this.max_pressure = this.max_pressure.max(p.abs());
+            this.max_displacement = this.max_displacement.max(u.abs());
             this.cells += 1.0;
             let deviation = u - *datum.get_or_insert(u);
             sum += deviation;
@@ -154,6 +160,7 @@ impl Tally {
         Self {
             largest: self.largest.max(other.largest),
             max_pressure: self.max_pressure.max(other.max_pressure),
+            max_displacement: self.max_displacement.max(other.max_displacement),
             cells,
             mean: self.mean + apart * other.cells / cells,
             squares: self.squares + other.squares + apart * apart * self.cells * other.cells / cells,
@@ -164,7 +171,7 @@ impl Tally {
     pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
         let deviation = (self.squares.max(0.0) / self.cells).sqrt();
         let local = self_influence * self.max_pressure;
-        let scale = scale(deviation, local);
+        let scale = scale(deviation, local.max(self.max_displacement));
         // What is not a number is no answer, though a maximum would pass over it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }

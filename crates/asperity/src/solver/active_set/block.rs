@@ -15,7 +15,7 @@ use crate::units::{Metre, Pascal};
 /// Radius, in cells, within which the effect of lifted cells is foreseen without a convolution.
 const FORESIGHT: usize = 4;
 /// Error of a displacement in single precision, of its largest value.
-pub(super) const SINGLE: f64 = 4e-7;
+const SINGLE: f64 = 4e-7;
 
 /// Pressure and displacement are kept in double precision. What moves them from step to step, directions and their
 /// responses, is computed in single, which is as good as long as the steps are small against what they correct; the
@@ -43,6 +43,8 @@ pub(super) struct Block<'a> {
     step: SingleField,
     /// Influence coefficients up to [`FORESIGHT`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
+    /// c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its transforms.
+    local: f64,
     convolutions: usize,
 }
 
@@ -78,9 +80,10 @@ impl<'a> Block<'a> {
             let near = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
                 operator.influence(i, j.abs_diff(reach[1])) as f32
             });
-            made = Some((Preconditioner::new(operator), near));
+            let local = if operator.periodic() { operator.influence(0, 0).abs() } else { 0.0 };
+            made = Some((Preconditioner::new(operator), near, local));
         });
-        let (preconditioner, near) = made.expect("a site lends its operator");
+        let (preconditioner, near, local) = made.expect("a site lends its operator");
         Self {
             site,
             preconditioner,
@@ -96,6 +99,7 @@ impl<'a> Block<'a> {
             equations: SingleField::zeros(shape),
             step: SingleField::zeros(shape),
             near,
+            local,
             convolutions: 0,
         }
     }
@@ -137,7 +141,7 @@ impl<'a> Block<'a> {
         self.direction.zip_mut_with(&self.pressure, |d, p| *d = *p as f32);
         self.respond_to_direction();
         self.touch.assign(&self.site.initial_gap());
-        self.rounding = 0.0;
+        self.rounding = SINGLE * (self.local * self.largest_pressure() - self.largest).max(0.0);
         self.take_response();
     }
 
@@ -153,10 +157,16 @@ impl<'a> Block<'a> {
         self.rounding += SINGLE * self.largest;
     }
 
-    /// Largest displacement.
-    pub(super) fn largest_displacement(&self) -> Metre {
+    /// Bound on the error of the displacement if it were computed in single precision.
+    pub(super) fn rounding_in_single(&self) -> Metre {
         let gap = self.site.initial_gap();
-        self.touch.iter().zip(&*gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()))
+        let largest =
+            self.touch.iter().zip(&*gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()));
+        SINGLE * largest.max(self.local * self.largest_pressure())
+    }
+
+    fn largest_pressure(&self) -> Pascal {
+        self.pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
     }
 
     /// Work and twice the elastic energy of the pressure at an approach.

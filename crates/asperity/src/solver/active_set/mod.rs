@@ -14,10 +14,10 @@ use crate::math::sum::sums;
 use crate::solver::bounds::{self, Cells, Range};
 use crate::solver::residual::{Multiplier, Residual, Tally};
 use crate::solver::site::Site;
-use crate::solver::{Control, Stats, Terms};
+use crate::solver::{Control, Stats, Terms, finite};
 use crate::units::{Metre, Pascal};
 
-use block::{Block, LeftOver, SINGLE};
+use block::{Block, LeftOver};
 
 /// The conjugate gradients are left when the residual on the free cells is below so many times the violation of
 /// the bounds: more would be spent on a set that is about to change.
@@ -48,12 +48,20 @@ pub(super) fn solve(
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Equilibrium> {
+    let uniform = start.is_none();
     let mut iteration = Iteration::new(sites, terms, start, caution);
     let mut sharpen = 1.0;
     let mut state = iteration.residual();
+    if let (true, Some(pressure)) = (uniform, terms.pressure_sum()) {
+        // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
+        let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
+        state.scale = state.scale.max(terms.self_influence * pressure / cells as f64);
+    }
     loop {
         let mut wanted = tolerance(&state);
-        if state.eta < sharpen * wanted {
+        // Nothing is left to sharpen where the answer is as it will be handed out.
+        let exact = state.eta < wanted && iteration.rounding() == 0.0 && iteration.is_feasible();
+        if exact || state.eta < sharpen * wanted {
             // The answer is the feasible pressure nearby; its own residual decides.
             let trusted = TRUSTED * wanted * state.scale;
             if iteration.rounding() > trusted || !iteration.is_feasible() {
@@ -67,6 +75,7 @@ pub(super) fn solve(
             }
             sharpen *= 0.3;
         }
+        finite("residual", state.eta.min(f64::MAX))?;
         let Stats { iterations, convolutions, .. } = iteration.stats();
         if convolutions >= max_convolutions as f64 {
             return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
@@ -220,8 +229,8 @@ impl<'a> Iteration<'a> {
     fn become_feasible(&mut self, trusted: Metre) {
         let terms = self.terms;
         bounds::make_feasible(self, &terms);
-        let largest = self.all(|block| block.largest_displacement(), f64::max);
-        if SINGLE * largest < trusted {
+        let rounding = self.all(|block| block.rounding_in_single(), f64::max);
+        if rounding < trusted {
             self.each(Block::respond_in_single);
         } else {
             self.each(Block::respond);

@@ -221,7 +221,8 @@ fn shear_scale(normal: &Solution, bound: &Field, operator: &dyn CoupledOperator)
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
     let share = (bound.sum() / normal.pressure.sum()).min(1.0);
-    let scale = share * scale(deviation, local);
+    let largest = normal.displacement.iter().fold(local, |most, u| most.max(u.abs()));
+    let scale = share * scale(deviation, largest);
     // Without contact, or without friction, nothing is left to be a share of.
     if scale > 0.0 { scale } else { 1.0 }
 }

@@ -1,0 +1,54 @@
+//! What a pass leaves to the next besides the bodies: where its solution begins.
+
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::path::Position;
+use crate::solver::Stats;
+use crate::units::{Metre, Pascal};
+
+/// Where the next pass begins. The iterations of a pass end within their tolerances, and where in them depends on where they
+/// begin: a motion goes on with the same bits only from the same start.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WarmStart {
+    /// Where the search for the approach begins; none where no mean load is prescribed.
+    pub guess: Option<Guess>,
+    /// What bears at each position of the last pass; nothing before the first.
+    pub positions: Vec<Bearing>,
+}
+
+/// Where the search for the approach of a pass begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// The approach δ.
+    pub approach: Metre,
+    /// Relative change d ln W/dδ of the mean load with it, 1/m; the load of rough bodies grows about exponentially with the
+    /// approach.
+    pub slope: f64,
+}
+
+/// What bears at one position.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bearing {
+    /// The approach δ.
+    pub approach: Metre,
+    /// Flat cells with p > 0, ascending, and their pressure, Pa.
+    pub pressure: Vec<(u32, Pascal)>,
+}
+
+impl WarmStart {
+    /// What contacts leave.
+    pub(super) fn new(guess: Option<Guess>, contacts: &[Contact]) -> Self {
+        let bearing = |c: &Contact| Bearing { approach: c.approach, pressure: c.pressure.clone() };
+        Self { guess, positions: contacts.iter().map(bearing).collect() }
+    }
+
+    /// The contacts from which the positions begin, which have cost nothing yet; none before the first pass.
+    pub(super) fn contacts(&self, pair: &Pair, positions: &[Position]) -> Option<Vec<Contact>> {
+        let contact = |(bearing, position): (&Bearing, &Position)| {
+            let pressure = bearing.pressure.clone();
+            Contact::from_pressure(pair, *position, bearing.approach, pressure, Stats::default())
+        };
+        let begun = !self.positions.is_empty();
+        begun.then(|| self.positions.iter().zip(positions).map(contact).collect())
+    }
+}
