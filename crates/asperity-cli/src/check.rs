@@ -3,35 +3,38 @@
 use std::fmt::Write as _;
 
 use asperity::io::case::{Boundary, Case, Course, Method, Side};
-use asperity::io::outlook::{Outlook, outlook};
+use asperity::io::outlook::{Demand, Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
 use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
 use asperity::solver::{Coupling, Friction, Rolling, Tangential};
-use asperity::units::{self, Dimension};
+use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
+use crate::machine;
 use crate::report::{Outcome, note, print};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = Case::load(&arguments.case)?;
+    let demand = machine::demand(&case)?;
     let bodies = bodies(&case)?;
     let outlook = outlook(&case, &bodies)?;
-    print(&text(&case, &bodies, &outlook));
+    print(&text(&case, &bodies, &outlook, &demand));
     for warning in outlook.warnings.iter().chain(&outlook.foreseen) {
         note(&format!("warning: {warning}"));
     }
     Ok(())
 }
 
-fn text(case: &Case, bodies: &Bodies, outlook: &Outlook) -> String {
+fn text(case: &Case, bodies: &Bodies, outlook: &Outlook, demand: &Demand) -> String {
     let rows = [
         ("lower", body(&bodies.lower)),
         ("upper", body(&bodies.upper)),
         ("pair", pair(outlook)),
         ("contact", contact(case, outlook)),
         ("motion", motion(case, outlook)),
-        ("memory", memory(outlook)),
+        ("memory", memory(demand)),
+        ("time", format!("about {}, without figures", units::format_time(demand.time()))),
     ];
     let friction = case.friction.map(|spec| ("friction", friction(&spec.law, outlook)));
     let history = match &outlook.course {
@@ -189,10 +192,16 @@ fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-fn memory(outlook: &Outlook) -> String {
-    let [solver, together, results] = outlook.memory;
+fn memory(demand: &Demand) -> String {
+    let Demand { surfaces, solver, together, results, memory, .. } = *demand;
     let together = if together > 0.0 { format!(", {} for a pass", bytes(together)) } else { String::new() };
-    format!("about {} for each thread{together}, {} of results", bytes(solver), bytes(results))
+    format!(
+        "about {}: {} for the surfaces, {} for each thread{together}, {} of results",
+        bytes(memory),
+        bytes(surfaces),
+        bytes(solver),
+        bytes(results)
+    )
 }
 
 fn stress(case: &Case, plan: &Plan) -> String {
@@ -209,12 +218,4 @@ fn stress(case: &Case, plan: &Plan) -> String {
         units::format(deepest, Dimension::Length),
         bytes(plan.memory())
     )
-}
-
-fn bytes(count: f64) -> String {
-    match count {
-        count if count < 1e6 => format!("{:.0} kB", count / 1e3),
-        count if count < 1e9 => format!("{:.0} MB", count / 1e6),
-        count => format!("{:.1} GB", count / 1e9),
-    }
 }

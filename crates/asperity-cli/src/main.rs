@@ -5,6 +5,7 @@ mod check;
 mod draw;
 mod example;
 mod figures;
+mod machine;
 mod paper;
 mod plot;
 mod report;

@@ -79,6 +79,7 @@ fn code(error: &Error) -> u8 {
         Error::BeyondPlasticLimit { .. }
         | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
+        | Error::Memory { .. }
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. } => 1,

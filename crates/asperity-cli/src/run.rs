@@ -15,6 +15,7 @@ use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Run;
+use crate::machine;
 use crate::report::{self, note, print};
 use crate::{example, figures};
 
@@ -33,6 +34,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         (None, None) => unreachable!("the parser asks for one of them"),
     };
     let case = Case::load(&file)?;
+    machine::demand(&case)?;
     let existing = match (arguments.resume, arguments.overwrite) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Overwrite,

@@ -57,6 +57,58 @@ fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
 }
 
 #[test]
+fn a_case_beyond_the_memory_ends_before_any_work() {
+    let folder = folder();
+    let body = |name: &str| {
+        format!(
+            "[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\n[{name}.topography]\nform = \"flat\"\n\
+             shape = [65536, 65536]\npitch = \"1 um\"\n"
+        )
+    };
+    let case = format!("{}{}[contact]\nload = \"1 N\"\n", body("lower"), body("upper"));
+    fs::write(folder.path().join("large.toml"), case).unwrap();
+    fs::create_dir(folder.path().join("old")).unwrap();
+    fs::write(folder.path().join("old/case.json"), "{}").unwrap();
+    fs::write(folder.path().join("old/summary.json"), "{}").unwrap();
+    for command in ["check large.toml", "run large.toml", "run large.toml --out old --overwrite"] {
+        let began = std::time::Instant::now();
+        let output = run(folder.path(), command);
+        assert_eq!(output.status.code(), Some(1), "{command}: {}", stderr(&output));
+        let said = stderr(&output);
+        assert!(said.contains("error: about 8") && said.contains("GB of memory are needed, "), "{said}");
+        assert!(began.elapsed().as_secs_f64() < 2.0);
+    }
+    assert!(!folder.path().join("large-results").exists() && folder.path().join("old/summary.json").exists());
+}
+
+#[test]
+fn a_hurst_exponent_of_a_narrow_range_is_called_a_slope() {
+    let folder = folder();
+    let at = |arguments: &str| ok(&run(folder.path(), arguments));
+    at(
+        "surface generate self-affine --hurst 0.7 --sq 0.1um --shape 128x128 --pitch 1um --seed 1 --out z.x3p",
+    );
+    let told: Value = serde_json::from_str(&at("surface info z.x3p --json")).unwrap();
+    let law = &told["self_affine"];
+    assert!(law["decades"].as_f64().unwrap() < 1.0, "{law}");
+    assert!(law["doubt"].as_str().unwrap().contains("a slope of the spectrum, not a law"), "{law}");
+    assert!(at("surface info z.x3p").contains("of a decade: a slope of the spectrum, not a law"));
+    at("surface plot z.x3p --out figures");
+    let curves = fs::read_to_string(folder.path().join("figures/curves.json")).unwrap();
+    assert!(curves.contains("a slope of the spectrum, not a law"));
+}
+
+#[test]
+fn lengths_beyond_all_measure_are_bad_usage() {
+    let folder = folder();
+    ok(&run(folder.path(), "surface generate flat --shape 8x8 --pitch 1um --out z.npy"));
+    for length in ["1e-310", "1e300", "0", "-1um"] {
+        let error = refused(&run(folder.path(), &format!("surface info z.npy --pitch={length}")));
+        assert!(error.contains("expected a length"), "{error}");
+    }
+}
+
+#[test]
 fn bad_usage_is_exit_code_2() {
     let folder = folder();
     for arguments in [

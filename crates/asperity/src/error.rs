@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 pub use case::CaseError;
 
-use crate::units::{Metre, Newton};
+use crate::units::{Metre, Newton, bytes};
 
 /// `Result` with this library's [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
@@ -185,6 +185,14 @@ pub enum Error {
         /// What is wrong there.
         source: Box<Error>,
     },
+    /// A computation takes more memory than there is.
+    #[error("about {} of memory are needed, {} are free", bytes(*needed), bytes(*available))]
+    Memory {
+        /// The memory it takes, bytes.
+        needed: f64,
+        /// The memory there is, bytes.
+        available: f64,
+    },
     /// The caller asked for the computation to stop.
     #[error("interrupted")]
     Interrupted,
@@ -270,6 +278,10 @@ impl Error {
             ),
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
                 "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
+            ),
+            Self::Memory { .. } => Some(
+                "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
+                    .into(),
             ),
             _ => None,
         }

@@ -1,13 +1,16 @@
 //! Regular grids and the fields on them.
 
 use crate::error::{Error, Result};
-use crate::units::{Metre, SquareMetre};
+use crate::units::{Dimension, Metre, SquareMetre};
 
 /// Values on the cells of a [`Grid`], indexed `[ix, iy]`, `iy` fastest in memory.
 pub type Field = ndarray::Array2<f64>;
 
 /// A [`Field`] in single precision: for what only has to be nearly right, as the directions of an iteration.
 pub type SingleField = ndarray::Array2<f32>;
+
+/// The most cells of a grid: a field of them takes 32 GiB.
+pub const MOST_CELLS: usize = 1 << 32;
 
 /// A regular grid of rectangular cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +25,7 @@ impl Grid {
     /// A grid of `shape` cells of size `pitch`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no cells, or a pitch is not positive and finite.
+    /// [`Error::OutOfRange`] if there are no cells or more than [`MOST_CELLS`], or a pitch is not positive or beyond [`Dimension::range`].
     pub fn new(shape: [usize; 2], pitch: [Metre; 2]) -> Result<Self> {
         if shape.contains(&0) {
             return Err(Error::OutOfRange {
@@ -31,8 +34,14 @@ impl Grid {
                 expected: "at least one cell along x and y",
             });
         }
-        if let Some(&value) = pitch.iter().find(|p| !(p.is_finite() && **p > 0.0)) {
-            return Err(Error::OutOfRange { quantity: "pitch", value, expected: "a positive length" });
+        let cells = shape[0].checked_mul(shape[1]).filter(|cells| *cells <= MOST_CELLS);
+        if cells.is_none() {
+            let value = shape[0] as f64 * shape[1] as f64;
+            return Err(Error::OutOfRange { quantity: "shape", value, expected: "at most 2³² cells" });
+        }
+        if let Some(&value) = pitch.iter().find(|p| !Dimension::Length.range().holds(**p)) {
+            let expected = "a positive length of 1e-15 … 1e6 m";
+            return Err(Error::OutOfRange { quantity: "pitch", value, expected });
         }
         Ok(Self { shape, pitch })
     }

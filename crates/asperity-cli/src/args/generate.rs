@@ -9,8 +9,8 @@ use asperity::surface::{
 use clap::{Args, Subcommand};
 
 use super::values::{
-    Pair, Shape, angle, axis_parser, band_parser, decay_parser, groove_parser, lengths, positive_length,
-    shape, wavelengths,
+    Pair, Shape, angle, axis_parser, band_parser, decay_parser, factor, groove_parser, lengths,
+    positive_length, shape, wavelengths,
 };
 
 /// Make a random topography or an ideal form
@@ -158,7 +158,7 @@ pub(crate) struct Roughness {
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     sq: Option<f64>,
     /// Rms slope
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = factor)]
     sdq: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! Values of arguments: quantities with units, pairs of them, shapes, words.
 
 use asperity::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Resample};
-use asperity::units::{self, Dimension};
+use asperity::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Two lengths, along x and y.
@@ -24,14 +24,18 @@ fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
 }
 
 pub(super) fn positive_length(text: &str) -> Result<f64, String> {
+    let range = Dimension::Length.range();
     match quantity(text, Dimension::Length)? {
-        length if length > 0.0 => Ok(length),
+        length if range.holds(length) => Ok(length),
+        length if length > 0.0 => Err(format!("expected a length of {range}")),
         _ => Err("expected a length above 0 such as 0.25um".to_owned()),
     }
 }
 
 pub(super) fn angle(text: &str) -> Result<f64, String> {
-    quantity(text, Dimension::Angle)
+    let range = Dimension::Angle.range();
+    let angle = quantity(text, Dimension::Angle)?;
+    if range.holds_signed(angle) { Ok(angle) } else { Err(format!("expected an angle of {range}")) }
 }
 
 fn pair(text: &str, read: impl Fn(&str) -> Result<f64, String>) -> Result<Pair, String> {
@@ -51,7 +55,8 @@ pub(super) fn wavelengths(text: &str) -> Result<Pair, String> {
 }
 
 fn counts<const N: usize>(text: &str, separators: &[char], expected: &str) -> Result<[usize; N], String> {
-    let counts: Option<Vec<usize>> = text.split(separators).map(|count| count.trim().parse().ok()).collect();
+    let count = |text: &str| text.trim().parse().ok().filter(|count: &usize| *count <= MOST_OF_ANY);
+    let counts: Option<Vec<usize>> = text.split(separators).map(count).collect();
     counts.and_then(|counts| counts.try_into().ok()).ok_or_else(|| format!("expected {expected}"))
 }
 
@@ -76,8 +81,8 @@ pub(super) fn resample(text: &str) -> Result<Resample, String> {
 
 /// A number above 0.
 pub(super) fn factor(text: &str) -> Result<f64, String> {
-    let factor = text.parse().ok().filter(|factor: &f64| factor.is_finite() && *factor > 0.0);
-    factor.ok_or_else(|| "expected a number above 0 such as 6".to_owned())
+    let factor = text.parse().ok().filter(|factor: &f64| NUMBERS.holds(*factor));
+    factor.ok_or_else(|| format!("expected a number above 0 such as 6, of {NUMBERS}"))
 }
 
 pub(super) fn window(text: &str) -> Result<Window, String> {

@@ -31,7 +31,22 @@ pub(super) struct Statistics {
     pub(super) bandwidth: f64,
     pub(super) asperities: Asperities,
     /// The law on the longest range that follows one.
-    pub(super) self_affine: Option<SelfAffinity>,
+    pub(super) self_affine: Option<Law>,
+}
+
+/// A power law of the spectrum, and how far it is one.
+#[derive(Serialize)]
+pub(super) struct Law {
+    #[serde(flatten)]
+    pub(super) fit: SelfAffinity,
+    pub(super) decades: f64,
+    pub(super) doubt: Option<String>,
+}
+
+impl From<SelfAffinity> for Law {
+    fn from(fit: SelfAffinity) -> Self {
+        Self { fit, decades: fit.decades(), doubt: fit.doubt() }
+    }
 }
 
 /// The surface of Greenwood and Williamson.
@@ -81,7 +96,7 @@ impl Statistics {
                 counted: Summits::of(&file.topography).greenwood_williamson(),
                 by_moments: moments.greenwood_williamson(),
             },
-            self_affine: SelfAffinity::of_longest_range(&spectrum.radial(RINGS)).ok(),
+            self_affine: SelfAffinity::of_longest_range(&spectrum.radial(RINGS)).ok().map(Law::from),
         }
     }
 }

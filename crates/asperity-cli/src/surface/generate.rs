@@ -6,12 +6,17 @@ use asperity::units::{self, Dimension};
 use super::output::Output;
 use super::read;
 use crate::args::{Generate, Reading, Recipe};
+use crate::machine;
 use crate::report::{Outcome, note};
+
+/// Fields that making one takes: its spectrum, the margins where it is not periodic.
+const FIELDS: f64 = 4.0;
 
 pub(super) fn generate(arguments: Generate) -> Outcome {
     let (recipe, target) = arguments.source.recipe();
     let output = Output::new(&target.out.path, target.out.overwrite)?;
     let grid = Grid::new(target.shape.0, target.pitch.0)?;
+    machine::holds(FIELDS * 8.0 * grid.cells() as f64)?;
     let mut topography = match recipe {
         Recipe::Random(generator, seed) => generator.generate(&grid, seed)?,
         Recipe::Form(form) => form.on(&grid)?,

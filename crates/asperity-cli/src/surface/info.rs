@@ -7,7 +7,7 @@ use asperity::surface::{Parameter, Unit};
 use asperity::units::{self, Dimension};
 use serde_json::{Value, json};
 
-use super::description::{Description, Profiles, Statistics};
+use super::description::{Description, Law, Profiles, Statistics};
 use super::{Read, read_prepared, without_pitch};
 use crate::args::Info;
 use crate::report::{Outcome, print};
@@ -152,12 +152,15 @@ fn about_statistics(table: &mut Table, statistics: &Statistics) {
     row("R", Unit::Length, |found| found.radius, "radius of the tips");
     row("σs", Unit::Length, |found| found.height_deviation, "standard deviation of their heights");
     row("zs", Unit::Length, |found| found.mean_height, "mean height above that of the surface");
-    if let Some(law) = self_affine {
+    if let Some(Law { fit: law, doubt, .. }) = self_affine {
         table.title("self-affine law, on the longest range of the spectrum that follows one");
         table.row("H", format!("{:.3} ± {:.3}", law.hurst, law.hurst_error), "Hurst exponent");
         let wavelength = |q: f64| Unit::Length.format(std::f64::consts::TAU / q);
         let range = format!("{} … {}", wavelength(law.range[1]), wavelength(law.range[0]));
         table.row("range", range, "wavelengths");
+        if let Some(doubt) = doubt {
+            table.row("H", doubt, "");
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use asperity::surface::{
 use asperity::units::Metre;
 use serde_json::{Value, json};
 
-use super::description::RINGS;
+use super::description::{Law, RINGS};
 use super::{read_prepared, without_pitch};
 use crate::args::PlotSurface;
 use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, PlaneFigure, Quantity, Series, Unit};
@@ -162,7 +162,10 @@ impl Sheet<'_> {
         let mut series = vec![Series::new("mean over all directions", points(&radial), Mark::LineAndPoints)];
         let law = SelfAffinity::of_longest_range(&radial).ok();
         if let Some(law) = law {
-            let name = format!("self-affine, H = {:.2}", law.hurst);
+            let name = match law.doubt() {
+                None => format!("self-affine, H = {:.2}", law.hurst),
+                Some(_) => format!("H = {:.2}, {:.1} decades: a slope, not a law", law.hurst, law.decades()),
+            };
             series.push(Series::new(name, power_law(&law, &radial), Mark::Dashed));
         }
         let figure = LineFigure {
@@ -178,7 +181,7 @@ impl Sheet<'_> {
             "radial": radial,
             "x": spectrum.along(Direction::X),
             "y": spectrum.along(Direction::Y),
-            "self_affine": law,
+            "self_affine": law.map(Law::from),
         }))
     }
 

@@ -1,8 +1,11 @@
 //! What a case will take, and what to be wary of, told before anything is solved.
 
 mod contact;
+mod demand;
+mod plausible;
 
 pub(super) use contact::{cut_off, spot, too_few_cells};
+pub use demand::{Demand, demand};
 
 use super::case::{Body, Boundary, Case, Course, Layer, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
@@ -10,9 +13,9 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Position, Stage, Strategy, initial_gap, memory_together};
+use crate::motion::{Control, Position, Stage, Strategy, initial_gap};
 use crate::reference::HertzSphere;
-use crate::solver::{self, Coupling, Friction, Rolling, Sliding, Tangential};
+use crate::solver::{self, Coupling, Friction, Rolling, Tangential};
 use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
@@ -44,9 +47,6 @@ pub struct Outlook {
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, as if the surfaces were independent.
     pub gap_slope: f64,
-    /// Memory that one solver needs, that the positions of a pass take together, and that the results take until they are
-    /// written, bytes.
-    pub memory: [f64; 3],
     /// What is looked at under the surface.
     pub subsurface: Option<Plan>,
     /// What the user should know before trusting the result.
@@ -104,7 +104,6 @@ pub fn outlook(case: &Case, bodies: &Bodies) -> Result<Outlook> {
         mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
-        memory: memory(case, bodies, &overlaps, hardness, &compliances),
         subsurface: Plan::new(case, &lower_grid, &positions)?,
         warnings: Vec::new(),
         foreseen: Vec::new(),
@@ -194,49 +193,9 @@ fn holds(
     Ok(())
 }
 
-fn memory(
-    case: &Case,
-    bodies: &Bodies,
-    overlaps: &[usize],
-    hardness: Pascal,
-    compliances: &Compliances,
-) -> [f64; 3] {
-    const NUMBER: f64 = 8.0;
-    let [lower, upper] = [&bodies.lower, &bodies.upper].map(|body| body.topography.grid());
-    let [nx, ny] = [lower.shape[0].min(upper.shape[0]), lower.shape[1]].map(|n| n as f64);
-    // Eight numbers of the iteration for each cell; of the padded transform half is stored, and its real kernel, in double
-    // and in single precision.
-    let padded = if case.contact.boundary == Boundary::Free { 2.0 } else { 1.0 };
-    let transforms = 1.5 * padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded);
-    let normal = 8.0 * nx * ny + transforms;
-    // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
-    // iteration some thirty numbers for each cell.
-    let coupled = 1.5 * padded * nx * (padded * ny + 2.0) + 3.0 * nx * (padded * ny + 2.0) + 32.0 * nx * ny;
-    let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
-    let is_coupled = case
-        .friction
-        .is_some_and(|friction| case.motion.is_none() || sliding(friction.law).lifts(compliances));
-    let solver = NUMBER * if is_coupled { normal + coupled } else { normal };
-    let motion = case.motion(nx * ny * lower.cell_area());
-    let together = motion
-        .and_then(|motion| memory_together(&motion, case.contact.method, hardness, overlaps, lower.shape[1]));
-    let together = together.unwrap_or(0.0);
-    let cells = (lower.cells() + upper.cells()) as f64;
-    let statics = if case.friction.is_some() { 13.0 } else { 6.0 };
-    let results = case.motion.map_or(statics * nx * ny, |motion| {
-        let passes = motion.passes as f64;
-        let kept = match case.output.pressure_every {
-            0 => 0.0,
-            every => overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
-        };
-        let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
-        (passes + 1.0) * cells + passes * (cells + kept)
-    });
-    [solver, together, NUMBER * results]
-}
-
 fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
     let mut warnings = Vec::new();
+    plausible::implausible(case, bodies.lower.topography.grid(), outlook, &mut warnings);
     for (name, body, spec) in
         [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
     {

@@ -63,6 +63,32 @@ pub fn bodies(case: &Case) -> Result<Bodies> {
     Ok(Bodies { lower, upper })
 }
 
+/// The grids on which [`bodies`] will be, from the case and the sizes in its files alone.
+///
+/// # Errors
+/// [`Error::Case`] as of [`bodies`], for files and for steps of the preparation that have no meaning on their grid.
+pub fn grids(case: &Case) -> Result<[Grid; 2]> {
+    Ok([grid(case, "lower", &case.lower)?, grid(case, "upper", &case.upper)?])
+}
+
+fn grid(case: &Case, name: &str, body: &Body) -> Result<Grid> {
+    let at = Place { case, body: name };
+    let spec = &body.topography;
+    let (grid, preparation) = match &spec.source {
+        Source::File { path, channel, unit } => {
+            let scan =
+                topography::read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, _, preparation) = measured(at, path, scan, spec)?;
+            (*topography.grid(), preparation)
+        }
+        Source::Generate { shape, .. } | Source::Form { shape, .. } => {
+            let pitch = spec.pitch.expect("the case has the pitch of what is made");
+            (Grid::new(*shape, pitch).map_err(|error| at.parameter(error))?, spec.preparation)
+        }
+    };
+    preparation.grid(grid).map_err(|error| at.preparing(error))
+}
+
 fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
     let at = Place { case, body: name };
     let spec = &body.topography;
@@ -92,6 +118,7 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
             layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
         topography = topography.plus(&added)?;
     }
+    at.measurable(&topography)?;
     let topography = match body.mount {
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
@@ -175,6 +202,17 @@ impl Place<'_> {
             format!("{missing} of {samples} heights of {} are missing{spikes}", self.file()),
             Some("set `fill = \"harmonic\"`, a membrane over each hole, or `fill = \"nearest\"`".to_owned()),
         )
+    }
+
+    /// An error if there are heights that are no lengths of any body.
+    fn measurable(&self, topography: &Topography) -> Result<()> {
+        let range = Dimension::Length.range();
+        let highest = topography.heights().iter().fold(0.0, |highest: f64, z| highest.max(z.abs()));
+        if highest <= range.most {
+            return Ok(());
+        }
+        let message = format!("heights reach {highest:e} m, expected magnitudes up to {:e} m", range.most);
+        Err(self.error("file", message, Some("check the units".to_owned())))
     }
 
     /// The file as the case has it; nothing for what is made.

@@ -80,6 +80,29 @@ impl SelfAffinity {
         Ok(Self::of_line(&line, 0.5 * line.slope))
     }
 
+    /// Decades of wave numbers, or lags, over which it was fitted.
+    pub fn decades(&self) -> f64 {
+        (self.range[1] / self.range[0]).log10()
+    }
+
+    /// Why the exponent is a slope of the spectrum and not a law of the surface, if it is: H outside 0 … 1, which no
+    /// self-affine surface has, or less than a decade, over which any smooth curve is straight.
+    pub fn doubt(&self) -> Option<String> {
+        const CRUMB: f64 = 1e-9;
+        if !(0.0..=1.0).contains(&self.hurst) {
+            return Some(format!(
+                "{:.2} is outside 0 … 1: a slope of the spectrum, not a law; look for form, noise or a filter",
+                self.hurst
+            ));
+        }
+        (self.decades() < 1.0 - CRUMB).then(|| {
+            format!(
+                "from {:.2} of a decade: a slope of the spectrum, not a law; measure a wider field or finer",
+                self.decades()
+            )
+        })
+    }
+
     /// Fractal dimension D = 3 − H of the surface; that of its profiles is 2 − H.
     pub fn fractal_dimension(&self) -> f64 {
         3.0 - self.hurst
@@ -240,6 +263,20 @@ mod tests {
         let message = SelfAffinity::of_spectrum(&points, [1.0, 1.3]).unwrap_err().to_string();
         assert!(message.starts_with("points in the range is 2e0"), "{message}");
         assert!(SelfAffinity::of_longest_range(&points[..2]).is_err());
+    }
+
+    #[test]
+    fn a_slope_is_told_from_a_law() {
+        let fit = |hurst, range| SelfAffinity { hurst, hurst_error: 0.01, range, points: 9 };
+        assert_eq!(fit(0.8, [1e3, 1e4]).doubt(), None);
+        let doubt = |hurst, range| fit(hurst, range).doubt().unwrap();
+        assert!(
+            doubt(1.63, [1e3, 1e6]).starts_with("1.63 is outside 0 … 1: a slope of the spectrum, not a law")
+        );
+        assert!(doubt(-0.2, [1e3, 1e6]).contains("-0.20 is outside"));
+        assert!(
+            doubt(0.8, [1e3, 2e3]).starts_with("from 0.30 of a decade: a slope of the spectrum, not a law")
+        );
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! SI quantities: the aliases that name them in signatures, and their reading and writing with a unit.
 
 mod quantity;
+mod range;
 
 pub use quantity::{Dimension, UnitError, format, format_digits, parse};
+pub use range::{MOST_OF_ANY, NUMBERS, Range};
 
 /// Length in metres.
 pub type Metre = f64;
@@ -22,3 +24,24 @@ pub type Joule = f64;
 pub type MetrePerSecond = f64;
 /// Time in seconds.
 pub type Second = f64;
+
+/// Writes an amount of memory, in bytes: `35 kB`, `1.2 GB`.
+pub fn bytes(count: f64) -> String {
+    match count {
+        count if count < 1e6 => std::format!("{:.0} kB", count / 1e3),
+        count if count < 1e9 => std::format!("{:.0} MB", count / 1e6),
+        count if count < 1e12 => std::format!("{:.1} GB", count / 1e9),
+        count => std::format!("{:.1} TB", count / 1e12),
+    }
+}
+
+/// Writes a time as people say it: `0.3 s`, `12 s`, `5 min`, `3.2 h`, `40 days`.
+pub fn format_time(seconds: Second) -> String {
+    match seconds {
+        t if t < 10.0 => std::format!("{t:.1} s"),
+        t if t < 120.0 => std::format!("{t:.0} s"),
+        t if t < 7200.0 => std::format!("{:.0} min", t / 60.0),
+        t if t < 48.0 * 3600.0 => std::format!("{:.1} h", t / 3600.0),
+        t => std::format!("{:.0} days", t / 86400.0),
+    }
+}

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::{Document, join};
 use crate::error::{Error, Result};
-use crate::units::{self, Dimension};
+use crate::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
 
 /// A table `[path]`.
 pub(super) struct Table<'a> {
@@ -194,7 +194,11 @@ impl<'a> Entry<'a> {
             Some("inf") => f64::INFINITY,
             _ => self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?,
         };
-        if good(value) { Ok(value) } else { Err(self.unexpected(expected, None)) }
+        match value {
+            value if !good(value) => Err(self.unexpected(expected, None)),
+            value if value.is_infinite() || NUMBERS.holds_signed(value) => Ok(value),
+            _ => Err(self.beyond(NUMBERS)),
+        }
     }
 
     /// A quantity, SI: a number or a string with a unit. Infinities are left to the caller.
@@ -215,14 +219,19 @@ impl<'a> Entry<'a> {
     /// A finite quantity.
     pub(super) fn quantity(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
-        if value.is_finite() { Ok(value) } else { Err(self.unexpected(&expectation(dimension, ""), None)) }
+        if !value.is_finite() {
+            return Err(self.unexpected(&expectation(dimension, ""), None));
+        }
+        if dimension.range().holds_signed(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
     /// A finite quantity above 0.
     pub(super) fn positive(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
-        let good = value.is_finite() && value > 0.0;
-        if good { Ok(value) } else { Err(self.unexpected(&expectation(dimension, " above 0"), None)) }
+        if !(value.is_finite() && value > 0.0) {
+            return Err(self.unexpected(&expectation(dimension, " above 0"), None));
+        }
+        if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
     /// A quantity above 0, or infinity, whose meaning is `infinite`.
@@ -231,10 +240,20 @@ impl<'a> Entry<'a> {
             Some("inf") => f64::INFINITY,
             _ => self.any_quantity(dimension)?,
         };
-        if value > 0.0 {
-            return Ok(value);
+        match value {
+            f64::INFINITY => Ok(value),
+            value if dimension.range().holds(value) => Ok(value),
+            value if value > 0.0 => Err(self.beyond(dimension.range())),
+            _ => {
+                let hint = format!("`inf` is {infinite}");
+                Err(self.unexpected(&expectation(dimension, " above 0"), Some(hint)))
+            }
         }
-        Err(self.unexpected(&expectation(dimension, " above 0"), Some(format!("`inf` is {infinite}"))))
+    }
+
+    /// The error of a magnitude that no contact has.
+    fn beyond(&self, range: units::Range) -> Error {
+        self.unexpected(&format!("a magnitude of {range}"), None)
     }
 
     /// A whole number of at least `least`.
@@ -252,8 +271,10 @@ impl<'a> Entry<'a> {
 
     /// [`whole`](Self::whole), as a number of things in memory.
     pub(super) fn count(&self, least: usize) -> Result<usize> {
-        let whole = self.whole(least as u64)?;
-        usize::try_from(whole).map_err(|_| self.unexpected("a smaller number", None))
+        match usize::try_from(self.whole(least as u64)?) {
+            Ok(count) if count <= MOST_OF_ANY => Ok(count),
+            _ => Err(self.unexpected("a whole number of at most 10⁹", None)),
+        }
     }
 
     /// An array of exactly `N` entries; `expected` says what they are.

@@ -180,6 +180,11 @@ impl Case {
         self.document.error(key, self.document.place(key), message, hint)
     }
 
+    /// What the file says at a dotted `key`, as it is written there.
+    pub(in crate::io) fn written(&self, key: &str) -> String {
+        self.document.written(self.document.place(key))
+    }
+
     /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         let spec = self.motion?;

@@ -11,6 +11,7 @@ use super::{
     Prescribed, Source, StageSpec, TopographySpec,
 };
 use crate::error::Result;
+use crate::grid::MOST_CELLS;
 use crate::material::{self, Material};
 use crate::motion::{PlasticUpdate, Strategy};
 use crate::surface::{
@@ -95,9 +96,6 @@ const PREPARATION: [&str; 12] = [
 const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
 
 const LENGTHS: &str = "a length above 0 such as \"0.25 um\", or two";
-
-/// Beyond this no field fits into memory.
-const MOST_CELLS: usize = 1 << 32;
 
 pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
@@ -610,7 +608,8 @@ fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
 }
 
 fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
-    let shape: [usize; 2] = entry.array(SHAPE, |item| item.count(0))?;
+    let whole = |item: &Entry<'_>| item.whole(0).map(|cells| usize::try_from(cells).unwrap_or(usize::MAX));
+    let shape: [usize; 2] = entry.array(SHAPE, whole)?;
     match shape[0].checked_mul(shape[1]) {
         Some(0) => Err(entry.unexpected(SHAPE, None)),
         Some(cells) if cells <= MOST_CELLS => Ok(shape),

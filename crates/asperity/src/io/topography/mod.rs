@@ -5,6 +5,7 @@
 
 mod binary;
 mod header;
+mod points;
 
 pub mod al3d;
 pub mod bcr;
@@ -30,7 +31,7 @@ use std::path::Path;
 
 use crate::error::{Defect, Error, Result};
 use crate::grid::Field;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
@@ -291,7 +292,7 @@ fn cells(sizes: &[u64]) -> std::result::Result<usize, Defect> {
 
 /// A pitch that a grid can have; else the user has to give it.
 fn usable_pitch(pitch: [Metre; 2]) -> Option<[Metre; 2]> {
-    pitch.iter().all(|p| p.is_finite() && *p > 0.0).then_some(pitch)
+    pitch.iter().all(|p| Dimension::Length.range().holds(*p)).then_some(pitch)
 }
 
 /// Turns the order of the lines, where a file has the last one first.

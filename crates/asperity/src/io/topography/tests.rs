@@ -13,6 +13,7 @@ mod files;
 mod gwy;
 mod headed;
 mod instruments;
+mod points;
 mod sdf;
 mod tiff;
 

@@ -3,7 +3,10 @@
 //! - A **matrix** has a line for each ix and a value for each iy: `heights[ix, iy]` as `numpy.savetxt` writes it.
 //!   It has no pitch. (Of a file whose lines run along x, take the transpose.)
 //! - A **table** (`xyz`) has three values in a line: x, y and height, all in metres. It is told from a matrix by its
-//!   x and y, which must form a full regular grid of at least 2 × 2 points, in any order. It has a pitch.
+//!   x and y, which must form a regular grid of at least 2 × 2 points, in any order, each to a quarter of the pitch. It
+//!   has a pitch. Points that lack are missing heights, see [`raster`].
+//! - A line scan (x and height, or x, y and height along a line) and points on no grid are refused, where they can be told
+//!   from a matrix: by positions that are evenly spaced or in their order beside heights that are not.
 //! - Values are separated by semicolons, tabs, commas or white space, whichever the first line of values has.
 //!   Where commas do not separate they may be decimal commas. A separator may end every line.
 //! - Missing heights: nothing between separators, `nan`, `na`, `n/a`, `null`, `bad`, `-`, `--`, or asterisks.
@@ -12,17 +15,22 @@
 use ndarray::{Axis, Slice};
 
 use super::header::excerpt;
+use super::points::{Raster, raster, refuse_points};
 use super::{Decoded, Fault, MAX_CELLS, Scan, Unit, only_channel};
 use crate::error::Defect;
 use crate::grid::Field;
-use crate::units::Metre;
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
-    let heights = matrix(bytes, 0).map_err(|defect| Fault::defect("text", defect))?;
-    let (format, pitch, heights, unit) = match xyz(&heights) {
-        Some((pitch, heights)) => ("xyz", Some(pitch), heights, Unit::MetresThroughout),
-        None => ("text", None, heights, Unit::Metres),
+    let fault = |defect| Fault::defect("text", defect);
+    let heights = matrix(bytes, 0).map_err(fault)?;
+    let points = if heights.ncols() == 3 { raster(&heights, 2) } else { None };
+    let (format, pitch, heights, unit) = match points {
+        Some(Raster { pitch, heights }) => ("xyz", Some(pitch), heights, Unit::MetresThroughout),
+        None => {
+            refuse_points(&heights).map_err(fault)?;
+            ("text", None, heights, Unit::Metres)
+        }
     };
     Ok(Scan { format, channel: channels[0].clone(), channels, pitch, heights, unit })
 }
@@ -141,61 +149,4 @@ fn value(token: &str, separator: Separator) -> Option<f64> {
 fn is_missing(token: &str) -> bool {
     const WORDS: [&str; 7] = ["", "na", "n/a", "null", "bad", "-", "--"];
     token.bytes().all(|byte| byte == b'*') || WORDS.iter().any(|word| token.eq_ignore_ascii_case(word))
-}
-
-/// Reads t/// Reads three columns as x, y and height, if x and y form a full regular grid.
-fn xyz(table: &Field) -> Option<([Metre; 2], Field)> {
-    if table.ncols() == 3 { grid_of_points(table, 2) } else { None }
-}
-
-/// The values of a column over those of the first two, if these form a full regular grid of at least 2 × 2 points.
-pub(super) fn grid_of_points(table: &Field, column: usize) -> Option<([f64; 2], Field)> {
-    if table.nrows() < 4 {
-        return None;
-    }
-    let [x, y] = [positions(table.column(0))?, positions(table.column(1))?];
-    if x.count.checked_mul(y.count)? != table.nrows() {
-        return None;
-    }
-    let mut heights = Field::zeros([x.count, y.count]);
-    let mut seen = ndarray::Array2::from_elem([x.count, y.count], false);
-    for point in table.rows() {
-        let at = [x.index(point[0])?, y.index(point[1])?];
-        if std::mem::replace(&mut seen[at], true) {
-            return None;
-        }
-        heights[at] = point[column];
-    }
-    Some(([x.pitch, y.pitch], heights))
-}
-
-/// Positions `start + i · pitch`, `i < count`.
-struct Positions {
-    start: Metre,
-    pitch: Metre,
-    count: usize,
-}
-
-impl Positions {
-    /// The index of `position`, which may be off by the rounding of printed numbers.
-    fn index(&self, position: Metre) -> Option<usize> {
-        let index = (position - self.start) / self.pitch;
-        let nearest = index.round();
-        (nearest >= 0.0 && nearest < self.count as f64 && (index - nearest).abs() < 0.1)
-            .then_some(nearest as usize)
-    }
-}
-
-fn positions(values: ndarray::ArrayView1<'_, f64>) -> Option<Positions> {
-    let mut sorted = values.to_vec();
-    if sorted.iter().any(|position| position.is_nan()) {
-        return None;
-    }
-    sorted.sort_unstable_by(f64::total_cmp);
-    let (start, end) = (sorted[0], sorted[sorted.len() - 1]);
-    // Positions that print alike are one position: take as pitch what lies between the clusters of them.
-    let rounding = (end - start) / values.len() as f64 * 0.1;
-    let count = 1 + sorted.windows(2).filter(|pair| pair[1] - pair[0] > rounding).count();
-    let pitch = (end - start) / (count - 1) as f64;
-    (count >= 2 && pitch.is_finite() && pitch > 0.0).then_some(Positions { start, pitch, count })
 }

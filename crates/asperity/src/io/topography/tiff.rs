@@ -37,12 +37,46 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
 fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
+    vet_first_directory(bytes)?;
     // A code of LZW, 12 bits, stands for at most 4094 bytes; deflate makes no less of them.
     let most = bytes.len().saturating_mul(4096);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most;
     limits.intermediate_buffer_size = most;
     Ok(Decoder::new(Cursor::new(bytes)).map_err(container)?.with_limits(limits))
+}
+
+/// Refuses entries of the first directory with more values than the file holds: the decoder reads them before it can be
+/// told a limit.
+fn vet_first_directory(bytes: &[u8]) -> Result<(), Defect> {
+    let little = bytes.starts_with(b"I");
+    let number = |at: u64, size: u64| -> Option<u64> {
+        let at = usize::try_from(at).ok()?;
+        let digits = bytes.get(at..at.checked_add(size as usize)?)?;
+        let append = |number: u64, digit: &u8| number << 8 | u64::from(*digit);
+        Some(if little { digits.iter().rev().fold(0, append) } else { digits.iter().fold(0, append) })
+    };
+    let is_big = number(2, 2) == Some(43);
+    // Bytes of an offset or count, of the number of entries, and of an entry.
+    let (wide, entries, entry) = if is_big { (8, 8, 20) } else { (4, 2, 12) };
+    let Some(directory) = number(wide, wide) else { return Ok(()) };
+    let Some(count) = number(directory, entries) else { return Ok(()) };
+    for index in 0..count {
+        let at = directory.saturating_add(entries).saturating_add(index.saturating_mul(entry));
+        // What lies beyond the file the decoder misses itself.
+        let (Some(kind), Some(values)) = (number(at + 2, 2), number(at + 4, wide)) else { return Ok(()) };
+        let size = match kind {
+            3 | 8 => 2,
+            4 | 9 | 11 | 13 => 4,
+            5 | 10 | 12 | 16 | 17 | 18 => 8,
+            _ => 1,
+        };
+        let (expected, found) = (values.saturating_mul(size), bytes.len() as u64);
+        if expected > found {
+            return Err(Defect::Length { what: "the file", expected, found });
+        }
+    }
+    Ok(())
 }
 
 fn heights(bytes: &[u8], page: usize) -> Result<(Field, Unit), Defect> {

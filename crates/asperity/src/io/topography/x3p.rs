@@ -133,6 +133,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     }
     let text = std::str::from_utf8(&main).map_err(|error| fault(container("main.xml", error)))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    vet_xml(text).map_err(fault)?;
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document =
         Document::parse_with_options(text, options).map_err(|error| fault(container("main.xml", error)))?;
@@ -159,6 +160,55 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         heights,
         unit: Unit::Known,
     })
+}
+
+/// The most attributes, and the most elements within each other: the format has some five of each.
+const MAX_ATTRIBUTES: usize = 1 << 10;
+const MAX_DEPTH: usize = 1 << 8;
+
+/// Refuses XML on which the parser would take long: its time grows as the square of the attributes.
+fn vet_xml(text: &str) -> Outcome<()> {
+    let too_many =
+        |what, found: usize, expected| Defect::Value { what, found: format!("{found} or more"), expected };
+    let (mut attributes, mut depth) = (0, 0usize);
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        let special = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        if let Some((_, end)) = special.into_iter().find(|(start, _)| rest.starts_with(start)) {
+            rest = rest.find(end).map_or("", |at| &rest[at + end.len()..]);
+            continue;
+        }
+        let mut quote = None;
+        let mut end = rest.len();
+        for (at, byte) in rest.bytes().enumerate() {
+            match (quote, byte) {
+                (Some(open), _) if open == byte => quote = None,
+                (Some(_), _) => {}
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => attributes += 1,
+                (None, b'>') => {
+                    end = at;
+                    break;
+                }
+                (None, _) => {}
+            }
+        }
+        let tag = &rest[..end];
+        if tag.starts_with("</") {
+            depth = depth.saturating_sub(1);
+        } else if !tag.ends_with('/') {
+            depth += 1;
+        }
+        if attributes > MAX_ATTRIBUTES {
+            return Err(too_many("the number of attributes in main.xml", attributes, "at most 1024"));
+        }
+        if depth > MAX_DEPTH {
+            return Err(too_many("the depth of main.xml", depth, "at most 256"));
+        }
+        rest = &rest[end..];
+    }
+    Ok(())
 }
 
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;

@@ -129,7 +129,7 @@ impl Autocorrelation {
     }
 
     /// How far the ellipse s = 1 extends along x and y.
-    fn reach(&self) -> [Metre; 2] {
+    pub(super) fn reach(&self) -> [Metre; 2] {
         let [along, across] = self.correlation_length;
         let (sin, cos) = self.lay.sin_cos();
         [(along * cos).hypot(across * sin), (along * sin).hypot(across * cos)]

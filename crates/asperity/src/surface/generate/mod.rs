@@ -46,6 +46,21 @@ impl Generator {
             Self::SelfAffine(method) => method.generate(grid, seed),
         }
     }
+
+    /// Cells of the transforms that making a topography on `grid` takes: with margins where its heights are not periodic.
+    pub(crate) fn cells(&self, grid: &Grid) -> f64 {
+        let margin = match self {
+            Self::LowPass(method) => method.cutoff.map(|length| 4.0 * length),
+            Self::Autocorrelation(method) => method.reach().map(|length| 3.0 * length),
+            Self::SelfAffine(_) => [0.0; 2],
+        };
+        let along = |axis: usize| {
+            // A length beyond the surface is refused before anything is made.
+            let [all, margin] = [grid.shape[axis] as f64, margin[axis] / grid.pitch[axis]];
+            all + margin.min(4.0 * all)
+        };
+        along(0) * along(1)
+    }
 }
 
 fn check_sq(sq: Metre) -> Result<()> {

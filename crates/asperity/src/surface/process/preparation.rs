@@ -2,8 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::resample::{grid_of_pitch, grid_of_shape};
+use super::turn::rotated;
+use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::error::{Result, check};
+use crate::grid::Grid;
 use crate::surface::{Axis, Topography};
 use crate::units::Metre;
 
@@ -74,6 +78,22 @@ pub struct Findings {
 }
 
 impl Preparation {
+    /// The grid after all steps, told without doing any.
+    ///
+    /// # Errors
+    /// Those of the steps that change the grid.
+    pub fn grid(&self, mut grid: Grid) -> Result<Grid> {
+        if let Some(window) = self.window {
+            grid = within(&grid, window)?;
+        }
+        grid = rotated(&grid, self.rotate)?;
+        match self.resample {
+            Some(Resample::Shape(shape)) => grid_of_shape(&grid, shape),
+            Some(Resample::Pitch(pitch)) if pitch != grid.pitch => grid_of_pitch(&grid, pitch),
+            _ => Ok(grid),
+        }
+    }
+
     /// The topography after all steps, and what they came upon. Samples stay undefined where nothing fills them.
     ///
     /// # Errors
@@ -125,7 +145,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::{Field, Grid};
+    use crate::grid::Field;
 
     fn rough() -> Topography {
         let grid = Grid::new([60, 50], [1e-6, 1e-6]).unwrap();
@@ -174,6 +194,14 @@ mod tests {
             by_hand.resample_to_shape([50, 50], Interpolation::Spline).unwrap().taper(4e-6).unwrap();
         assert_eq!(prepared.heights(), by_hand.heights());
         assert_eq!(prepared.undefined(), 0);
+        assert_eq!(preparation.grid(*rough().grid()).unwrap(), *prepared.grid());
+        for angle in [0.0, 1.2, 1.6, -1.3, 4.5] {
+            let resample = Some(Resample::Pitch([0.7e-6, 1.3e-6]));
+            let turned =
+                Preparation { rotate: angle, resample, fill: Fill::Nearest, ..Preparation::default() };
+            let (prepared, _) = turned.apply(rough()).unwrap();
+            assert_eq!(turned.grid(*rough().grid()).unwrap(), *prepared.grid(), "{angle}");
+        }
     }
 
     #[test]

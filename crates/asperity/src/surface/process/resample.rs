@@ -35,13 +35,7 @@ impl Topography {
     /// # Errors
     /// [`Error::OutOfRange`] if a number of cells is 0.
     pub fn resample_to_shape(&self, shape: [usize; 2], interpolation: Interpolation) -> Result<Self> {
-        if shape.contains(&0) {
-            let expected = "at least one cell along x and y";
-            return Err(Error::OutOfRange { quantity: "resample", value: 0.0, expected });
-        }
-        let extent = self.grid().extent();
-        let pitch = [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64];
-        self.on_grid(Grid::new(shape, pitch)?, interpolation)
+        self.on_grid(grid_of_shape(self.grid(), shape)?, interpolation)
     }
 
     /// Cells of size `pitch`, as many as fit into the extent from its corner on; what is left over at the far
@@ -50,20 +44,7 @@ impl Topography {
     /// # Errors
     /// [`Error::OutOfRange`] if a pitch is not positive, or longer than the topography.
     pub fn resample_to_pitch(&self, pitch: [Metre; 2], interpolation: Interpolation) -> Result<Self> {
-        let extent = self.grid().extent();
-        let mut shape = [0; 2];
-        for axis in 0..2 {
-            // A whole number of cells must not lose one to round-off.
-            shape[axis] = (extent[axis] / pitch[axis] * (1.0 + 1e-9)) as usize;
-            if !(pitch[axis] > 0.0 && pitch[axis].is_finite() && shape[axis] > 0) {
-                return Err(Error::OutOfRange {
-                    quantity: "pitch",
-                    value: pitch[axis],
-                    expected: "a positive length, at most that of the topography",
-                });
-            }
-        }
-        self.on_grid(Grid::new(shape, pitch)?, interpolation)
+        self.on_grid(grid_of_pitch(self.grid(), pitch)?, interpolation)
     }
 
     fn on_grid(&self, grid: Grid, interpolation: Interpolation) -> Result<Self> {
@@ -85,6 +66,34 @@ impl Topography {
         });
         Self::new(grid, heights)
     }
+}
+
+/// The extent of `old` with `shape` cells.
+pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
+    if shape.contains(&0) {
+        let expected = "at least one cell along x and y";
+        return Err(Error::OutOfRange { quantity: "resample", value: 0.0, expected });
+    }
+    let extent = old.extent();
+    Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])
+}
+
+/// As many cells of size `pitch` as fit into the extent of `old`.
+pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
+    let extent = old.extent();
+    let mut shape = [0; 2];
+    for axis in 0..2 {
+        // A whole number of cells must not lose one to round-off.
+        shape[axis] = (extent[axis] / pitch[axis] * (1.0 + 1e-9)) as usize;
+        if !(pitch[axis] > 0.0 && pitch[axis].is_finite() && shape[axis] > 0) {
+            return Err(Error::OutOfRange {
+                quantity: "pitch",
+                value: pitch[axis],
+                expected: "a positive length, at most that of the topography",
+            });
+        }
+    }
+    Grid::new(shape, pitch)
 }
 
 /// `field` with the cells that `new` has along `axis`.

@@ -39,13 +39,9 @@ impl Topography {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the angle is not finite.
     pub fn rotate(self, angle: f64) -> Result<Self> {
-        /// Part of a quarter turn that counts as round-off.
-        const CRUMB: f64 = 1e-9;
-        check("rotate", angle, angle.is_finite(), "a finite angle")?;
-        let quarters = (angle / FRAC_PI_2).round();
-        let left = angle - quarters * FRAC_PI_2;
-        let turned = self.quarter_turns(quarters.rem_euclid(4.0) as usize)?;
-        if left.abs() <= CRUMB || turned.defined() == 0 { Ok(turned) } else { turned.rotate_a_little(left) }
+        let (quarters, left) = quarters(angle)?;
+        let turned = self.quarter_turns(quarters)?;
+        if left == 0.0 || turned.defined() == 0 { Ok(turned) } else { turned.rotate_a_little(left) }
     }
 
     fn quarter_turns(self, quarters: usize) -> Result<Self> {
@@ -64,11 +60,9 @@ impl Topography {
     /// By at most an eighth of a turn, but not by nothing.
     fn rotate_a_little(self, angle: f64) -> Result<Self> {
         let old = *self.grid();
-        let span = |axis: usize| (old.shape[axis] - 1) as f64 * old.pitch[axis];
+        let new = rotated_a_little(&old, angle)?;
+        let shape = new.shape;
         let (sin, cos) = angle.sin_cos();
-        let inscribed = inscribed([span(0), span(1)], sin.abs(), cos);
-        let shape = [0, 1].map(|axis| (inscribed[axis] / old.pitch[axis] * (1.0 + 1e-9)) as usize + 1);
-        let new = Grid::new(shape, old.pitch)?;
         let undefined = self.heights().mapv(f64::is_nan);
         let spline = Spline::through(self.fill(Fill::Nearest)?.into_heights());
         let mut heights = new.zeros();
@@ -103,6 +97,32 @@ fn dimension(axis: Axis) -> Dimension {
         Axis::X => Dimension(0),
         Axis::Y => Dimension(1),
     }
+}
+
+/// Quarter turns, 0 to 3, and what is left of an angle, at most an eighth of a turn.
+fn quarters(angle: f64) -> Result<(usize, f64)> {
+    /// Part of a quarter turn that counts as round-off.
+    const CRUMB: f64 = 1e-9;
+    check("rotate", angle, angle.is_finite(), "a finite angle")?;
+    let quarters = (angle / FRAC_PI_2).round();
+    let left = angle - quarters * FRAC_PI_2;
+    Ok((quarters.rem_euclid(4.0) as usize, if left.abs() <= CRUMB { 0.0 } else { left }))
+}
+
+/// The grid of a topography on `old` after [`Topography::rotate`], if a height of it is defined.
+pub(super) fn rotated(old: &Grid, angle: f64) -> Result<Grid> {
+    let (quarters, left) = quarters(angle)?;
+    let Grid { shape: [nx, ny], pitch: [px, py] } = *old;
+    let turned = if quarters % 2 == 0 { *old } else { Grid::new([ny, nx], [py, px])? };
+    if left == 0.0 { Ok(turned) } else { rotated_a_little(&turned, left) }
+}
+
+fn rotated_a_little(old: &Grid, angle: f64) -> Result<Grid> {
+    let span = |axis: usize| (old.shape[axis] - 1) as f64 * old.pitch[axis];
+    let (sin, cos) = angle.sin_cos();
+    let inscribed = inscribed([span(0), span(1)], sin.abs(), cos);
+    let shape = [0, 1].map(|axis| (inscribed[axis] / old.pitch[axis] * (1.0 + 1e-9)) as usize + 1);
+    Grid::new(shape, old.pitch)
 }
 
 /// Sides of the largest rectangle w × h that lies, turned, within W × H: w cos + h sin ≤ W, w sin + h cos ≤ H.

@@ -10,15 +10,22 @@ impl Topography {
     /// # Errors
     /// [`Error::WindowOutside`] if the window is empty or reaches beyond the samples.
     pub fn window(&self, window: [usize; 4]) -> Result<Self> {
-        let [x0, y0, nx, ny] = window;
-        let shape = self.grid().shape;
-        let fits = |first: usize, n: usize, all: usize| n > 0 && first < all && n <= all - first;
-        if !(fits(x0, nx, shape[0]) && fits(y0, ny, shape[1])) {
-            return Err(Error::WindowOutside { window, shape });
-        }
-        let part = Field::from_shape_fn([nx, ny], |(ix, iy)| self.heights()[[x0 + ix, y0 + iy]]);
-        Self::new(Grid::new([nx, ny], self.grid().pitch)?, part)
+        let grid = within(self.grid(), window)?;
+        let [x0, y0, ..] = window;
+        let part = Field::from_shape_fn(grid.shape, |(ix, iy)| self.heights()[[x0 + ix, y0 + iy]]);
+        Self::new(grid, part)
     }
+}
+
+/// The grid of a window within `old`.
+pub(super) fn within(old: &Grid, window: [usize; 4]) -> Result<Grid> {
+    let [x0, y0, nx, ny] = window;
+    let shape = old.shape;
+    let fits = |first: usize, n: usize, all: usize| n > 0 && first < all && n <= all - first;
+    if !(fits(x0, nx, shape[0]) && fits(y0, ny, shape[1])) {
+        return Err(Error::WindowOutside { window, shape });
+    }
+    Grid::new([nx, ny], old.pitch)
 }
 
 #[cfg(test)]

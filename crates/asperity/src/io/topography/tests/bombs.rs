@@ -67,3 +67,28 @@ fn a_compressed_tiff_has_no_more_pixels_than_its_bytes_can_stand_for() {
     assert!(file.len() < 1 << 10);
     assert_eq!(defect(&file), "tiff: decoder limits exceeded");
 }
+
+#[test]
+fn the_xml_of_an_x3p_has_no_more_attributes_than_the_format() {
+    let began = std::time::Instant::now();
+    let attributes: String = (0..100_000).map(|n| format!(" a{n}='<'")).collect();
+    let with = |root: String| defect(&zipped(&[("main.xml", root.as_bytes())]));
+    let message = "x3p: the number of attributes in main.xml is `100000 or more`, expected at most 1024";
+    assert_eq!(with(format!("<!-- > --><p:ISO5436_2{attributes}/>")), message);
+    let nested = |depth| format!("{}{}", "<a>".repeat(depth), "</a>".repeat(depth));
+    assert_eq!(with(nested(300)), "x3p: the depth of main.xml is `257 or more`, expected at most 256");
+    let shallow = decode(&zipped(&[("main.xml", nested(200).as_bytes())]), None);
+    assert!(matches!(shallow, Err(Fault::NotATopography(_))), "{shallow:?}");
+    assert!(began.elapsed().as_secs_f64() < 2.0);
+}
+
+#[test]
+fn a_tiff_has_no_more_values_in_a_directory_than_bytes() {
+    let mut file = tiff::deflated_page();
+    let bytes = file.len() as u32;
+    // The offsets of strips.
+    let entry = [273u16.to_le_bytes(), 4u16.to_le_bytes()].concat();
+    let at = file.windows(4).position(|bytes| bytes == entry).unwrap();
+    file[at + 4..at + 8].copy_from_slice(&(8u32 << 20).to_le_bytes());
+    assert_eq!(defect(&file), format!("tiff: the file holds {bytes} bytes, expected {}", 32 << 20));
+}

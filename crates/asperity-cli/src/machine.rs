@@ -1,0 +1,48 @@
+//! The machine: how much memory there is, and whether it suffices.
+
+use asperity::io::case::Case;
+use asperity::io::outlook::{self, Demand};
+use asperity::{Error, Result};
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+/// What the case takes on all threads, an error if there is not so much.
+pub(crate) fn demand(case: &Case) -> Result<Demand> {
+    let demand = outlook::demand(case, rayon::current_num_threads())?;
+    demand.fits(available())?;
+    Ok(demand)
+}
+
+/// An error if there is less memory than so many bytes.
+pub(crate) fn holds(needed: f64) -> Result<()> {
+    let available = available();
+    if needed <= available { Ok(()) } else { Err(Error::Memory { needed, available }) }
+}
+
+/// Bytes that can be had: of memory and swap, of those of the container, of the address space (`ulimit -v`).
+fn available() -> f64 {
+    let memory = MemoryRefreshKind::nothing().with_ram().with_swap();
+    let system = System::new_with_specifics(RefreshKind::nothing().with_memory(memory)).ok();
+    let free = system.as_ref().map(|system| system.available_memory() + system.free_swap());
+    // What a container holds of files can be had back: only what is resident is taken.
+    let limits = system.and_then(|system| system.cgroup_limits());
+    let contained = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
+    [free, contained, address_space()]
+        .into_iter()
+        .flatten()
+        .fold(f64::INFINITY, |least, bytes| least.min(bytes as f64))
+}
+
+/// What is left of the address space, where it is limited.
+#[cfg(unix)]
+fn address_space() -> Option<u64> {
+    const PAGE: u64 = 4096;
+    let (limit, _) = rlimit::Resource::AS.get().ok().filter(|(limit, _)| *limit != rlimit::INFINITY)?;
+    let sizes = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages: u64 = sizes.split_whitespace().next().and_then(|pages| pages.parse().ok()).unwrap_or(0);
+    Some(limit.saturating_sub(PAGE * pages))
+}
+
+#[cfg(not(unix))]
+fn address_space() -> Option<u64> {
+    None
+}

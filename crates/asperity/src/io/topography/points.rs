@@ -1,0 +1,186 @@
+//! Tables of points: whether x and y of each form a regular grid, and what else a table may be.
+
+use ndarray::ArrayView1;
+
+use super::MAX_CELLS;
+use crate::error::Defect;
+use crate::grid::Field;
+use crate::units::Metre;
+
+/// Heights on a regular grid, NaN where there is no point.
+pub(super) struct Raster {
+    pub(super) pitch: [Metre; 2],
+    pub(super) heights: Field,
+}
+
+/// The heights in `column` over the positions in the first two, if these form a regular grid of at least 2 × 2 points, in
+/// any order, each off by a quarter of the pitch at most. Points may lack: half of them, or all but four on each line, as long
+/// as chance would not do the same.
+pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
+    let points = table.nrows();
+    if points < 4 {
+        return None;
+    }
+    let [x, y] = [even(table.column(0))?, even(table.column(1))?];
+    if x.count < 2 || y.count < 2 {
+        return None;
+    }
+    let cells = x.count.checked_mul(y.count).filter(|cells| *cells <= MAX_CELLS)?;
+    let complete = points == cells;
+    let enough = points >= FEWEST && (2 * points >= cells || points >= 4 * x.count.max(y.count));
+    if points > cells || !(complete || enough) {
+        return None;
+    }
+    let mut heights = Field::from_elem([x.count, y.count], f64::NAN);
+    let mut seen = ndarray::Array2::from_elem([x.count, y.count], false);
+    for point in table.rows() {
+        let at = [x.index(point[0]), y.index(point[1])];
+        if std::mem::replace(&mut seen[at], true) {
+            return None;
+        }
+        heights[at] = point[column];
+    }
+    Some(Raster { pitch: [x.pitch, y.pitch], heights })
+}
+
+/// Points from which on it is no chance that they lie on a grid with gaps.
+const FEWEST: usize = 6;
+
+/// An error if the columns of `table` are coordinates and heights of points that are no map.
+pub(super) fn refuse_points(table: &Field) -> Result<(), Defect> {
+    let [first, second] = match table.ncols() {
+        0 | 1 => return Ok(()),
+        _ => [table.column(0), table.column(1)],
+    };
+    let points = table.nrows();
+    let refused = |found: String, expected| Err(Defect::Value { what: "the table", found, expected });
+    let line = |columns: &str| {
+        refused(
+            format!("a line scan: {points} points of {columns}"),
+            "a map: lines at several y, or a matrix of heights",
+        )
+    };
+    match table.ncols() {
+        2 if is_line(first) && !alike(first, second) || is_track(first, second) => line("x, z"),
+        3 if is_line(first) && is_constant(second) || is_line(second) && is_constant(first) => {
+            line("x, y, z")
+        }
+        3 if is_line(first) && is_line(second) && !alike(first, table.column(2)) => line("x, y, z"),
+        3 if twice(table) => {
+            refused(format!("{points} points, some of them at one place"), "one height at each x and y")
+        }
+        3 if is_track(first, table.column(2)) && !is_rising(second)
+            || is_track(second, table.column(2)) && !is_rising(first) =>
+        {
+            refused(format!("{points} points of x, y, z on no grid"), "a regular grid of points")
+        }
+        columns if columns > 3 && points >= MANY && raster(table, 2).is_some() => refused(
+            format!("{columns} columns, the first two of them x and y"),
+            "x, y and height, or a first line that names the columns",
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// Rows from which on an order is no chance.
+const MANY: usize = 16;
+
+/// Whether these are the positions of a line scan: evenly spaced, each once, at least half of them there.
+fn is_line(column: ArrayView1<'_, f64>) -> bool {
+    let points = column.len();
+    if points < 8 || !(is_rising(column) || points >= MANY) {
+        return false;
+    }
+    let Some(even) = even(column) else { return false };
+    if even.count < points || even.count > 2 * points {
+        return false;
+    }
+    let mut seen = vec![false; even.count];
+    column.iter().all(|position| !std::mem::replace(&mut seen[even.index(*position)], true))
+}
+
+/// Whether two columns climb evenly and as steeply: heights of a plane rather than positions.
+fn alike(one: ArrayView1<'_, f64>, other: ArrayView1<'_, f64>) -> bool {
+    let climb = |column: ArrayView1<'_, f64>| column[column.len() - 1] - column[0];
+    is_line(other) && (0.5..=2.0).contains(&(climb(one) / climb(other)))
+}
+
+/// Whether positions in their order, perhaps unevenly spaced, stand beside heights in none.
+fn is_track(positions: ArrayView1<'_, f64>, heights: ArrayView1<'_, f64>) -> bool {
+    positions.len() >= MANY && is_rising(positions) && !is_rising(heights)
+}
+
+/// Whether all steps are upwards or 0, or all downwards or 0, and some are neither.
+fn is_rising(column: ArrayView1<'_, f64>) -> bool {
+    let steps = || column.iter().zip(column.iter().skip(1)).map(|(here, next)| next - here);
+    !is_constant(column) && (steps().all(|step| step >= 0.0) || steps().all(|step| step <= 0.0))
+}
+
+fn is_constant(column: ArrayView1<'_, f64>) -> bool {
+    column.iter().all(|value| *value == column[0])
+}
+
+/// Whether the points lie on a grid that some few of them share.
+fn twice(table: &Field) -> bool {
+    let points = table.nrows();
+    let (Some(x), Some(y)) = (even(table.column(0)), even(table.column(1))) else { return false };
+    let cells = x.count.saturating_mul(y.count);
+    if points < MANY || x.count < 2 || y.count < 2 || cells > 2 * points {
+        return false;
+    }
+    let mut seen = vec![false; cells];
+    let shared = table
+        .rows()
+        .into_iter()
+        .filter(|point| std::mem::replace(&mut seen[x.index(point[0]) * y.count + y.index(point[1])], true));
+    10 * shared.count() <= points
+}
+
+/// Positions `start + i · pitch`, `i < count`.
+struct Positions {
+    start: Metre,
+    /// 0 where there is but one.
+    pitch: Metre,
+    count: usize,
+}
+
+impl Positions {
+    fn index(&self, position: Metre) -> usize {
+        if self.count == 1 { 0 } else { ((position - self.start) / self.pitch).round() as usize }
+    }
+}
+
+/// Part of a pitch by which a position may be off: by the stage of an instrument.
+const OFF: f64 = 0.25;
+/// The same of so few points that chance would be as good: by the rounding of printed numbers.
+const OFF_IF_FEW: f64 = 0.02;
+/// The widest gap between positions that occur, in pitches.
+const WIDEST_GAP: usize = 16;
+
+/// The even spacing of `values`, whose every position need not occur.
+fn even(values: ArrayView1<'_, f64>) -> Option<Positions> {
+    let mut sorted = values.to_vec();
+    if sorted.iter().any(|position| position.is_nan()) {
+        return None;
+    }
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (start, end) = (sorted[0], sorted[sorted.len() - 1]);
+    if start == end {
+        return Some(Positions { start, pitch: 0.0, count: 1 });
+    }
+    let gaps = || sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let widest = gaps().fold(0.0, f64::max);
+    let off = if sorted.len() < MANY { OFF_IF_FEW } else { OFF };
+    (1..=WIDEST_GAP).find_map(|pitches| {
+        let near = widest / pitches as f64;
+        let advance = |gap: f64| if gap > 0.5 * near { (gap / near).round() } else { 0.0 };
+        let steps = gaps().map(advance).sum::<f64>();
+        let pitch = (end - start) / steps;
+        let is_near = |position: &f64| {
+            let index = (position - start) / pitch;
+            (index - index.round()).abs() < off
+        };
+        let good = steps < MAX_CELLS as f64 && pitch.is_finite() && pitch > 0.0 && sorted.iter().all(is_near);
+        good.then_some(Positions { start, pitch, count: steps as usize + 1 })
+    })
+}

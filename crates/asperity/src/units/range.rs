@@ -1,0 +1,77 @@
+//! How small and how large what is given may be: far beyond any contact on either side, and so that no product of such
+//! quantities overflows or vanishes.
+
+use std::fmt;
+
+use super::Dimension;
+
+/// Magnitudes that are accepted, besides 0 where that has a meaning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The smallest, SI.
+    pub least: f64,
+    /// The largest, SI.
+    pub most: f64,
+    /// Their unit; empty for numbers.
+    pub unit: &'static str,
+}
+
+/// Of numbers without a unit: slopes, factors, coefficients, creepages, tolerances.
+pub const NUMBERS: Range = Range { least: 1e-15, most: 1e12, unit: "" };
+
+/// The largest number of passes, increments, cells of a stride, samples along an axis.
+pub const MOST_OF_ANY: usize = 1_000_000_000;
+
+impl Dimension {
+    /// The magnitudes that are accepted of quantities.
+    pub fn range(self) -> Range {
+        let (least, most, unit) = match self {
+            Self::Length => (1e-15, 1e6, "m"),
+            Self::Area => (1e-30, 1e12, "m²"),
+            Self::Volume => (1e-45, 1e18, "m³"),
+            Self::Pressure => (1e-6, 1e15, "Pa"),
+            Self::Force => (1e-18, 1e15, "N"),
+            Self::Energy => (1e-33, 1e21, "J"),
+            Self::Speed => (1e-15, 1e9, "m/s"),
+            Self::Angle => (1e-15, 1e6, "rad"),
+            Self::Time => (1e-15, 1e15, "s"),
+        };
+        Range { least, most, unit }
+    }
+}
+
+impl Range {
+    /// Whether a positive value lies within.
+    pub fn holds(&self, value: f64) -> bool {
+        (self.least..=self.most).contains(&value)
+    }
+
+    /// Whether a value of any sign is 0 or has a magnitude within.
+    pub fn holds_signed(&self, value: f64) -> bool {
+        value == 0.0 || self.holds(value.abs())
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { least, most, unit } = self;
+        write!(f, "{least:e} … {most:e}{}{unit}", if unit.is_empty() { "" } else { " " })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_has_both_ends_and_no_nan() {
+        let lengths = Dimension::Length.range();
+        assert!(lengths.holds(1e-15) && lengths.holds(1e6) && !lengths.holds(0.0) && !lengths.holds(-1.0));
+        assert!(lengths.holds_signed(0.0) && lengths.holds_signed(-1e6) && !lengths.holds_signed(-1e-16));
+        assert!(!lengths.holds(f64::NAN) && !lengths.holds_signed(f64::INFINITY));
+        assert_eq!(
+            (lengths.to_string(), NUMBERS.to_string()),
+            ("1e-15 … 1e6 m".into(), "1e-15 … 1e12".into())
+        );
+    }
+}
