@@ -189,19 +189,21 @@ impl Sizes<'_> {
                 let at_once = threads.clamp(1, self.overlaps.len().max(1)) as f64;
                 motion.passes as f64 * searches * sliding * normal * all / at_once.powf(0.85)
             }
-            (None, None) => normal * all,
-            (None, Some(friction)) => {
+            (None, friction) => {
                 let [nx, ny] = self.facing();
-                let area = nx * ny * self.lower.cell_area();
-                let unlike = friction.law.coupling != Coupling::None
-                    && self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
-                match friction.course(case.contact.prescribed, &case.history, area) {
-                    Course::Rolling(_) => ROLLING * boundary * digits * all,
-                    Course::Stages(stages) => {
+                match case.course(nx * ny * self.lower.cell_area()) {
+                    Some(Course::Rolling(_)) => ROLLING * boundary * digits * all,
+                    Some(Course::Stages(stages)) => {
                         let increments: usize = stages.iter().map(|stage| stage.increments).sum();
-                        let each = if unlike { SHEAR } else { SHEAR_ALIKE };
-                        increments as f64 * (normal + each * boundary * digits) * all
+                        let unlike =
+                            self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
+                        let shear = friction.map_or(0.0, |friction| match friction.law.coupling {
+                            Coupling::Full | Coupling::Goodman if unlike => SHEAR,
+                            _ => SHEAR_ALIKE,
+                        });
+                        increments as f64 * (normal + shear * boundary * digits) * all
                     }
+                    None => normal * all,
                 }
             }
         };
