@@ -56,7 +56,7 @@ impl Search {
     ) -> Result<Found<T>> {
         let Guess { mut approach, mut slope } = first;
         approach = approach.min(self.limit.approach);
-        let mut rough_misled = false;
+        let (mut was_rough, mut rough_misled) = (false, false);
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
         let mut excess_before = 1.0;
@@ -64,9 +64,14 @@ impl Search {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
             let at_limit = approach >= self.limit.approach && excess < 0.0;
+            let is_rough = residual > self.residual;
+            if std::mem::replace(&mut was_rough, is_rough) && !is_rough && excess.abs() > LOOSEST {
+                // The rough answers before it promised that this one meets the load: from here on without them.
+                (rough_misled, low, high, before) = (true, self.touch, f64::INFINITY, None);
+            }
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
             if excess.abs() <= self.tolerance || exhausted || at_limit {
-                if residual > self.residual {
+                if is_rough {
                     residual = self.residual;
                     continue;
                 }

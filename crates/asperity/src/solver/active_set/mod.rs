@@ -48,11 +48,10 @@ pub(super) fn solve(
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Equilibrium> {
-    let uniform = start.is_none();
     let mut iteration = Iteration::new(sites, terms, start, caution);
     let mut sharpen = 1.0;
     let mut state = iteration.residual();
-    if let (true, Some(pressure)) = (uniform, terms.pressure_sum()) {
+    if let Some(pressure) = terms.pressure_sum() {
         // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
         let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
         state.scale = state.scale.max(terms.self_influence * pressure / cells as f64);
