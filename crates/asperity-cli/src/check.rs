@@ -12,16 +12,16 @@ use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
 use crate::machine;
-use crate::report::{Outcome, note, print};
+use crate::report::{Outcome, clipped, note, print};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = Case::load(&arguments.case)?;
     let demand = machine::demand(&case)?;
     let bodies = bodies(&case)?;
     let outlook = outlook(&case, &bodies)?;
-    print(&text(&case, &bodies, &outlook, &demand));
+    print(&text(&case, &bodies, &outlook, &demand))?;
     for warning in outlook.warnings.iter().chain(&outlook.foreseen) {
-        note(&format!("warning: {warning}"));
+        note(&format!("warning: {}", clipped(warning)));
     }
     Ok(())
 }

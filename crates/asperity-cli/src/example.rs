@@ -51,8 +51,7 @@ const KITS: [Kit; 5] = [
 
 pub(crate) fn example(arguments: &Example) -> Outcome {
     let Some(name) = &arguments.name else {
-        print(&list());
-        return Ok(());
+        return print(&list());
     };
     let kit = kit(name)?;
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from(kit.name));
@@ -61,9 +60,8 @@ pub(crate) fn example(arguments: &Example) -> Outcome {
         return Err(Failure::usage(message, Some("name another folder with --out")));
     }
     let paths = write(kit, &folder)?;
-    print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
     note(&format!("next: asperity run {}", folder.join("case.toml").display()));
-    Ok(())
+    print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }
 
 /// Writes the example `name` into `folder`, over what is there of it, and returns the path of its case file.
@@ -89,6 +87,7 @@ fn list() -> String {
 
 fn write(kit: &Kit, folder: &Path) -> Outcome<Vec<PathBuf>> {
     fs::create_dir_all(folder).map_err(|source| Error::File { path: folder.to_owned(), source })?;
+    atomic::sweep(folder);
     kit.files
         .iter()
         .map(|(name, content)| {

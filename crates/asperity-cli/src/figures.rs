@@ -1,7 +1,9 @@
 //! The figures of a results directory, drawn from what it holds and from nothing else.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
+use asperity::io::atomic;
 use asperity::io::fields::{Attribute, Fields};
 use asperity::io::results::{Results, pressure_name};
 use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
@@ -16,12 +18,14 @@ use crate::report::{Failure, Outcome};
 /// Pressure maps on one sheet.
 const SHEET: usize = 6;
 
-/// Draws all figures of `results` into its folder `figures` and returns their paths.
-pub(crate) fn draw(results: &Results) -> Outcome<Vec<PathBuf>> {
-    let folder = results.directory().join("figures");
+/// Draws all figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`
+/// once `stop` says so.
+pub(crate) fn draw(results: &Results, stop: &dyn Fn() -> bool) -> Outcome<Vec<PathBuf>> {
+    let folder = results.figures_folder();
     std::fs::create_dir_all(&folder)
         .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
-    let mut sheet = Sheet { folder, drawn: Vec::new() };
+    atomic::sweep(&folder);
+    let mut sheet = Sheet { folder, drawn: Vec::new(), stop };
     let passes = results.passes()?;
     if passes.is_empty() {
         static_contact(results, &mut sheet)?;
@@ -35,18 +39,23 @@ pub(crate) fn draw(results: &Results) -> Outcome<Vec<PathBuf>> {
 }
 
 /// Where figures go, and which there are.
-struct Sheet {
+struct Sheet<'a> {
     folder: PathBuf,
     drawn: Vec<PathBuf>,
+    /// Whether no more are wanted.
+    stop: &'a dyn Fn() -> bool,
 }
 
-impl Sheet {
+impl Sheet<'_> {
     fn add(
         &mut self,
         name: &str,
         figure: impl FnOnce(&Path) -> Result<(), draw::Error>,
     ) -> Result<(), draw::Error> {
         let path = self.folder.join(name);
+        if (self.stop)() {
+            return Err(draw::Error { path, source: io::ErrorKind::Interrupted.into() });
+        }
         figure(&path)?;
         self.drawn.push(path);
         Ok(())
@@ -109,7 +118,7 @@ impl Stored {
     }
 }
 
-fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
+fn static_contact(results: &Results, sheet: &mut Sheet<'_>) -> Outcome {
     let fields = results.static_fields()?;
     let read = |name| Stored::read(&fields, name);
     let (lower, upper, pressure) = (read("lower")?, read("upper")?, read("pressure")?);
@@ -137,7 +146,7 @@ fn static_contact(results: &Results, sheet: &mut Sheet) -> Outcome {
 }
 
 /// Shear and where it holds.
-fn friction(fields: &Fields, pressure: &Stored, sheet: &mut Sheet) -> Outcome {
+fn friction(fields: &Fields, pressure: &Stored, sheet: &mut Sheet<'_>) -> Outcome {
     let read = |name| Stored::read(fields, name);
     let [mut shear, y] = [read("traction_x")?, read("traction_y")?];
     shear.field.zip_mut_with(&y.field, |x, y| *x = x.hypot(*y));
@@ -209,7 +218,7 @@ fn direction(increments: &[IncrementRecord]) -> [f64; 2] {
     }
 }
 
-fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome {
+fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet<'_>) -> Outcome {
     let steps = results.steps()?;
     let first = results.fields_after(0)?;
     let last = results.fields_after(passes.len())?;
@@ -250,7 +259,7 @@ fn motion(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcom
 }
 
 /// Von Mises' stress on the section; the most stressed point is marked if it lies there.
-fn subsurface(fields: &Fields, sheet: &mut Sheet) -> Outcome {
+fn subsurface(fields: &Fields, sheet: &mut Sheet<'_>) -> Outcome {
     let stored = fields.read("section_von_mises")?;
     let ([dx, dz], x) = ([stored.pitch[0], stored.pitch[1]], stored.origin[0]);
     let layers =
@@ -289,7 +298,11 @@ fn range(fields: &[&Field]) -> [f64; 2] {
 }
 
 /// How deep each body has been flattened since the beginning.
-fn plastic_depth(before: &[Stored; 2], after: &[Stored; 2], sheet: &mut Sheet) -> Result<(), draw::Error> {
+fn plastic_depth(
+    before: &[Stored; 2],
+    after: &[Stored; 2],
+    sheet: &mut Sheet<'_>,
+) -> Result<(), draw::Error> {
     let depth = |field, body: usize| Stored { field, grid: before[body].grid, column: 0 };
     let lower = depth(&before[0].field - &after[0].field, 0);
     let upper = depth(&after[1].field - &before[1].field, 1);
@@ -309,7 +322,7 @@ fn pressures(
     pass: usize,
     lower: Grid,
     hardness: f64,
-    sheet: &mut Sheet,
+    sheet: &mut Sheet<'_>,
 ) -> Outcome {
     let names = fields.names()?;
     let kept: Vec<&StepRecord> =

@@ -10,7 +10,9 @@ mod paper;
 mod plot;
 mod report;
 mod run;
+mod signals;
 mod surface;
+mod threads;
 mod verify;
 
 use std::process::ExitCode;
@@ -20,7 +22,26 @@ use clap::Parser;
 use args::{Arguments, Command};
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    signals::survive_size_limit();
+    match command() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            report::report(&failure);
+            report::exit_code(&failure).into()
+        }
+    }
+}
+
+fn command() -> report::Outcome {
+    let command = match Arguments::try_parse() {
+        Ok(arguments) => arguments.command,
+        Err(error) => return args::unparsed(&error),
+    };
+    threads::start(match &command {
+        Command::Run(arguments) => arguments.threads.map(usize::from),
+        _ => None,
+    })?;
+    match command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Example(arguments) => example::example(&arguments),
@@ -28,12 +49,5 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Verify => verify::verify(),
         Command::Paper(arguments) => paper::paper(&arguments),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            report::report(&failure);
-            report::exit_code(&failure).into()
-        }
     }
 }

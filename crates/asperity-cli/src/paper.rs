@@ -6,6 +6,7 @@
 use std::path::Path;
 use std::time::Instant;
 
+use asperity::io::atomic;
 use asperity::kernel::influence_matrix;
 use asperity::material::Material;
 use asperity::motion::{
@@ -33,6 +34,7 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
     let directory = &arguments.out;
     std::fs::create_dir_all(directory)
         .map_err(|source| asperity::Error::File { path: directory.clone(), source })?;
+    atomic::sweep(directory);
     let at = |name: &str| directory.join(name);
     low_pass_surfaces(&at("figure-1.png"))?;
     let pair = pair(N)?;
@@ -42,9 +44,9 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
     pressures(&pair, &passes, &at("figure-9.png"))?;
     plastic_deformation(&pair, &passes, &at("figure-10.png"))?;
     note(&format!("figures 1, 2, 8, 9 and 10 in {}", directory.display()));
-    print(&matrix_sizes());
+    print(&matrix_sizes())?;
     let costs = Costs::measure(arguments.largest)?;
-    print(&costs.table());
+    print(&costs.table())?;
     Ok(costs.draw(&at("cost.png"))?)
 }
 

@@ -8,8 +8,6 @@ use crate::report::{Outcome, print};
 
 /// Draws the figures and prints their paths.
 pub(crate) fn plot(arguments: &Plot) -> Outcome {
-    for path in figures::draw(&Results::open(&arguments.directory)?)? {
-        print(&format!("{}\n", path.display()));
-    }
-    Ok(())
+    let drawn = figures::draw(&Results::open(&arguments.directory)?, &|| false)?;
+    print(&drawn.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -1,6 +1,8 @@
 //! Errors as the user sees them: what is wrong, where, and what to do about it; and the exit code.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::ops::Range;
+use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use asperity::Error;
@@ -18,6 +20,12 @@ pub(crate) enum Failure {
     Figure(draw::Error),
     /// Closed forms that were missed.
     Checks { failed: usize, all: usize },
+    /// Data that could not be written to stdout.
+    Stdout(std::io::Error),
+    /// Threads that could not be made.
+    Threads { reason: String },
+    /// Figures that were stopped; the results are there.
+    FiguresInterrupted { directory: PathBuf },
     /// The command cannot do what it is asked for.
     Usage { message: String, hint: Option<String> },
 }
@@ -44,10 +52,18 @@ impl Failure {
     }
 }
 
-/// Writes data to stdout. Where it is closed nobody wants them any more.
-pub(crate) fn print(text: &str) {
+/// Writes data to stdout.
+pub(crate) fn print(text: &str) -> Outcome {
     let mut stdout = std::io::stdout().lock();
-    let _ = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    written(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
+}
+
+/// What became of data on their way to stdout: where a pipe is closed nobody wants them any more.
+pub(crate) fn written(result: std::io::Result<()>) -> Outcome {
+    match result {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Stdout(error)),
+        _ => Ok(()),
+    }
 }
 
 /// Writes a line about what is done to stderr.
@@ -69,7 +85,8 @@ pub(crate) fn exit_code(failure: &Failure) -> u8 {
     match failure {
         Failure::Library(error) => code(error),
         Failure::Figure(error) => code_of_io(&error.source),
-        Failure::Checks { .. } => 1,
+        Failure::Checks { .. } | Failure::Stdout(_) | Failure::Threads { .. } => 1,
+        Failure::FiguresInterrupted { .. } => 130,
         Failure::Usage { .. } => 2,
     }
 }
@@ -91,55 +108,122 @@ fn code(error: &Error) -> u8 {
 }
 
 fn code_of_io(error: &std::io::Error) -> u8 {
-    use std::io::ErrorKind::{
-        InvalidData, IsADirectory, NotADirectory, NotFound, PermissionDenied, ReadOnlyFilesystem,
+    use ErrorKind::{
+        InvalidData, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound, PermissionDenied,
+        ReadOnlyFilesystem,
     };
     match error.kind() {
-        NotFound | PermissionDenied | ReadOnlyFilesystem | InvalidData | IsADirectory | NotADirectory => 2,
+        NotFound | PermissionDenied | ReadOnlyFilesystem | InvalidData | InvalidFilename | InvalidInput
+        | IsADirectory | NotADirectory => 2,
         _ => 1,
     }
 }
 
 fn render(failure: &Failure, renderer: &Renderer) -> String {
-    let title = match failure {
-        Failure::Library(Error::Case(case)) => {
-            Level::ERROR.primary_title(case.message.as_str()).element(place(case))
-        }
-        Failure::Library(other) => Group::with_title(Level::ERROR.primary_title(other.to_string())),
-        Failure::Figure(error) => Group::with_title(Level::ERROR.primary_title(error.to_string())),
-        Failure::Checks { failed, all } => Group::with_title(
-            Level::ERROR.primary_title(format!("{failed} of {all} checks against closed forms failed")),
-        ),
-        Failure::Usage { message, .. } => Group::with_title(Level::ERROR.primary_title(message.as_str())),
-    };
+    let message = clipped(&message(failure));
+    let title = Level::ERROR.primary_title(message.as_str());
     let hint = match failure {
         Failure::Library(error) => hint(error),
-        Failure::Figure(_) | Failure::Checks { .. } => None,
+        Failure::Threads { .. } => {
+            Some("one needs none: `--threads 1`, or RAYON_NUM_THREADS=1 in the environment".to_owned())
+        }
+        Failure::FiguresInterrupted { directory } => {
+            Some(format!("the results are whole; `asperity plot {}` draws the figures", directory.display()))
+        }
+        Failure::Figure(_) | Failure::Checks { .. } | Failure::Stdout(_) => None,
         Failure::Usage { hint, .. } => hint.clone(),
     };
+    let hint = hint.map(|hint| clipped(&hint));
     let hint = hint.map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
     match (failure, hint) {
         // Beneath a line of the case the renderer draws the margin on; alone it would lead from nothing.
-        (Failure::Library(Error::Case(_)), hint) => {
+        (Failure::Library(Error::Case(case)), hint) => {
+            let lines = lines(case);
+            let title = title.element(place(case, &lines));
             renderer.render(&[title].into_iter().chain(hint).collect::<Vec<_>>())
         }
-        (_, Some(hint)) => format!("{}\n{}", renderer.render(&[title]), renderer.render(&[hint])),
-        (_, None) => renderer.render(&[title]),
+        (_, Some(hint)) => {
+            format!("{}\n{}", renderer.render(&[Group::with_title(title)]), renderer.render(&[hint]))
+        }
+        (_, None) => renderer.render(&[Group::with_title(title)]),
     }
 }
 
-/// The faulty line, or the file alone where something is missing from it as a whole.
-fn place(case: &CaseError) -> annotate_snippets::Element<'_> {
-    let file = case.file.to_string_lossy();
+fn message(failure: &Failure) -> String {
+    match failure {
+        Failure::Library(Error::Case(case)) => case.message.clone(),
+        Failure::Library(other) => other.to_string(),
+        Failure::Figure(error) => error.to_string(),
+        Failure::Checks { failed, all } => format!("{failed} of {all} checks against closed forms failed"),
+        Failure::Stdout(error) => format!("standard output: {error}"),
+        Failure::Threads { reason } => format!("threads cannot be made: {reason}"),
+        Failure::FiguresInterrupted { .. } => "interrupted before all figures were drawn".to_owned(),
+        Failure::Usage { message, .. } => message.clone(),
+    }
+}
+
+/// The longest message that is shown in full, characters: some lines of a terminal.
+const LONGEST: usize = 600;
+
+/// A message in one paragraph of bounded length: of a longer one its beginning and its end. What would move the cursor
+/// is escaped.
+pub(crate) fn clipped(text: &str) -> String {
+    let shown = |text: &str| -> String {
+        let escaped = |c: char| -> String {
+            if c.is_control() && c != '\n' { c.escape_default().collect() } else { c.into() }
+        };
+        let lines: Vec<_> = text.lines().map(|line| line.chars().map(escaped).collect::<String>()).collect();
+        lines.join("\n")
+    };
+    let ends = |n: usize| {
+        let begin = text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
+        let end = text.char_indices().rev().nth(n - 1).map_or(0, |(at, _)| at);
+        [begin, end]
+    };
+    let [longest, _] = ends(LONGEST);
+    if longest == text.len() && text.lines().count() <= MOST_LINES {
+        return shown(text);
+    }
+    let [begin, end] = ends(LONGEST / 3);
+    let flat = |text: &str| shown(text).replace('\n', " ");
+    format!("{} … {}", flat(&text[..begin]), flat(&text[end.max(begin)..]))
+}
+
+/// The most lines of a message that is shown in full.
+const MOST_LINES: usize = 8;
+
+/// The lines of the case that hold the mistake, and where they begin in its text.
+fn lines(case: &CaseError) -> Range<usize> {
+    let Range { start, end } = case.span;
+    let [start, end] = [start, end.max(start)].map(|at| {
+        let mut at = at.min(case.text.len());
+        while !case.text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    });
+    let begin = case.text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = case.text[end..].find('\n').map_or(case.text.len(), |newline| end + newline);
+    begin..end
+}
+
+/// The faulty lines, or the place alone where they are too many or too long, or where something is missing from the file as
+/// a whole.
+fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::Element<'a> {
+    let file = clipped(&case.file.to_string_lossy());
     if case.span == (0..0) {
         return Origin::path(file).into();
     }
-    let annotation = AnnotationKind::Primary.span(case.span.clone());
-    Snippet::source(case.text.as_str()).path(file).annotation(annotation).into()
+    let text = &case.text[lines.clone()];
+    if text.lines().count() > MOST_LINES || text.lines().any(|line| line.chars().nth(LONGEST).is_some()) {
+        return Origin::path(file).line(case.line).char_column(case.column).into();
+    }
+    let span = case.span.start - lines.start..case.span.end.max(case.span.start) - lines.start;
+    let annotation = AnnotationKind::Primary.span(span);
+    Snippet::source(text).line_start(case.line).path(file).annotation(annotation).into()
 }
 
 fn hint(error: &Error) -> Option<String> {
-    use std::io::ErrorKind;
     match error {
         Error::Case(case) => case.hint.clone(),
         Error::GridMismatch { .. } => {
@@ -173,8 +257,10 @@ fn hint(error: &Error) -> Option<String> {
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),
         Error::ResultsExist { results: false, .. } => Some("--out names another directory".to_owned()),
-        Error::OtherCase { .. } => Some("without --resume, --out names another directory".to_owned()),
-        Error::NoWarmStart { .. } => Some("--overwrite computes all passes afresh".to_owned()),
+        Error::OtherCase { .. } | Error::SurfaceChanged { .. } | Error::NotResumable { .. } => {
+            Some("--overwrite computes all of it anew, --out names another directory".to_owned())
+        }
+        Error::InUse { .. } => Some("--out names another directory".to_owned()),
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {
@@ -224,6 +310,28 @@ hint: did you mean `GPa`?"#;
     fn a_text_that_ends_too_early_is_shown_to_its_end() {
         assert!(rendered("young = \"210").contains("case.toml:1:13"), "{}", rendered("young = \"210"));
         assert!(rendered("[lower]\nyoung = ").contains("case.toml:2:"), "{}", rendered("[lower]\nyoung = "));
+    }
+
+    #[test]
+    fn a_message_is_some_lines_whatever_the_input() {
+        let key = "k".repeat(1_000_000);
+        let long = format!("[lower]\n{key} = 1\n");
+        let text = rendered(&long);
+        assert!(text.lines().count() < 8 && text.len() < 2000, "{text}");
+        assert!(text.starts_with("error: unknown key 'kkk") && text.contains("case.toml:2:1"), "{text}");
+        let wide = format!("[lower]\n{}young = 1 GPa\n", "# é\n".repeat(3));
+        assert!(rendered(&wide).contains("case.toml:5:11"), "{}", rendered(&wide));
+        let deep = format!("[lower]\nyoung = [{}]\n", "1,\n".repeat(5000));
+        assert!(rendered(&deep).lines().count() < 8, "{}", rendered(&deep));
+        let path = PathBuf::from(format!("/{}/case.toml", "ü".repeat(4000)));
+        let text = render(&Error::NoResults { path }.into(), &Renderer::plain());
+        assert!(text.len() < 2000 && text.ends_with("(there is no case.json)"), "{text}");
+        assert_eq!(clipped("a\u{1b}[2Jb\nc"), "a\\u{1b}[2Jb\nc");
+        assert_eq!(clipped(""), "");
+        for length in [199, 200, 201, 400, 600, 601] {
+            assert!(clipped(&"é".repeat(length)).chars().count() <= 600);
+        }
+        assert!(clipped(&"a\n".repeat(100)).lines().count() == 1);
     }
 
     #[test]

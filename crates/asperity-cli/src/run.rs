@@ -1,13 +1,12 @@
 //! `asperity run`: a case from its surfaces to its figures.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use asperity::io::case::Case;
+use asperity::io::case::{Case, Course};
 use asperity::io::engine;
-use asperity::io::results::{Existing, Results};
+use asperity::io::results::Existing;
 use asperity::io::subsurface::SubsurfaceRecord;
 use asperity::io::summary::{Outcome, Summary};
 use asperity::motion::{PassRecord, Progress, StaticRecord, Watch};
@@ -16,15 +15,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Run;
 use crate::machine;
-use crate::report::{self, note, print};
+use crate::report::{self, Failure, clipped, note, print};
+use crate::signals::Stop;
 use crate::{example, figures};
 
 /// Runs the case, prints a table of its outcome, draws its figures.
 pub(crate) fn run(arguments: &Run) -> report::Outcome {
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
-        pool.expect("the pool is made once");
-    }
     let (file, directory) = match (&arguments.case, &arguments.example) {
         (Some(file), _) => (file.clone(), arguments.out.clone().unwrap_or_else(|| beside(file))),
         (None, Some(name)) => {
@@ -40,18 +36,33 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         (_, true) => Existing::Overwrite,
         _ => Existing::Keep,
     };
-    let display = Display::new(arguments.quiet, case.motion.is_some());
+    // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
+    let stop = Stop::at_ctrl_c(case.motion.is_some() || in_increments(&case));
+    let display = Display::new(arguments.quiet, case.motion.is_some(), stop.clone());
     let outcome = engine::run(&case, &directory, existing, &display);
     display.clear();
-    let summary = outcome?;
+    // The directory stays this run's until the figures are there.
+    let (summary, writer) = outcome?;
     for warning in &summary.warnings {
-        note(&format!("warning: {warning}"));
+        note(&format!("warning: {}", clipped(warning)));
     }
-    print(&table(&summary));
-    let results = Results::open(&directory)?;
-    figures::draw(&results)?;
+    let printed = print(&table(&summary));
+    figures::draw(writer.results(), &|| stop.asked()).map_err(|failure| match failure {
+        Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
+            Failure::FiguresInterrupted { directory: directory.clone() }
+        }
+        other => other,
+    })?;
     note(&format!("results and figures in {}", directory.display()));
-    Ok(())
+    printed
+}
+
+/// Whether a static contact is loaded in increments, which are kept one by one.
+fn in_increments(case: &Case) -> bool {
+    match case.course(1.0) {
+        Some(Course::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
+        _ => false,
+    }
 }
 
 /// `surfaces/disc.toml` → `surfaces/disc-results`.
@@ -61,28 +72,16 @@ fn beside(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// The progress bar on stderr, and the ear for Ctrl-C.
+/// The progress bar on stderr.
 struct Display {
     bar: ProgressBar,
     began: Instant,
     passes: bool,
-    stop: Arc<AtomicBool>,
+    stop: Stop,
 }
 
 impl Display {
-    /// `passes`: whether there will be finished passes to keep at Ctrl-C. A static contact has none, and whoever asks
-    /// a second time does not want to wait for the position under way: then the process ends at once, which leaves
-    /// whole files, as every file is written under a temporary name.
-    fn new(quiet: bool, passes: bool) -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let heard = Arc::clone(&stop);
-        // A second handler cannot be set, and none is: this is the only one.
-        let _ = ctrlc::set_handler(move || {
-            if heard.swap(true, Ordering::Relaxed) || !passes {
-                note("error: interrupted");
-                std::process::exit(130);
-            }
-        });
+    fn new(quiet: bool, passes: bool, stop: Stop) -> Self {
         let bar = ProgressBar::with_draw_target(
             None,
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() },
@@ -121,7 +120,7 @@ impl Watch for Display {
     }
 
     fn stop(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.stop.asked()
     }
 }
 

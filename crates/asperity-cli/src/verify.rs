@@ -1,17 +1,17 @@
 //! `asperity verify`: the closed-form cases, their errors and orders of convergence.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
-use asperity::Error;
 use asperity::verification::{CASES, Case, Check, Expected};
 
-use crate::report::{Failure, Outcome};
+use crate::report::{Failure, Outcome, written};
 
 /// Computes all cases and prints each as it is done.
 pub(crate) fn verify() -> Outcome {
-    let Tally { passed, failed } = table(&mut io::stdout().lock(), CASES)
-        .map_err(|source| Error::File { path: PathBuf::from("standard output"), source })?;
+    let Tally { passed, failed } = match table(&mut io::stdout().lock(), CASES) {
+        Ok(tally) => tally,
+        Err(error) => return written(Err(error)),
+    };
     if failed == 0 { Ok(()) } else { Err(Failure::Checks { failed, all: passed + failed }) }
 }
 
@@ -68,6 +68,8 @@ fn row(check: &Check) -> String {
 
 #[cfg(test)]
 mod tests {
+    use asperity::Error;
+
     use super::*;
 
     fn written(cases: &[Case]) -> (String, bool) {

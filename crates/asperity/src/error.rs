@@ -207,22 +207,38 @@ pub enum Error {
         results: bool,
     },
     /// Results that are to be resumed belong to another case.
-    #[error(
-        "{path} holds the results of another case (its case.json differs in more than the number of passes)"
-    )]
+    #[error("{path} holds the results of another case: '{key}' was {before}, now it is {now}")]
     OtherCase {
         /// The directory.
         path: PathBuf,
+        /// The first key that differs, dotted.
+        key: String,
+        /// Its value in the results, JSON.
+        before: String,
+        /// Its value in the case, JSON.
+        now: String,
     },
-    /// Where the next pass of a motion begins cannot be had.
-    #[error(
-        "{path} {defect}: it says where the next pass begins, and without it the passes to come would not be those of an uninterrupted run"
-    )]
-    NoWarmStart {
-        /// The file.
+    /// A surface of the results that are to be resumed is no longer the one in its file.
+    #[error("{file} has changed since the results in {path} were begun")]
+    SurfaceChanged {
+        /// The directory.
+        path: PathBuf,
+        /// The surface file.
+        file: PathBuf,
+    },
+    /// Results that are to be resumed are not whole.
+    #[error("{path} {reason}")]
+    NotResumable {
+        /// The file at fault.
         path: PathBuf,
         /// What is wrong with it.
-        defect: &'static str,
+        reason: &'static str,
+    },
+    /// Another process writes its results to the directory.
+    #[error("{path} is in use: another run is writing its results there")]
+    InUse {
+        /// The directory.
+        path: PathBuf,
     },
     /// A directory without results.
     #[error("{path} holds no results of asperity (there is no case.json)")]

@@ -403,7 +403,7 @@ fn what_is_computed_of_extreme_values_are_numbers() {
         }
         let folder = tempfile::tempdir().unwrap();
         match engine::run(&case, folder.path(), Existing::Keep, &()) {
-            Ok(summary) => {
+            Ok((summary, _)) => {
                 let written = serde_json::to_value(&summary).unwrap();
                 for part in ["static", "passes", "subsurface"] {
                     let numbers = written.get(part).is_none_or(has_numbers_only);

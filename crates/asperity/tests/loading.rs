@@ -539,7 +539,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
 #[test]
 fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = engine::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap();
+    let summary = engine::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap().0;
     let results = asperity::io::results::Results::open(folder.path()).unwrap();
     let rows = results.increments().unwrap();
     assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
@@ -633,7 +633,7 @@ fn what_only_the_answer_shows_is_said_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let warnings = |name: &str, text: &str| {
         let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let summary = engine::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
+        let summary = engine::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap().0;
         summary.warnings.join("\n")
     };
     let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";

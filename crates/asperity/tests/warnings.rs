@@ -355,7 +355,7 @@ fn check(case: &Case) -> Vec<String> {
 
 fn run(case: &Case) -> Summary {
     let folder = tempfile::tempdir().unwrap();
-    engine::run(case, &folder.path().join("results"), Existing::Keep, &()).unwrap()
+    engine::run(case, &folder.path().join("results"), Existing::Keep, &()).unwrap().0
 }
 
 fn record(summary: &Summary) -> &StaticRecord {

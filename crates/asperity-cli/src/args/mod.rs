@@ -5,12 +5,14 @@ mod preparation;
 mod surface;
 mod values;
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use clap::error::Error;
 use clap::{Args, Parser, Subcommand};
 
+use crate::report::{Failure, Outcome, written};
 pub(crate) use generate::{Generate, Recipe};
+
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
 
 /// Contact of two rough surfaces that press together and move
@@ -34,10 +36,25 @@ const EXIT_CODES: &str = "
 Data go to stdout, all else to stderr.
 
 Exit code:
-  0    done
-  1    the computation failed: not converged, load unreachable
+  0    done; also where the reader of stdout has closed it
+  1    the computation failed: not converged, load unreachable, nothing can be written
   2    bad input or usage
   130  interrupted";
+
+/// Prints the help that was asked for, or what is wrong with the arguments.
+pub(crate) fn unparsed(error: &Error) -> Outcome {
+    if !error.use_stderr() {
+        return written(error.print());
+    }
+    let text = error.render().to_string();
+    if text.chars().nth(LONGEST).is_none() {
+        error.exit()
+    }
+    Err(Failure::usage(text.trim_start_matches("error: "), None))
+}
+
+/// The longest text about wrong arguments that is shown in full, characters.
+const LONGEST: usize = 2000;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -78,9 +95,9 @@ pub(crate) struct Run {
     /// Replace the results that are there
     #[arg(long)]
     pub(crate) overwrite: bool,
-    /// Threads over the positions of a pass; by default as many as the machine has cores
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<NonZeroUsize>,
+    /// Threads over the positions of a pass, at most 1024; by default as many as the machine has cores
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
     /// No progress on stderr
     #[arg(long)]
     pub(crate) quiet: bool,

@@ -154,7 +154,8 @@ fn has_all_its_figures(text: &str) -> bool {
     if engine::run(&case, &directory, Existing::Keep, &()).is_err() {
         return false;
     }
-    let paths = draw(&Results::open(&directory).unwrap()).unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
+    let paths =
+        draw(&Results::open(&directory).unwrap(), &|| false).unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
     let names: BTreeSet<_> = paths.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
     for name in ["topographies", "mean_pressure", "load", "contact_area", "roughness", "approach"] {
         assert!(names.contains(format!("{name}.png").as_str()), "no {name} of\n{text}");

@@ -20,11 +20,10 @@ pub(super) fn info(arguments: &Info) -> Outcome {
     }
     let description = Description::of(&file, arguments.cutoff)?;
     if arguments.json {
-        print(&format!("{:#}\n", json(&file, &description)));
+        print(&format!("{:#}\n", json(&file, &description)))
     } else {
-        print(&text(&file, &description));
+        print(&text(&file, &description))
     }
-    Ok(())
 }
 
 fn json(file: &Read, description: &Description) -> Value {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use asperity::io::atomic;
 use asperity::io::topography::{gwy, npy, sdf, vtk, x3p};
 use asperity::surface::Topography;
 use asperity::units::Metre;
@@ -59,6 +60,7 @@ impl Output {
             let message = format!("`{}` needs a pitch, which the heights have not", self.path.display());
             return Err(without_pitch(message));
         }
+        atomic::sweep(self.path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new(".")));
         match self.format {
             Format::Npy => npy::write(&self.path, heights)?,
             Format::X3p => x3p::write(&self.path, grid, heights)?,

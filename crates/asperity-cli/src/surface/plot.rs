@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use asperity::Field;
+use asperity::io::atomic;
 use asperity::surface::{
     Axis as Direction, BearingCurve, Classes, Correlation, Distribution, SelfAffinity, Slope, SpectralPoint,
     Spectrum, Topography, WOLF_PRUNING, Window,
@@ -38,6 +39,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     }
     let folder = |source| asperity::Error::File { path: out.clone(), source };
     std::fs::create_dir_all(out).map_err(folder)?;
+    atomic::sweep(out);
     let sheet = Sheet { folder: out.clone(), topography: &file.topography };
     let curves = json!({
         "bearing": sheet.bearing()?,
@@ -47,7 +49,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     });
     sheet.heights()?;
     sheet.hills()?;
-    asperity::io::atomic::write(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
+    atomic::write(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
     note(&format!("figures and curves.json in {}", out.display()));
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Files that are there in full or not at all: written to a temporary name beside the target, then renamed.
 
-use std::fs::File;
+use std::ffi::OsStr;
+use std::fs::{File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -28,21 +29,21 @@ pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Resu
     replace(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
-/// Removes the temporary files that killed processes have left in `directory`.
-///
-/// # Errors
-/// [`Error::File`].
-pub fn sweep(directory: &Path) -> Result<()> {
-    let left = || -> io::Result<()> {
-        for entry in std::fs::read_dir(directory)? {
-            let entry = entry?;
-            if entry.file_name().to_string_lossy().starts_with(PREFIX) {
-                std::fs::remove_file(entry.path())?;
-            }
+/// Removes the temporary files that killed processes have left in `directory`, where it can; those of living processes
+/// stay.
+pub fn sweep(directory: &Path) {
+    let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    for path in entries.filter(|entry| is_temporary(&entry.file_name())).map(|entry| entry.path()) {
+        let lock = File::options().write(true).open(&path).map(|file| file.try_lock());
+        if !matches!(lock, Ok(Err(TryLockError::WouldBlock))) {
+            let _ = std::fs::remove_file(path);
         }
-        Ok(())
-    };
-    left().map_err(|source| Error::File { path: directory.to_owned(), source })
+    }
+}
+
+/// Whether a file of this name is one that was being written.
+pub(super) fn is_temporary(name: &OsStr) -> bool {
+    name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
 }
 
 /// How the names of temporary files begin.
@@ -54,6 +55,8 @@ fn replace(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>)
         _ => PathBuf::from("."),
     };
     let mut temporary = create_in(&directory).map_err(without_temporary_name)?;
+    // It says that its process lives, to `sweep`; it goes with the file. Without locks only a sweep at the same time harms.
+    let _ = temporary.as_file().try_lock();
     let mut writer = BufWriter::new(temporary.as_file_mut());
     contents(&mut writer)?;
     writer.flush()?;
@@ -123,7 +126,7 @@ mod tests {
         for name in [".asperity-Zx81Qa", ".tmpZx81Qa", "summary.json"] {
             std::fs::write(directory.path().join(name), b"half").unwrap();
         }
-        sweep(directory.path()).unwrap();
+        sweep(directory.path());
         let mut left = names(directory.path());
         left.sort();
         assert_eq!(left, [".tmpZx81Qa", "summary.json"]);

@@ -1,7 +1,7 @@
 //! The container of the results: an HDF5 file of named fields, each with its unit, axes, pitch and origin.
 //!
 //! ```text
-//! /             attributes: what the writer adds, for example `version`, `pass`
+//! /             attributes: what the writer adds, for example `version`, `pass`; `digest`, of all of the file
 //! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
 //! ```
 //!
@@ -9,13 +9,15 @@
 //! `origin` is the position of the centre of the first cell.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use hdf5_pure::{AttrValue, Dataset, File, FileBuilder};
 use ndarray::{ArrayD, Ix2};
+use sha2::{Digest as _, Sha256};
 
-use super::atomic;
+use super::{atomic, identity};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::units::Metre;
@@ -23,7 +25,9 @@ use crate::units::Metre;
 /// Fields to be written to one file.
 pub struct FieldFile {
     builder: FileBuilder,
-    names: Vec<String>,
+    attributes: BTreeMap<String, Attribute>,
+    /// By name the digest of each array.
+    arrays: BTreeMap<String, Digest>,
 }
 
 /// A fact about a file.
@@ -63,18 +67,19 @@ impl Default for FieldFile {
 impl FieldFile {
     /// A file with nothing in it.
     pub fn new() -> Self {
-        Self { builder: FileBuilder::new(), names: Vec::new() }
+        Self { builder: FileBuilder::new(), attributes: BTreeMap::new(), arrays: BTreeMap::new() }
+    }
+
+    /// A file of the run of this identity, which it says.
+    pub(super) fn of_run(identity: &str) -> Self {
+        let mut file = Self::new();
+        file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
+        file
     }
 
     /// Adds a fact about the whole file.
     pub fn set(&mut self, name: &str, value: impl Into<Attribute>) -> &mut Self {
-        let value = match value.into() {
-            Attribute::Text(text) => AttrValue::VarLenString(text),
-            Attribute::Number(number) => AttrValue::F64(number),
-            Attribute::Integer(number) => AttrValue::I64(number),
-            Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
-        };
-        self.builder.set_attr(name, value);
+        self.attributes.insert(name.to_owned(), value.into());
         self
     }
 
@@ -141,8 +146,9 @@ impl FieldFile {
         values: &[f64],
     ) -> &mut Self {
         assert!(!values.is_empty(), "{name} has no values");
-        assert!(!self.names.iter().any(|other| other == name), "two arrays named {name}");
-        self.names.push(name.to_owned());
+        let digest = array_digest([unit, axes], shape, [pitch, origin], values.iter());
+        let other = self.arrays.insert(name.to_owned(), digest);
+        assert!(other.is_none(), "two arrays named {name}");
         let shape: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
         let dataset = self.builder.create_dataset(name);
         dataset.with_f64_data(values).with_shape(&shape);
@@ -162,10 +168,55 @@ impl FieldFile {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn write(self, path: &Path) -> Result<()> {
+    pub fn write(mut self, path: &Path) -> Result<()> {
+        let digest = content_digest(&self.attributes, &self.arrays);
+        self.set(DIGEST, digest.as_str());
+        for (name, value) in self.attributes {
+            let value = match value {
+                Attribute::Text(text) => AttrValue::VarLenString(text),
+                Attribute::Number(number) => AttrValue::F64(number),
+                Attribute::Integer(number) => AttrValue::I64(number),
+                Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
+            };
+            self.builder.set_attr(&name, value);
+        }
         let image = self.builder.finish().map_err(|error| file_error(path, error))?;
         atomic::write(path, &image)
     }
+}
+
+/// SHA-256.
+type Digest = [u8; 32];
+
+/// The attribute that holds the digest of all else.
+const DIGEST: &str = "digest";
+
+/// Of an array and its attributes.
+fn array_digest<'a>(
+    texts: [&str; 2],
+    shape: &[usize],
+    numbers: [&[f64]; 2],
+    values: impl Iterator<Item = &'a f64>,
+) -> Digest {
+    let mut digest = Sha256::new();
+    digest.update(format!("{texts:?} {shape:?} {numbers:?}"));
+    values.for_each(|value| digest.update(value.to_le_bytes()));
+    digest.finalize().into()
+}
+
+/// Of a whole file, hexadecimal.
+fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<String, Digest>) -> String {
+    let mut text = String::new();
+    for (name, value) in attributes {
+        // One number reads back as a list of one, or the other way round.
+        let value = match value {
+            Attribute::Number(number) => &Attribute::Numbers(vec![*number]),
+            other => other,
+        };
+        let _ = write!(text, "{name:?} {value:?} ");
+    }
+    let _ = write!(text, "{arrays:?}");
+    identity::sha256(text.as_bytes())
 }
 
 const SMALLEST_COMPRESSED: usize = 1024;
@@ -227,6 +278,27 @@ impl Fields {
             return Err(Error::NoField { path: self.path.clone(), name: name.to_owned(), available });
         }
         self.file.dataset(name).and_then(|dataset| stored(&dataset)).map_err(|error| self.error(error))
+    }
+
+    /// Reads all of it and compares it with the digest that it was written with.
+    ///
+    /// # Errors
+    /// [`Error::File`] also where they differ.
+    pub fn verify(&self) -> Result<()> {
+        let mut attributes = self.attributes()?;
+        let written = attributes.remove(DIGEST);
+        let mut arrays = BTreeMap::new();
+        for name in self.names()? {
+            let StoredField { unit, axes, pitch, origin, values } = self.read(&name)?;
+            let digest = array_digest([&unit, &axes], values.shape(), [&pitch, &origin], values.iter());
+            arrays.insert(name, digest);
+        }
+        if written == Some(content_digest(&attributes, &arrays).as_str().into()) {
+            return Ok(());
+        }
+        let damaged =
+            io::Error::new(io::ErrorKind::InvalidData, "it is damaged: its content has another digest");
+        Err(Error::File { path: self.path.clone(), source: damaged })
     }
 
     fn error(&self, error: hdf5_pure::Error) -> Error {
@@ -387,6 +459,43 @@ mod tests {
                 chunk.iter().zip(shape).all(|(chunk, size)| (1..=*size).contains(chunk) && *chunk < 1 << 16)
             );
             assert!(chunk.iter().product::<u64>() <= 1 << 17);
+        }
+    }
+
+    #[test]
+    fn no_damage_of_a_byte_changes_a_value_unnoticed() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("fields.h5");
+        let grids = [[3, 2], [40, 30]].map(|shape| Grid::new(shape, [1e-6; 2]).unwrap());
+        let mut file = FieldFile::new();
+        file.set("version", "0.1.0").set("pass", 3);
+        for (name, grid) in ["small", "large"].into_iter().zip(&grids) {
+            file.add_field(name, "m", grid, [0.0; 2], &field(grid));
+        }
+        file.write(&path).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        // Whatever is read is read in full: the values, or an error.
+        let read = || -> Result<()> {
+            let fields = Fields::open(&path)?;
+            fields.verify()?;
+            for (name, grid) in ["small", "large"].into_iter().zip(&grids) {
+                assert_eq!(fields.read(name)?.into_field(), Some(field(grid)), "{name}");
+            }
+            Ok(())
+        };
+        read().unwrap();
+        let found = (0..whole.len()).step_by(3).filter(|byte| {
+            let mut damaged = whole.clone();
+            damaged[*byte] ^= 1 << (byte % 8);
+            std::fs::write(&path, damaged).unwrap();
+            read().is_err()
+        });
+        let found = found.count();
+        // Most of a small file is room.
+        assert!(found > 300, "{found} of {}", whole.len());
+        for length in [0, 100, whole.len() / 2, whole.len() - 1] {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            assert!(read().is_err(), "{length} bytes");
         }
     }
 

@@ -9,10 +9,11 @@
 //! rows beyond it are those of an increment whose state was not written any more.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use super::fields::{Attribute, FieldFile, Fields};
+use super::results::Results;
 use super::tables;
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
@@ -21,37 +22,39 @@ use crate::solver::{FrictionalSolution, Solution, Stats};
 
 /// Keeps each increment of a loading on the disk.
 pub struct LoadingWriter {
-    directory: PathBuf,
+    results: Results,
+    identity: String,
     grid: Grid,
     increments: usize,
 }
 
 impl LoadingWriter {
     /// Into a results directory, for a loading of so many `increments` of bodies on `grid`.
-    pub(super) fn new(directory: &Path, grid: Grid, increments: usize) -> Self {
-        Self { directory: directory.to_owned(), grid, increments }
+    pub(super) fn new(results: &Results, identity: &str, grid: Grid, increments: usize) -> Self {
+        Self { results: results.clone(), identity: identity.to_owned(), grid, increments }
     }
 
     /// What an interrupted loading has left, if it has left anything.
     ///
     /// # Errors
-    /// [`Error::File`] for files that cannot be read, [`Error::OtherCase`] for those of another loading.
+    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
     pub fn under_way(&self) -> Result<Option<LoadingState>> {
-        let path = self.state();
+        let path = self.results.increment_state_path();
         if !path.exists() {
             return Ok(None);
         }
         let stored = Stored::open(&path)?;
         let count = stored.number("increments")? as usize;
-        let mut increments = tables::read_increments(&self.rows())?;
-        if increments.len() < count || count >= self.increments {
-            return Err(Error::OtherCase { path: self.directory.clone() });
+        let mut increments = self.results.increments()?;
+        if increments.len() < count {
+            let path = self.results.increments_path();
+            return Err(Error::NotResumable { path, reason: "does not have every finished increment" });
+        }
+        let [nx, ny] = self.grid.shape;
+        if count >= self.increments || stored.field("pressure")?.dim() != (nx, ny) {
+            return Err(Error::NotResumable { path, reason: "is of another loading" });
         }
         increments.truncate(count);
-        let [nx, ny] = self.grid.shape;
-        if stored.field("pressure")?.dim() != (nx, ny) {
-            return Err(Error::OtherCase { path: self.directory.clone() });
-        }
         stored.state(increments).map(Some)
     }
 
@@ -60,25 +63,13 @@ impl LoadingWriter {
     /// # Errors
     /// [`Error::File`].
     pub fn done(&self) -> Result<()> {
-        let path = self.state();
-        match fs::remove_file(&path) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(Error::File { path, source }),
-            _ => Ok(()),
-        }
-    }
-
-    fn rows(&self) -> PathBuf {
-        self.directory.join("increments.csv")
-    }
-
-    fn state(&self) -> PathBuf {
-        self.directory.join("fields").join("increment-state.h5")
+        self.results.remove(&self.results.increment_state_path())
     }
 }
 
 impl LoadingOutput for LoadingWriter {
     fn increment(&mut self, state: &LoadingState) -> Result<()> {
-        tables::write_increments(&self.rows(), &state.increments)?;
+        tables::write_increments(&self.results.increments_path(), &state.increments)?;
         // After the last one the contact itself is written.
         if state.increments.len() < self.increments { self.write(state) } else { Ok(()) }
     }
@@ -86,7 +77,7 @@ impl LoadingOutput for LoadingWriter {
 
 impl LoadingWriter {
     fn write(&self, state: &LoadingState) -> Result<()> {
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::of_run(&self.identity);
         let mut add = |name: &str, unit: &str, field: &Field| {
             file.add_field(name, unit, &self.grid, [0.0, 0.0], field);
         };
@@ -116,8 +107,7 @@ impl LoadingWriter {
             file.set("shift", solution.shift.to_vec());
         }
         let Origin { load, approach, force, shift } = state.origin;
-        file.set("version", env!("CARGO_PKG_VERSION"))
-            .set("increments", state.increments.len())
+        file.set("increments", state.increments.len())
             .set("approach", normal.approach)
             .set("residual", normal.residual)
             .set("iterations", normal.stats.iterations)
@@ -128,7 +118,7 @@ impl LoadingWriter {
             .set("origin_approach", approach)
             .set("origin_force", force.to_vec())
             .set("origin_shift", shift.to_vec());
-        file.write(&self.state())
+        file.write(&self.results.increment_state_path())
     }
 }
 

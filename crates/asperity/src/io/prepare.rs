@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::case::{Body, Case, Mount, Source, TopographySpec};
+use super::identity;
 use super::topography::{self, Scan};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -42,6 +43,8 @@ pub struct Origin {
     pub channel: String,
     /// Number of samples along x and y in the file.
     pub shape: [usize; 2],
+    /// Digest of the file, hexadecimal.
+    pub sha256: String,
 }
 
 /// Reads or makes both topographies of `case` and prepares them as [`TopographySpec`] says.
@@ -76,9 +79,8 @@ fn grid(case: &Case, name: &str, body: &Body) -> Result<Grid> {
     let spec = &body.topography;
     let (grid, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
-            let scan =
-                topography::read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
-            let (topography, _, preparation) = measured(at, path, scan, spec)?;
+            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, _, preparation) = measured(at, path, scan, sha256, spec)?;
             (*topography.grid(), preparation)
         }
         Source::Generate { shape, .. } | Source::Form { shape, .. } => {
@@ -96,9 +98,8 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
         |shape: &[usize; 2]| Grid::new(*shape, spec.pitch.expect("the case has the pitch of what is made"));
     let (topography, origin, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
-            let scan =
-                topography::read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
-            let (topography, origin, preparation) = measured(at, path, scan, spec)?;
+            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, origin, preparation) = measured(at, path, scan, sha256, spec)?;
             (Ok(topography), Some(origin), preparation)
         }
         Source::Generate { generate, shape, seed } => {
@@ -126,11 +127,18 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
     Ok(Prepared { topography, origin, findings })
 }
 
-/// What the file holds, and what is to be done with it.
+/// What the file holds, and its digest.
+fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<(Scan, String)> {
+    let bytes = topography::contents(path)?;
+    Ok((topography::from_bytes(path, &bytes, channel, unit)?, identity::sha256(&bytes)))
+}
+
+/// What is to be done with what the file holds.
 fn measured(
     at: Place<'_>,
     path: &Path,
     scan: Scan,
+    sha256: String,
     spec: &TopographySpec,
 ) -> Result<(Topography, Origin, Preparation)> {
     let Scan { format, channel, pitch: carried, heights, .. } = scan;
@@ -158,7 +166,7 @@ fn measured(
     })?;
     let grid = Grid::new(shape, pitch).map_err(|error| at.parameter(error))?;
     let topography = Topography::new(grid, heights).map_err(|error| at.reading(error))?;
-    Ok((topography, Origin { format, channel, shape }, preparation))
+    Ok((topography, Origin { format, channel, shape, sha256 }, preparation))
 }
 
 /// Where the mistakes of one body's topography are shown.

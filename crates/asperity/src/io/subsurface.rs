@@ -119,9 +119,10 @@ impl Plan {
         8.0 * (9.0 * cells + 4.0 * padded)
     }
 
-    /// Computes the stress under `tractions`, those on the lower body, and writes it to `path`.
+    /// Computes the stress under `tractions`, those on the lower body, and writes it to `path` with what `file` says already.
     pub(super) fn write(
         &self,
+        mut file: FieldFile,
         path: &Path,
         pass: Option<usize>,
         tractions: Tractions,
@@ -141,7 +142,6 @@ impl Plan {
             max_shear_position: self.position(&most.shear),
         };
         let row = self.section.unwrap_or(most.von_mises.cell[1]);
-        let mut file = FieldFile::new();
         self.describe(&mut file, &record, row);
         for (k, plane) in body.planes(&self.planes, |plane| plane.von_mises()).iter().enumerate() {
             file.add_field(&format!("von_mises_{:02}", k + 1), "Pa", &self.grid, self.corner, plane);
@@ -186,8 +186,7 @@ impl Plan {
             Side::Lower => "lower",
             Side::Upper => "upper",
         };
-        file.set("version", env!("CARGO_PKG_VERSION"))
-            .set("body", body)
+        file.set("body", body)
             .set("poisson", self.poisson)
             .set("section", self.corner[1] + self.grid.centre(1, row))
             .set("max_von_mises", record.max_von_mises)

@@ -1,8 +1,7 @@
 //! Where a motion begins its next pass: the file from which a run goes on with the same bits.
 //!
 //! ```text
-//! /              attributes: version, pass, approach and slope of the guess (m, 1/m; where a mean load is prescribed),
-//!                digest: MD5 of all numbers of this file and of the heights after the pass
+//! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed)
 //! /approach      of each position, m
 //! /bearing       cells with p > 0 at each position
 //! /cell          those cells, position by position: flat index
@@ -11,21 +10,16 @@
 
 use std::path::Path;
 
-use md5::{Digest, Md5};
-
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::io::fields::{Attribute, FieldFile, Fields};
-use crate::motion::{Bearing, Guess, Pair, WarmStart};
+use crate::motion::{Bearing, Guess, WarmStart};
 
-/// Writes where the pass after `pass` begins, which leaves the `pair` behind.
+/// Writes where the pass after `pass` begins into `file`, which says of which run it is.
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn write(path: &Path, pass: usize, warm: &WarmStart, pair: &Pair) -> Result<()> {
-    let mut file = FieldFile::new();
-    file.set("version", env!("CARGO_PKG_VERSION"))
-        .set("pass", pass)
-        .set("digest", digest(warm, pair).as_str());
+pub(super) fn write(mut file: FieldFile, path: &Path, pass: usize, warm: &WarmStart) -> Result<()> {
+    file.set("pass", pass);
     if let Some(Guess { approach, slope }) = warm.guess {
         file.set("approach", approach).set("slope", slope);
     }
@@ -46,31 +40,17 @@ pub(super) fn write(path: &Path, pass: usize, warm: &WarmStart, pair: &Pair) -> 
     file.write(path)
 }
 
-/// Reads what [`write`] wrote beside the surfaces of `pair`.
+/// Reads what [`write`] wrote.
 ///
 /// # Errors
-/// [`Error::NoWarmStart`] where the file is missing, damaged, or was written beside other surfaces.
-pub(super) fn read(path: &Path, pair: &Pair) -> Result<WarmStart> {
-    let lost = |defect| Error::NoWarmStart { path: path.to_owned(), defect };
-    if !path.exists() {
-        return Err(lost("is missing"));
-    }
-    let (warm, written) = numbers(path).ok().flatten().ok_or_else(|| lost("is damaged"))?;
-    if digest(&warm, pair) != written {
-        return Err(lost("does not belong to the surfaces beside it"));
-    }
-    Ok(warm)
-}
-
-/// The numbers of the file, and their digest as written.
-fn numbers(path: &Path) -> Result<Option<(WarmStart, String)>> {
+/// [`Error::File`].
+pub(super) fn read(path: &Path) -> Result<WarmStart> {
     let fields = Fields::open(path)?;
     let attributes = fields.attributes()?;
     let number = |name: &str| match attributes.get(name) {
         Some(Attribute::Number(number)) => Some(*number),
         _ => None,
     };
-    let Some(Attribute::Text(written)) = attributes.get("digest") else { return Ok(None) };
     let names = fields.names()?;
     let series = |name: &str| -> Result<Vec<f64>> {
         match names.iter().any(|other| other == name) {
@@ -88,19 +68,5 @@ fn numbers(path: &Path) -> Result<Option<(WarmStart, String)>> {
     let positions = positions.collect();
     let guess = number("approach").zip(number("slope"));
     let guess = guess.map(|(approach, slope)| Guess { approach, slope });
-    Ok(Some((WarmStart { guess, positions }, written.clone())))
-}
-
-/// MD5 of the heights of both bodies and of all numbers of a warm start.
-fn digest(warm: &WarmStart, pair: &Pair) -> String {
-    let mut digest = Md5::new();
-    let mut take = |value: f64| digest.update(value.to_le_bytes());
-    pair.lower.iter().chain(&pair.upper).for_each(|z| take(*z));
-    warm.guess.iter().for_each(|guess| [guess.approach, guess.slope].into_iter().for_each(&mut take));
-    for position in &warm.positions {
-        take(position.approach);
-        take(position.pressure.len() as f64);
-        position.pressure.iter().for_each(|(cell, p)| [f64::from(*cell), *p].into_iter().for_each(&mut take));
-    }
-    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    Ok(WarmStart { guess, positions })
 }

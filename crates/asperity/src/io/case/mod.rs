@@ -10,6 +10,7 @@ mod parse;
 mod source;
 mod subsurface;
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
@@ -18,6 +19,7 @@ use self::document::Document;
 pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
+use super::regular;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
@@ -155,14 +157,20 @@ pub struct Output {
     pub rim: f64,
 }
 
+/// The largest case file that is read.
+const MOST_BYTES: u64 = 4 << 20;
+
 impl Case {
     /// Reads a case file; the files it names are looked for in its folder.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
     pub fn load(path: &Path) -> Result<Self> {
-        let text =
-            std::fs::read_to_string(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
+        let failed = |source| Error::File { path: path.to_owned(), source };
+        let text = regular::read(path, "a case file", MOST_BYTES).map_err(failed)?;
+        let text = String::from_utf8(text).map_err(|_| {
+            failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
+        })?;
         Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
     }
 

@@ -26,9 +26,10 @@ pub mod vtk;
 pub mod x3p;
 
 use std::collections::HashSet;
-use std::io::{self, ErrorKind, Read};
+use std::io::Read;
 use std::path::Path;
 
+use super::regular;
 use crate::error::{Defect, Error, Result};
 use crate::grid::Field;
 use crate::units::{Dimension, Metre};
@@ -75,8 +76,7 @@ pub enum Unit {
 /// [`Error::CorruptTopography`] if it is damaged, uses what is not read or lacks a unit that it needs,
 /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given to a file that has one.
 pub fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<Scan> {
-    let bytes = contents(path).map_err(|source| Error::File { path: path.to_owned(), source })?;
-    from_bytes(path, &bytes, channel, unit)
+    from_bytes(path, &contents(path)?, channel, unit)
 }
 
 /// As [`read`], from `bytes`, the content of a file that errors call `name`.
@@ -118,16 +118,10 @@ const MAX_CELLS: usize = 1 << 28;
 /// The most that a gzipped file is unpacked to: the most heights, and a header.
 const MAX_UNPACKED: u64 = 8 * MAX_CELLS as u64 + (1 << 16);
 
-fn contents(path: &Path) -> io::Result<Vec<u8>> {
-    // A pipe or a device has no end, and opening one may wait for ever.
-    let about = std::fs::metadata(path)?;
-    if about.is_dir() {
-        return Err(io::Error::new(ErrorKind::IsADirectory, "is a directory, expected a topography file"));
-    }
-    if !about.is_file() {
-        return Err(io::Error::new(ErrorKind::InvalidInput, "is not a regular file"));
-    }
-    std::fs::read(path)
+/// The bytes of a topography file.
+pub(super) fn contents(path: &Path) -> Result<Vec<u8>> {
+    regular::read(path, "a topography file", u64::MAX)
+        .map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
 fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {

@@ -109,7 +109,7 @@ fn files_that_are_no_files_are_errors() {
     assert!(matches!(read(&missing, None, None), Err(Error::File { path, .. }) if path == missing));
     if cfg!(unix) {
         let message = read(Path::new("/dev/zero"), None, None).unwrap_err().to_string();
-        assert_eq!(message, "/dev/zero: is not a regular file");
+        assert_eq!(message, "/dev/zero: is a device, expected a topography file");
     }
 }
 

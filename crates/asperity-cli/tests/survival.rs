@@ -1,0 +1,627 @@
+//! Results that survive: directories that killed and refused runs leave, a second run, damage, full disks, closed
+//! streams, and kills at any moment.
+
+#![cfg(unix)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+// ---- directories -----------------------------------------------------------------------------------------
+
+#[test]
+fn what_a_run_leaves_that_was_killed_before_its_case_is_as_good_as_nothing() {
+    for flag in ["", " --overwrite", " --resume"] {
+        let folder = folder_with(&motion(1, ""));
+        let out = folder.path().join("out");
+        fs::create_dir_all(out.join("fields")).unwrap();
+        for left in [".lock", ".asperity-Zx81Qa", "fields/.asperity-81QaZx"] {
+            fs::write(out.join(left), "").unwrap();
+        }
+        ok(&asperity(&folder, &format!("run case.toml --out out{flag}")));
+        assert!(temporary(&out).is_empty(), "{flag}: {:?}", temporary(&out));
+        assert!(out.join("summary.json").exists());
+    }
+    // What is someone's is not touched, not even by a lock.
+    let folder = folder_with(&motion(1, ""));
+    let out = folder.path().join("out");
+    fs::create_dir_all(out.join("fields")).unwrap();
+    fs::write(out.join("fields/wheat.txt"), "mine").unwrap();
+    for flag in ["", " --overwrite", " --resume"] {
+        let error = refused(&asperity(&folder, &format!("run case.toml --out out{flag}")));
+        assert!(error.contains("is not empty, and holds no results"), "{error}");
+        assert_eq!(files(&out), BTreeSet::from(["fields/wheat.txt".to_owned()]));
+    }
+}
+
+#[test]
+fn temporary_files_are_swept_from_every_folder_that_is_written_to() {
+    let folder = folder_with(&motion(1, ""));
+    let out = folder.path().join("out");
+    let half = |path: &str| {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "half").unwrap();
+    };
+    ok(&asperity(&folder, "run case.toml --out out"));
+    half("out/figures/.asperity-aaaaaa");
+    ok(&asperity(&folder, "plot out"));
+    assert!(temporary(&out).is_empty(), "{:?}", temporary(&out));
+    for path in [".asperity-a", "fields/.asperity-b", "figures/.asperity-c"] {
+        half(&format!("out/{path}"));
+    }
+    ok(&asperity(&folder, "run case.toml --out out --resume"));
+    assert!(temporary(&out).is_empty(), "{:?}", temporary(&out));
+
+    half("made/.asperity-a");
+    ok(&asperity(
+        &folder,
+        "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out made/a.npy",
+    ));
+    assert!(temporary(&folder.path().join("made")).is_empty());
+    half("drawn/.asperity-a");
+    ok(&asperity(&folder, "surface plot made/a.npy --pitch 1um --out drawn --overwrite"));
+    assert!(temporary(&folder.path().join("drawn")).is_empty());
+    // The file of a process that lives is its own.
+    half("made/.asperity-a");
+    let held = fs::File::options().write(true).open(folder.path().join("made/.asperity-a")).unwrap();
+    held.lock().unwrap();
+    let again = "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out made/b.npy";
+    ok(&asperity(&folder, again));
+    assert_eq!(temporary(&folder.path().join("made")).len(), 1);
+}
+
+#[test]
+fn a_second_run_in_one_directory_is_refused_as_long_as_the_first_lives() {
+    let folder = folder_with(&motion(100_000, ""));
+    let out = folder.path().join("out");
+    let mut first = spawn(&folder, "run case.toml --out out");
+    wait_for(&mut first, &out.join("passes.csv"));
+    for flag in ["", " --overwrite", " --resume"] {
+        let error = refused(&asperity(&folder, &format!("run case.toml --out out{flag}")));
+        let told = if flag.is_empty() { "already holds results" } else { "out is in use: another run" };
+        assert!(error.contains(told), "{flag}: {error}");
+    }
+    // Who only reads is welcome.
+    ok(&asperity(&folder, "plot out"));
+    assert!(first.try_wait().unwrap().is_none(), "the first goes on");
+    first.kill().unwrap();
+    first.wait().unwrap();
+    change(&folder, "passes = 100000", "passes = 1");
+    ok(&asperity(&folder, "run case.toml --out out --resume"));
+}
+
+#[test]
+fn nothing_is_cleared_for_a_run_that_is_refused() {
+    let folder = folder_with(&motion(1, ""));
+    let out = folder.path().join("out");
+    ok(&asperity(&folder, "run case.toml --out out"));
+    let before = contents(&out);
+    let ball = ball("").replace("load = \"20 mN\"", "approach = \"1 mm\"\nboundary = \"periodic\"");
+    let surface = motion(1, "").replacen("generate", "file = \"nowhere.npy\", generate", 1);
+    for (case, code) in [
+        (motion(1, "").replace("20 mN", "20 kN"), 1),
+        (motion(1, "").replace("passes = 1", "passes = 0"), 2),
+        (motion(1, "subsurface = { to = \"5 um\", step = 99 }\n"), 2),
+        (ball, 1),
+        (surface, 2),
+    ] {
+        fs::write(folder.path().join("case.toml"), &case).unwrap();
+        let output = asperity(&folder, "run case.toml --out out --overwrite");
+        assert_eq!(output.status.code(), Some(code), "{case}{}", stderr(&output));
+        assert!(contents(&out) == before, "{case}");
+    }
+}
+
+#[test]
+fn a_run_is_resumed_only_from_its_own_whole_results() {
+    let folder = folder_with(&motion(2, ""));
+    let path = |name: &str| folder.path().join(name);
+    let surface = |seed: usize| {
+        let made = format!(
+            "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --seed {seed}"
+        );
+        ok(&asperity(&folder, &format!("{made} --out a.npy --overwrite")));
+    };
+    surface(1);
+    let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
+    change(&folder, generate, "file = \"a.npy\", pitch = \"1 um\"");
+    ok(&asperity(&folder, "run case.toml --out out"));
+    change(&folder, "20 mN", "21 mN");
+    ok(&asperity(&folder, "run case.toml --out other"));
+    change(&folder, "21 mN", "20 mN");
+    let whole = contents(&path("out"));
+    let restore = || {
+        for (name, bytes) in &whole {
+            fs::write(path("out").join(name), bytes).unwrap();
+        }
+    };
+    let resume = || asperity(&folder, "run case.toml --out out --resume");
+    let refused_for = |reason: &str| {
+        let before = contents(&path("out"));
+        let error = refused(&resume());
+        assert!(
+            error.contains(reason) && error.contains("hint: --overwrite computes all"),
+            "{reason}: {error}"
+        );
+        assert!(contents(&path("out")) == before, "{reason}");
+        restore();
+    };
+
+    surface(3);
+    refused_for("error: a.npy has changed since the results in out were begun");
+    surface(1);
+    fs::copy(path("other/fields/pass-0002.h5"), path("out/fields/pass-0002.h5")).unwrap();
+    refused_for("pass-0002.h5 is of another run");
+    fs::copy(path("out/fields/pass-0001.h5"), path("out/fields/pass-0002.h5")).unwrap();
+    refused_for("pass-0002.h5 is of another pass");
+    for name in ["fields/initial.h5", "fields/pass-0001.h5", "fields/pass-0002.h5", "steps.csv"] {
+        fs::remove_file(path("out").join(name)).unwrap();
+        refused_for(&format!("error: out/{name} is missing"));
+    }
+    for name in ["fields/pass-0001.h5", "fields/pass-0002.h5"] {
+        let bytes = &whole[name];
+        fs::write(path("out").join(name), &bytes[..bytes.len() / 2]).unwrap();
+        let error = refused(&resume());
+        assert!(error.contains(&format!("out/{name}: ")), "{error}");
+        restore();
+    }
+    let rows = String::from_utf8(whole["steps.csv"].clone()).unwrap();
+    let shorter: Vec<_> = rows.lines().take(9).collect();
+    fs::write(path("out/steps.csv"), shorter.join("\n") + "\n").unwrap();
+    refused_for("steps.csv does not have every position of the finished passes");
+    let rows = String::from_utf8(whole["passes.csv"].clone()).unwrap();
+    let without_first: Vec<_> =
+        rows.lines().enumerate().filter(|(n, _)| *n != 1).map(|(_, row)| row).collect();
+    fs::write(path("out/passes.csv"), without_first.join("\n") + "\n").unwrap();
+    refused_for("passes.csv does not number its passes");
+    change(&folder, "20 mN", "21 mN");
+    refused_for("out holds the results of another case: 'contact.load' was 0.02, now it is 0.021");
+    change(&folder, "21 mN", "20 mN");
+
+    // Neither title nor number of passes is another case.
+    change(&folder, "passes = 2", "passes = 3");
+    let case = fs::read_to_string(path("case.toml")).unwrap();
+    fs::write(path("case.toml"), format!("title = \"named\"\n{case}")).unwrap();
+    ok(&resume());
+    let now = contents(&path("out"));
+    assert!(now["fields/pass-0002.h5"] == whole["fields/pass-0002.h5"]);
+    assert!(now.contains_key("fields/pass-0003.h5"));
+    let case: Value = serde_json::from_slice(&now["case.json"]).unwrap();
+    assert_eq!(case["title"], "named");
+    let sum = Command::new("sha256sum").arg(path("a.npy")).output().unwrap();
+    let digest = case["lower"]["topography"]["sha256"].as_str().unwrap();
+    assert!(String::from_utf8(sum.stdout).unwrap().starts_with(digest));
+}
+
+// ---- streams, threads, limits, signals -------------------------------------------------------------------
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
+    let folder = folder_with(&ball(""));
+    fs::write(folder.path().join("moving.toml"), motion(1, "")).unwrap();
+    ok(&asperity(
+        &folder,
+        "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out a.npy",
+    ));
+    ok(&asperity(&folder, "run case.toml --out there"));
+    let shell = |script: &str| {
+        let script = script.replace("asperity", env!("CARGO_BIN_EXE_asperity"));
+        Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap()
+    };
+    let commands = [
+        "--help",
+        "--version",
+        "run --help",
+        "check case.toml",
+        "run case.toml --out full",
+        "run moving.toml --out moving",
+        "plot there",
+        "example",
+        "example hertz",
+        "surface info a.npy --pitch 1um",
+        "surface info a.npy --pitch 1um --json",
+        "verify",
+    ];
+    for command in commands {
+        let output = shell(&format!("asperity {command} > /dev/full"));
+        assert_eq!(output.status.code(), Some(1), "{command}: {}", stderr(&output));
+        let told = "error: standard output: No space left on device";
+        assert!(stderr(&output).contains(told), "{command}: {}", stderr(&output));
+    }
+    // The results are whole all the same.
+    for directory in ["full", "moving"] {
+        let out = folder.path().join(directory);
+        assert!(out.join("summary.json").exists() && out.join("figures/contact.png").exists(), "{directory}");
+    }
+    fs::remove_dir_all(folder.path().join("hertz")).unwrap();
+    for command in commands {
+        let command = command.replace("--out", "--overwrite --out");
+        let output = shell(&format!("asperity {command} | true; exit ${{PIPESTATUS[0]}}"));
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", stderr(&output));
+        assert!(!stderr(&output).contains("error"), "{command}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn threads_are_as_many_as_there_is_use_for_and_room() {
+    let folder = folder_with(&ball(""));
+    for count in ["0", "1025"] {
+        let error = refused(&asperity(&folder, &format!("run case.toml --out out --threads {count}")));
+        assert!(error.contains("1..=1024"), "{error}");
+    }
+    let output = asperity(&folder, "run case.toml --out out --threads 300");
+    ok(&output);
+    assert!(stderr(&output).starts_with("note: --threads 300 is more than the "), "{}", stderr(&output));
+    if cfg!(target_os = "linux") {
+        let asperity = env!("CARGO_BIN_EXE_asperity");
+        let limited = |threads: usize| {
+            let run = format!(
+                "ulimit -v 500000; exec '{asperity}' run case.toml --out out --overwrite --threads {threads}"
+            );
+            Command::new("bash").args(["-c", &run]).current_dir(&folder).output().unwrap()
+        };
+        let output = limited(1000);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("error: threads cannot be made: "), "{}", stderr(&output));
+        ok(&limited(1));
+    }
+}
+
+#[test]
+fn ctrl_c_counts_while_figures_are_drawn() {
+    let folder = folder_with(
+        &motion(2, "").replace("pressure_every = 4", "pressure_every = 1").replace("[16, 16]", "[64, 16]"),
+    );
+    let out = folder.path().join("out");
+    let mut child = spawn(&folder, "run case.toml --out out");
+    wait_for(&mut child, &out.join("figures/topographies.png"));
+    send("INT", &child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    let told = "error: interrupted before all figures were drawn\nhint: the results are whole; `asperity plot out` draws";
+    assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    assert!(out.join("summary.json").exists() && !out.join("figures/approach.png").exists());
+    ok(&asperity(&folder, "plot out"));
+    assert!(out.join("figures/approach.png").exists());
+}
+
+#[test]
+fn what_is_no_file_is_named_as_what_it_is_and_waited_for_by_nobody() {
+    let folder = folder_with(&motion(1, ""));
+    let path = |name: &str| folder.path().join(name);
+    assert!(Command::new("mkfifo").args([path("pipe"), path("a.npy")]).status().unwrap().success());
+    fs::create_dir(path("folder.toml")).unwrap();
+    fs::write(path("large.toml"), "# much ado\n".repeat(500_000)).unwrap();
+    for command in ["run", "check"] {
+        for (name, told) in [
+            ("pipe", "error: pipe: is a pipe (FIFO), expected a case file"),
+            ("/dev/zero", "error: /dev/zero: is a device, expected a case file"),
+            ("folder.toml", "error: folder.toml: is a directory, expected a case file"),
+            ("large.toml", "error: large.toml: holds 5500000 bytes, a case file has 4194304 at most"),
+        ] {
+            let error = refused(&asperity(&folder, &format!("{command} {name}")));
+            assert!(error.starts_with(told), "{error}");
+        }
+    }
+    let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
+    change(&folder, generate, "file = \"a.npy\", pitch = \"1 um\"");
+    let error = refused(&asperity(&folder, "check case.toml"));
+    assert!(error.starts_with("error: a.npy: is a pipe (FIFO), expected a topography file"), "{error}");
+    let error = refused(&asperity(&folder, "surface info a.npy"));
+    assert!(error.starts_with("error: a.npy: is a pipe (FIFO), expected a topography file"), "{error}");
+}
+
+#[test]
+fn an_error_is_some_lines_whatever_the_input() {
+    let folder = folder_with("");
+    let many = "k".repeat(1_000_000);
+    let cases = [
+        format!("{many} = 1\n"),
+        format!("[lower]\n{many} = 1\n"),
+        format!("[lower]\nyoung = \"{many}\"\n"),
+        format!("[lower]\nyoung = {many}\n"),
+        format!("title = \"{many}\"\n"),
+        format!("{}\n", "[".repeat(1_000_000)),
+        format!("a = {}\n", "[".repeat(1_000_000)),
+        format!("a{}= 1\n", ".a".repeat(500_000)),
+        format!("[lower]\nyoung = [{}]\n", "1,\n".repeat(300_000)),
+        format!("[lower]\nyoung = '''{}'''\n", "x\n".repeat(300_000)),
+        motion(1, "").replacen("generate", &format!("file = \"{many}\", generate"), 1),
+        motion(1, "")
+            .replacen(&motion(1, "")[..1], &format!("title = \"{many}\"\n{}", &motion(1, "")[..1]), 1)
+            .replace("20 mN", "20 kN"),
+    ];
+    for case in cases {
+        fs::write(folder.path().join("case.toml"), &case).unwrap();
+        let began = Instant::now();
+        let output = asperity(&folder, "check case.toml");
+        let (head, text) = (&case[..60.min(case.len())], stderr(&output));
+        assert!(matches!(output.status.code(), Some(1 | 2)), "{head}: {:?} {:.2000}", output.status, text);
+        assert!(text.lines().count() < 20 && text.len() < 4000, "{head}: {} bytes: {text:.2000}", text.len());
+        assert!(began.elapsed() < Duration::from_secs(60), "{head}: {:?}", began.elapsed());
+    }
+    let long = "p".repeat(4000);
+    for arguments in [
+        format!("check {long}"),
+        format!("run --threads {long}"),
+        format!("plot {long}"),
+        format!("surface info {long}"),
+        long.clone(),
+    ] {
+        let text = refused(&asperity(&folder, &arguments));
+        assert!(text.lines().count() < 20 && text.len() < 4000, "{} bytes: {text}", text.len());
+    }
+}
+
+// ---- kills -----------------------------------------------------------------------------------------------
+
+/// Every kind of computation, small.
+fn computations() -> [(&'static str, String); 7] {
+    let shift = "strategy = \"shift\", speed_lower = 0.0, speed_upper = 1.0, control = \"pass-load\", ";
+    [
+        ("overlap", motion(3, "subsurface = { to = \"5 um\", layers = 5 }\n")),
+        ("shift", motion(2, "").replace("motion = { ", &format!("motion = {{ {shift}"))),
+        (
+            "step",
+            motion(2, "")
+                .replace("motion = { ", "motion = { plastic_update = \"step\", control = \"step-load\", "),
+        ),
+        ("sliding", motion(2, "friction = { coefficient = 0.2 }\n")),
+        ("ball", ball("[subsurface]\nto = \"5 um\"\nlayers = 5\n")),
+        ("rolling", ball("[friction]\ncoefficient = 0.3\ncreepage = [2e-3, 0.0]\n")),
+        (
+            "loading",
+            ball(
+                "[friction]\ncoefficient = 0.3\nincrements = 2\n[[history]]\nforce = \"3 mN\"\nincrements = 3\n\
+                 [[history]]\nforce = \"-2 mN\"\nincrements = 4\n",
+            ),
+        ),
+    ]
+}
+
+/// How often each computation is killed: `ASPERITY_KILLS`, by default what a routine test bears.
+fn kills() -> usize {
+    std::env::var("ASPERITY_KILLS").ok().map_or(2, |kills| kills.parse().unwrap())
+}
+
+#[test]
+fn a_run_that_is_killed_at_any_moment_is_resumed_to_the_same_bits() {
+    let mut random = 1u64;
+    let mut number = move || {
+        // Knuth's, MMIX.
+        random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (random >> 33) as f64 / (1u64 << 31) as f64
+    };
+    for (name, case) in computations() {
+        let folder = folder_with(&case);
+        let began = Instant::now();
+        ok(&asperity(&folder, "run case.toml --out whole --quiet"));
+        let time = began.elapsed();
+        let whole = bits(&folder.path().join("whole"));
+        for kill in 0..kills() {
+            let out = folder.path().join("out");
+            let mut killed = 0;
+            for flag in ["", " --resume", " --resume"] {
+                let mut child = spawn(&folder, &format!("run case.toml --out out --quiet{flag}"));
+                std::thread::sleep(time.mul_f64(number()));
+                killed += usize::from(child.try_wait().unwrap().is_none());
+                child.kill().unwrap();
+                child.wait().unwrap();
+            }
+            ok(&asperity(&folder, "run case.toml --out out --quiet --resume"));
+            assert_same(&bits(&out), &whole, &format!("{name}, {killed} kills of round {kill}"));
+            fs::remove_dir_all(out).unwrap();
+        }
+    }
+}
+
+/// Where `strace` is installed, which names each call that changes a file; every call with `ASPERITY_KILLS`, of the
+/// calls some otherwise.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bits() {
+    if !Command::new("strace").arg("-V").output().is_ok_and(|output| output.status.success()) {
+        eprintln!("not run: there is no strace");
+        return;
+    }
+    let stride = if kills() > 2 { 1 } else { 41 };
+    for (name, case) in computations() {
+        let folder = folder_with(&case);
+        ok(&asperity(&folder, "run case.toml --out whole --quiet --threads 1"));
+        let whole = bits(&folder.path().join("whole"));
+        let out = folder.path().join("out");
+        let mut points = 0;
+        for call in (1..).step_by(stride) {
+            let inject = format!("inject={CALLS}:signal=KILL:when={call}");
+            let status = Command::new("strace")
+                .args(["-f", "-qq", "-o", "/dev/null", "-e", &format!("trace={CALLS}"), "-e", &inject])
+                .arg(env!("CARGO_BIN_EXE_asperity"))
+                .args("run case.toml --out out --quiet --threads 1".split_whitespace())
+                .current_dir(&folder)
+                .stdout(Stdio::null())
+                .status()
+                .unwrap();
+            if status.success() {
+                break;
+            }
+            points += 1;
+            ok(&asperity(&folder, "run case.toml --out out --quiet --resume --threads 1"));
+            assert_same(&bits(&out), &whole, &format!("{name}, call {call}"));
+            fs::remove_dir_all(&out).unwrap();
+        }
+        eprintln!("{name}: killed at {points} calls");
+        assert!(points > 2, "{name}: {points}");
+    }
+}
+
+/// What changes files.
+#[cfg(target_os = "linux")]
+const CALLS: &str =
+    "rename,renameat,renameat2,fsync,fdatasync,write,unlink,unlinkat,mkdir,mkdirat,flock,ftruncate";
+
+#[test]
+fn a_run_that_met_a_full_disk_is_resumed_to_the_same_bits() {
+    for (name, case) in computations() {
+        let folder = folder_with(&case);
+        ok(&asperity(&folder, "run case.toml --out whole"));
+        let whole = bits(&folder.path().join("whole"));
+        let largest =
+            whole.iter().filter(|(name, _)| !name.starts_with("figures")).map(|(_, b)| b.len()).max();
+        let largest = largest.unwrap().div_ceil(1024);
+        for limit in [1, 2, largest / 2, largest - 1] {
+            let asperity_ = env!("CARGO_BIN_EXE_asperity");
+            let script = format!("ulimit -f {limit}; exec '{asperity_}' run case.toml --out out --quiet");
+            let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+            assert_eq!(output.status.code(), Some(1), "{name}, {limit} KiB: {}", stderr(&output));
+            assert!(stderr(&output).contains("File too large"), "{}", stderr(&output));
+            assert!(temporary(&folder.path().join("out")).is_empty());
+            ok(&asperity(&folder, "run case.toml --out out --resume"));
+            assert_same(&bits(&folder.path().join("out")), &whole, &format!("{name}, {limit} KiB"));
+            fs::remove_dir_all(folder.path().join("out")).unwrap();
+        }
+    }
+}
+
+/// The files of a results directory without the times in them.
+fn bits(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = contents(directory);
+    if let Some(table) = files.get_mut("passes.csv") {
+        let text = String::from_utf8(table.clone()).unwrap();
+        assert!(text.lines().next().unwrap().ends_with(",wall_time_s"));
+        let rows: Vec<_> = text.lines().map(|row| row.rsplit_once(',').unwrap().0).collect();
+        *table = rows.join("\n").into_bytes();
+    }
+    let summary = files.get_mut("summary.json").expect("a summary");
+    let mut value: Value = serde_json::from_slice(summary).unwrap();
+    value["wall_time_s"] = Value::Null;
+    for pass in value.get_mut("passes").and_then(Value::as_array_mut).into_iter().flatten() {
+        pass["wall_time_s"] = Value::Null;
+    }
+    *summary = serde_json::to_vec(&value).unwrap();
+    files
+}
+
+#[track_caller]
+fn assert_same(found: &BTreeMap<String, Vec<u8>>, expected: &BTreeMap<String, Vec<u8>>, when: &str) {
+    assert!(found.keys().eq(expected.keys()), "{when}: {:?}, expected {:?}", found.keys(), expected.keys());
+    let differ: Vec<_> =
+        found.iter().filter(|(name, bytes)| expected[*name] != **bytes).map(|(n, _)| n).collect();
+    assert!(differ.is_empty(), "{when}: {differ:?} differ");
+}
+
+// ---- helpers ---------------------------------------------------------------------------------------------
+
+/// Two rough steel surfaces of 16 × 16 cells that yield a little, with what follows.
+fn motion(passes: usize, tables: &str) -> String {
+    let body = |name: &str, seed: usize| {
+        format!(
+            "{name} = {{ young = \"210 GPa\", poisson = 0.3, hardness = \"4 GPa\", topography = {{ \
+             generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", \
+             seed = {seed} }} }}\n"
+        )
+    };
+    format!(
+        "{}{}contact = {{ load = \"20 mN\" }}\nmotion = {{ passes = {passes}, stride = 2 }}\n\
+         output = {{ pressure_every = 4 }}\n{tables}",
+        body("lower", 1),
+        body("upper", 2)
+    )
+}
+
+/// A ball on a plane, with what follows [contact].
+fn ball(tables: &str) -> String {
+    let steel = "young = \"210 GPa\"\npoisson = 0.3\ntopography = {";
+    format!(
+        "[lower]\n{steel} form = \"flat\", shape = [32, 32], pitch = \"1 um\" }}\n\
+         [upper]\n{steel} form = \"sphere\", radius = \"0.1 mm\", shape = [32, 32], pitch = \"1 um\" }}\n\
+         [contact]\nload = \"20 mN\"\n{tables}"
+    )
+}
+
+fn folder_with(case: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    folder
+}
+
+fn asperity(folder: &TempDir, arguments: &str) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+fn command(folder: &TempDir, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.current_dir(folder).args(arguments.split_whitespace());
+    command
+}
+
+fn spawn(folder: &TempDir, arguments: &str) -> Child {
+    command(folder, arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Waits until a running process has written `file`.
+fn wait_for(child: &mut Child, file: &Path) {
+    let began = Instant::now();
+    while !file.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote {}", file.display());
+        assert!(began.elapsed() < Duration::from_secs(120), "{} is not there", file.display());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[track_caller]
+fn ok(output: &Output) {
+    assert!(output.status.success(), "{:?}: {}", output.status, stderr(output));
+}
+
+/// What is on stderr after exit code 2, with nothing on stdout.
+#[track_caller]
+fn refused(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
+    assert!(output.stdout.is_empty());
+    stderr(output)
+}
+
+fn change(folder: &TempDir, from: &str, to: &str) {
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{from}");
+    fs::write(path, text.replace(from, to)).unwrap();
+}
+
+/// Every file beneath, by its path relative to `folder`.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { visit(&path, found) } else { found.push(path) }
+        }
+    }
+    let mut found = Vec::new();
+    visit(folder, &mut found);
+    let name = |path: &PathBuf| path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned();
+    found.iter().map(|path| (name(path), fs::read(path).unwrap())).collect()
+}
+
+fn files(folder: &Path) -> BTreeSet<String> {
+    contents(folder).into_keys().collect()
+}
+
+fn temporary(folder: &Path) -> Vec<String> {
+    files(folder).into_iter().filter(|name| name.contains(".asperity-")).collect()
+}
