@@ -42,7 +42,12 @@ pub fn demand(case: &Case, threads: usize) -> Result<Demand> {
     let surfaces = sizes.surfaces();
     let [solver, together, results] = sizes.memory();
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
-    let memory = PROGRAM + (surfaces.making).max(surfaces.kept + (solvers + results).max(together + solver));
+    let [program, working] = match case.motion {
+        // What a static contact leaves is written when its solver is gone.
+        None => [PROGRAM, solvers.max(results)],
+        Some(_) => [PROGRAM + ANIMATION, (solvers + results).max(together + solver)],
+    };
+    let memory = program + surfaces.making.max(surfaces.kept + working);
     let effort = sizes.effort(threads);
     Ok(Demand { surfaces: surfaces.making.max(surfaces.kept), solver, together, results, memory, effort })
 }
@@ -63,8 +68,10 @@ impl Demand {
     }
 }
 
-/// The program itself, and its libraries.
-const PROGRAM: f64 = 8e6;
+/// The program itself, its libraries and figures.
+const PROGRAM: f64 = 12e6;
+/// The pictures of the animation of a motion.
+const ANIMATION: f64 = 24e6;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
@@ -144,7 +151,8 @@ impl Sizes<'_> {
                 memory_together(&motion, case.contact.method, hardness, self.overlaps, self.lower.shape[1])
             })
             .unwrap_or(0.0);
-        let statics = if case.friction.is_some() { 13.0 } else { 6.0 };
+        // Each field as it is, and as it is written; the solution.
+        let statics = if case.friction.is_some() { 30.0 } else { 15.0 };
         let results = case.motion.map_or(statics * nx * ny, |_| {
             let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
             let kept = match case.output.pressure_every {
@@ -221,7 +229,7 @@ impl Sizes<'_> {
 // Each measured (docs/performance.md), in the unit of effort: some 17 to 25 convolutions, each with what the iteration
 // does besides.
 /// A normal contact, free, to 10⁻⁶.
-const SOLVE: f64 = 22.0;
+const SOLVE: f64 = 28.0;
 /// An increment with friction, of dissimilar bodies.
 const SHEAR: f64 = 450.0;
 /// The same of identical bodies, whose pressure is known without the shear.
