@@ -759,7 +759,7 @@ fn stopped_and_resumed(signal: &str, code: Option<i32>) {
 fn a_static_contact_is_interrupted_at_once() {
     let slow = BALL.replace("[32, 32]", "[512, 512]").replace(
         "load = \"20 mN\"",
-        "load = \"20 mN\"\nmethod = \"polonsky-keer\"\ntolerance = 1e-30\nboundary = \"free\"",
+        "load = \"20 mN\"\nmethod = \"polonsky-keer\"\ntolerance = 1e-15\nboundary = \"free\"",
     );
     let folder = folder_with("ball.toml", &slow);
     let mut child = spawn(&folder, "ball.toml --out out");
