@@ -431,7 +431,7 @@ fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bit
         eprintln!("not run: there is no strace");
         return;
     }
-    let stride = if kills() > 2 { 1 } else { 17 };
+    let stride = if kills() > 2 { 1 } else { 7 };
     for (name, case) in computations() {
         let folder = folder_with(&case);
         ok(&asperity(&folder, "run case.toml --out whole --quiet --threads 1"));
