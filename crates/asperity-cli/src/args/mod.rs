@@ -57,6 +57,7 @@ pub(crate) fn unparsed(error: &Error) -> Outcome {
 const LONGEST: usize = 2000;
 
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "there is one in a process")]
 pub(crate) enum Command {
     Run(Run),
     Check(Check),

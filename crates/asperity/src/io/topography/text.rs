@@ -4,7 +4,7 @@
 //!   It has no pitch. (Of a file whose lines run along x, take the transpose.)
 //! - A **table** (`xyz`) has three values in a line: x, y and height, all in metres. It is told from a matrix by its
 //!   x and y, which must form a regular grid of at least 2 × 2 points, in any order, each to a quarter of the pitch. It
-//!   has a pitch. Points that lack are missing heights, see [`raster`].
+//!   has a pitch. Points that lack are missing heights.
 //! - A line scan (x and height, or x, y and height along a line) and points on no grid are refused, where they can be told
 //!   from a matrix: by positions that are evenly spaced or in their order beside heights that are not.
 //! - Values are separated by semicolons, tabs, commas or white space, whichever the first line of values has.
