@@ -344,9 +344,13 @@ fn has_numbers_only(value: &serde_json::Value) -> bool {
 
 /// Errors that a case may end with: what it is, not what the program lacks.
 fn is_an_answer(error: &Error) -> bool {
+    if let Error::AtPosition { source, .. } = error {
+        return is_an_answer(source);
+    }
     matches!(
         error,
         Error::Case(_)
+            | Error::BeyondPass { .. }
             | Error::BeyondPlasticLimit { .. }
             | Error::BeyondFriction { .. }
             | Error::NotConverged { .. }
