@@ -19,7 +19,10 @@ use asperity::units::{Dimension, Metre, format};
 use asperity::{Field, Grid, solver};
 
 use crate::args::Paper;
-use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, MatrixFigure, Quantity, Series, Unit};
+use crate::draw::{
+    self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper as Sheet, Quantity, Series,
+    Unit,
+};
 use crate::figures::in_frame_of;
 use crate::report::{Outcome, note, print};
 
@@ -47,7 +50,7 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
     print(&matrix_sizes())?;
     let costs = Costs::measure(arguments.largest)?;
     print(&costs.table())?;
-    Ok(costs.draw(&at("cost.png"))?)
+    costs.draw(&at("cost.png"))
 }
 
 fn steel() -> asperity::Result<Material> {
@@ -64,22 +67,13 @@ fn pair(n: usize) -> asperity::Result<Pair> {
     Pair::new(surface(n, 12.0 * PITCH, 11)?, surface(n, 12.0 * PITCH, 12)?.underside(), [&steel, &steel])
 }
 
-fn map<'a>(
-    title: &str,
-    field: &'a Field,
-    grid: &'a Grid,
-    name: &str,
-    unit: Unit,
-    colours: Colours,
-) -> MapFigure<'a> {
-    MapFigure {
-        title: title.to_owned(),
-        field,
-        grid,
-        quantity: Quantity::new(name, unit),
-        colours,
-        range: None,
-    }
+fn map<'a>(title: &str, field: &'a Field, grid: &Grid, name: &str, unit: Unit, colours: Colours) -> Map<'a> {
+    Map::new(title, field, grid, Quantity::new(name, unit), colours)
+}
+
+fn save(path: &Path, title: &str, figure: &dyn Figure) -> Outcome {
+    let caption = Caption { title: title.to_owned(), of: String::new() };
+    Ok(draw::save(path, figure, &caption, &Sheet::default())?)
 }
 
 /// Figure 1: the same noise through circular low-pass filters of falling cut-off frequency.
@@ -87,7 +81,7 @@ fn low_pass_surfaces(path: &Path) -> Outcome {
     let cutoffs = [4.0, 8.0, 16.0, 32.0];
     let surfaces: Vec<Topography> =
         cutoffs.iter().map(|cells| surface(N, cells * PITCH, 7)).collect::<asperity::Result<_>>()?;
-    let maps: Vec<MapFigure> = surfaces
+    let maps: Vec<Map> = surfaces
         .iter()
         .zip(cutoffs)
         .map(|(surface, cells)| {
@@ -95,7 +89,7 @@ fn low_pass_surfaces(path: &Path) -> Outcome {
             map(&title, surface.heights(), surface.grid(), "height", Unit::Length, Colours::Heights)
         })
         .collect();
-    Ok(draw::maps(path, &maps, 2)?)
+    save(path, "low-pass surfaces of one noise", &Maps::new(maps))
 }
 
 /// Figure 2: the two surfaces that meet, and the gap between them where all faces all.
@@ -104,27 +98,22 @@ fn two_surfaces(pair: &Pair, path: &Path) -> Outcome {
     let gap = &pair.upper - &pair.lower;
     let gap = &gap - gap.iter().copied().fold(f64::INFINITY, f64::min);
     let heights = |title, field| map(title, field, &grid, "height", Unit::Length, Colours::Heights);
-    let maps = [
+    let maps = vec![
         heights("lower surface", &pair.lower),
         heights("upper surface, underside", &pair.upper),
         map("gap at first touch", &gap, &grid, "gap", Unit::Length, Colours::Heights),
     ];
-    Ok(draw::maps(path, &maps, 3)?)
+    save(path, "two surfaces and the gap between them", &Maps::new(maps))
 }
 
 /// Figure 8: the influence matrix of an overlap is the leading block of the full one.
 fn influence_matrices(pair: &Pair, path: &Path) -> Outcome {
     let side = 12;
     let matrix = influence_matrix([side; 2], pair.pitch(), pair.modulus());
-    let figure = MatrixFigure {
-        title: format!(
-            "influence matrix of {side} × {side} cells; an overlap of n columns is its first {side}·n rows"
-        ),
-        matrix: &matrix,
-        quantity: Quantity::new("influence", Unit::Of("m/Pa")),
-        nodes: ["displaced cell".to_owned(), "loaded cell".to_owned()],
-    };
-    Ok(draw::matrix(path, &figure)?)
+    let quantity = Quantity::new("influence", Unit::Of("m/Pa"));
+    let map = Map::matrix("", &matrix, ["displaced cell", "loaded cell"], quantity);
+    let map = map.with_block(side, format!("the first overlap: {side} × {side}"));
+    save(path, &format!("influence matrix of {side} × {side} cells"), &Maps::new(vec![map]))
 }
 
 /// What figures 9 and 10 show of a pass.
@@ -166,17 +155,17 @@ fn pressures(pair: &Pair, passes: &[Kept], path: &Path) -> Outcome {
         .iter()
         .map(|contact| in_frame_of(&contact.pressure_field(N), contact.position.lower, grid))
         .collect();
-    let maps: Vec<MapFigure> = shown
+    let maps: Vec<Map> = shown
         .iter()
         .zip(&fields)
         .map(|(contact, field)| {
             let load = format(contact.load, Dimension::Force);
             let title = format!("position {}: {load}", contact.position.offset + N as isize);
             let map = map(&title, field, &grid, "pressure", Unit::Pressure, Colours::Pressure);
-            MapFigure { range: Some([0.0, largest]), ..map }
+            map.range([0.0, largest])
         })
         .collect();
-    Ok(draw::maps(path, &maps, 3)?)
+    save(path, "pressure on the lower surface", &Maps::new(maps))
 }
 
 /// Figure 10: plastic deformation of both surfaces after the first and after the last pass.
@@ -193,14 +182,14 @@ fn plastic_deformation(initial: &Pair, passes: &[Kept], path: &Path) -> Outcome 
         })
         .collect();
     let largest = depths.iter().flat_map(|(_, d)| d.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
-    let maps: Vec<MapFigure> = depths
+    let maps: Vec<Map> = depths
         .iter()
         .map(|(title, depth)| {
             let map = map(title, depth, &grid, "plastic depth", Unit::Length, Colours::Pressure);
-            MapFigure { range: Some([0.0, largest]), ..map }
+            map.range([0.0, largest])
         })
         .collect();
-    Ok(draw::maps(path, &maps, 2)?)
+    save(path, "plastic deformation", &Maps::new(maps))
 }
 
 /// How the influence matrix grows and shrinks over a pass.
@@ -258,7 +247,7 @@ impl Costs {
         text + "theory, work ∝ columns^q: q + 1, that is 4 for dense factorisations, 2 for FFT\n"
     }
 
-    fn draw(&self, path: &Path) -> Result<(), draw::Error> {
+    fn draw(&self, path: &Path) -> Outcome {
         let series = |method: &str, name: &str, value: fn(&Cost) -> f64| {
             let costs = self.0.iter().filter(|cost| cost.method == method);
             Series::new(
@@ -267,19 +256,15 @@ impl Costs {
                 Mark::LineAndPoints,
             )
         };
-        let figure = LineFigure {
-            title: "cost of a position, mean over a pass".to_owned(),
-            x: Axis::log("cells along a side", Unit::Number),
-            y: Axis::log("time", Unit::Time),
-            right: None,
-            series: vec![
-                series("dense", "shift", |c| c.shift),
-                series("dense", "sub-matrices", |c| c.overlap),
-                series("FFT", "shift", |c| c.shift),
-                series("FFT", "sub-matrices", |c| c.overlap),
-            ],
-        };
-        draw::lines(path, &figure)
+        let series = vec![
+            series("dense", "shift", |c| c.shift),
+            series("dense", "sub-matrices", |c| c.overlap),
+            series("FFT", "shift", |c| c.shift),
+            series("FFT", "sub-matrices", |c| c.overlap),
+        ];
+        let x = Axis::log("cells along a side", Unit::Number);
+        let chart = Chart::new("", x, Axis::log("time", Unit::Time), series);
+        save(path, "cost of a position, mean over a pass", &Charts::from(chart))
     }
 }
 

@@ -3,11 +3,18 @@
 use asperity::io::results::Results;
 
 use crate::args::Plot;
-use crate::figures;
-use crate::report::{Outcome, print};
+use crate::figures::{self, Wanted};
+use crate::report::{Failure, Outcome, print};
 
 /// Draws the figures and prints their paths.
 pub(crate) fn plot(arguments: &Plot) -> Outcome {
-    let drawn = figures::draw(&Results::open(&arguments.directory)?, &|| false)?;
+    let Plot { directory, only, drawing } = arguments;
+    let paper = drawing.paper();
+    if paper.range.is_some() && only.is_empty() {
+        let hint = Some("name the figure whose range it is: --only pressure");
+        return Err(Failure::usage("--range without --only", hint));
+    }
+    let wanted = Wanted { paper, only: only.clone() };
+    let drawn = figures::draw(&Results::open(directory)?, &wanted, &|| false)?;
     print(&drawn.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -47,11 +47,13 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         note(&format!("warning: {}", clipped(warning)));
     }
     let printed = print(&table(&summary));
-    figures::draw(writer.results(), &|| stop.asked()).map_err(|failure| match failure {
-        Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
-            Failure::FiguresInterrupted { directory: directory.clone() }
+    figures::draw(writer.results(), &figures::Wanted::default(), &|| stop.asked()).map_err(|failure| {
+        match failure {
+            Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
+                Failure::FiguresInterrupted { directory: directory.clone() }
+            }
+            other => other,
         }
-        other => other,
     })?;
     note(&format!("results and figures in {}", directory.display()));
     printed

@@ -244,6 +244,7 @@ fn a_topography_is_drawn_with_its_curves() {
     let figures = folder.path().join("figures");
     for name in [
         "heights",
+        "relief",
         "hills",
         "bearing",
         "height-distribution",

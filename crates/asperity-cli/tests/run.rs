@@ -42,9 +42,14 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
         "contact_area.png",
         "load.png",
         "mean_pressure.png",
+        "parameters.png",
         "plastic.png",
         "pressure.gif",
         "pressure.png",
+        "pressure_histogram.png",
+        "profile.png",
+        "relief_lower.png",
+        "relief_upper.png",
         "roughness.png",
         "topographies.png",
     ];
@@ -63,8 +68,17 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
     let output = run(&folder, "ball.toml --out results/of/ball");
     let table = ok(&output);
     assert!(table.starts_with("load              20 mN\nmean pressure     19.53 MPa\napproach  "), "{table}");
-    let figures = ["contact.png", "gap.png", "plastic.png", "pressure.png", "topographies.png"];
-    let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
+    let figures = [
+        "contact",
+        "gap",
+        "plastic",
+        "pressure",
+        "pressure_histogram",
+        "profile",
+        "relief_upper",
+        "topographies",
+    ];
+    let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
     expected.extend([".lock", "case.json", "fields.h5", "summary.json"].map(str::to_owned));
     assert_eq!(files(&folder.path().join("results/of/ball")), expected);
 }
@@ -97,6 +111,43 @@ fn the_stress_is_written_and_drawn_where_it_is_wanted_and_replaced_with_the_rest
         assert!(left.contains(name), "{left:?}");
     }
     assert!(!left.contains("subsurface.h5"), "{left:?}");
+}
+
+#[test]
+fn plot_draws_what_is_asked_for_in_the_format_and_width_of_a_page() {
+    let folder = folder_with("ball.toml", BALL);
+    ok(&run(&folder, "ball.toml --out out"));
+    let figures = folder.path().join("out/figures");
+    fs::remove_dir_all(&figures).unwrap();
+    let drawn = ok(&asperity(
+        &folder,
+        "plot out --only gap --only pressure --format pdf --width 85mm --range 0,2GPa",
+    ));
+    assert_eq!(
+        drawn,
+        "out/figures/pressure.pdf
+out/figures/gap.pdf
+"
+    );
+    assert_eq!(files(&figures), set(["gap.pdf", "pressure.pdf"]));
+    let bytes = fs::read(figures.join("gap.pdf")).unwrap();
+    // 85 mm are 240.94 pt.
+    let page = String::from_utf8_lossy(&bytes);
+    assert!(page.contains("/MediaBox [0 0 240.94"), "{}", &page[..400]);
+    ok(&asperity(&folder, "plot out --only pressure --format svg"));
+    let svg = fs::read_to_string(figures.join("pressure.svg")).unwrap();
+    assert!(svg.contains(">pressure (GPa)</text>") && svg.contains("load 20 mN</text>"), "{svg:.600}");
+
+    let error = refused(&asperity(&folder, "plot out --only presure"));
+    assert!(
+        error.contains("no figure `presure`") && error.contains("hint: there are topographies, "),
+        "{error}"
+    );
+    let error = refused(&asperity(&folder, "plot out --range 0,1GPa"));
+    assert!(error.contains("--range without --only"), "{error}");
+    for bad in ["--dpi 0", "--width 1um", "--only gap --range 1GPa,0", "--format bmp"] {
+        refused(&asperity(&folder, &format!("plot out {bad}")));
+    }
 }
 
 #[test]
@@ -292,7 +343,18 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
         "{table}"
     );
     let out = folder.path().join("out");
-    let names = ["contact", "gap", "loading", "pressure", "shear", "topographies"];
+    let names = [
+        "contact",
+        "gap",
+        "loading",
+        "pressure",
+        "pressure_histogram",
+        "profile",
+        "relief_upper",
+        "shear",
+        "slip",
+        "topographies",
+    ];
     let mut expected: BTreeSet<String> = names.map(|name| format!("figures/{name}.png")).into();
     expected.extend([".lock", "case.json", "fields.h5", "increments.csv", "summary.json"].map(str::to_owned));
     assert_eq!(files(&out), expected);

@@ -166,3 +166,50 @@ fn it_does_not_depend_on_the_number_of_threads() {
     });
     assert!(files[0] == files[1]);
 }
+
+/// The numbers of the last array of a `.vti` file.
+fn last_array(path: &Path) -> Vec<f32> {
+    let bytes = std::fs::read(path).unwrap();
+    let text = String::from_utf8_lossy(&bytes);
+    let offset: usize = text.rsplit("offset=\"").next().unwrap().split('"').next().unwrap().parse().unwrap();
+    let begin = bytes.windows(8).position(|w| w == b"\"raw\">\n_").unwrap() + 8 + offset;
+    let length = u64::from_le_bytes(bytes[begin..begin + 8].try_into().unwrap()) as usize;
+    let numbers = &bytes[begin + 8..begin + 8 + length];
+    numbers.chunks_exact(4).map(|number| f32::from_le_bytes(number.try_into().unwrap())).collect()
+}
+
+#[test]
+fn paraview_gets_every_field_and_the_stress_as_a_volume() {
+    let directory = tempfile::tempdir().unwrap();
+    let case = MOVING.replace("pressure_every = 4", "pressure_every = 4, paraview = true");
+    // The plane is the third of nine.
+    let wanted = "to = \"4 um\"\nlayers = 8\nplanes = [\"1 um\"]";
+    let summary = run(&case, wanted, directory.path(), Existing::Keep);
+    let results = Results::open(directory.path()).unwrap();
+    let file = |name: &str| directory.path().join("fields").join(name);
+    for (pass, record) in summary.subsurface.iter().enumerate() {
+        let stress = last_array(&file(&format!("subsurface-{:04}.vti", pass + 1)));
+        assert_eq!(stress.len(), 32 * 32 * 9);
+        let most = f64::from(stress.iter().copied().fold(0.0, f32::max));
+        // Between the planes it is a little larger.
+        assert!((0.98..1.0 + 1e-6).contains(&(most / record.max_von_mises)), "{most:e}, {record:?}");
+        let plane = results.subsurface_fields(Some(pass + 1)).unwrap().read("von_mises_01").unwrap();
+        for ((ix, iy), value) in plane.into_field().unwrap().indexed_iter() {
+            assert_eq!(stress[(6 * 32 + iy) * 32 + ix], *value as f32);
+        }
+    }
+    let sq = |name: &str| {
+        let heights: Vec<f64> = last_array(&file(name)).into_iter().map(f64::from).collect();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        (heights.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / heights.len() as f64).sqrt()
+    };
+    assert!((sq("initial.vti") / 35e-9 - 1.0).abs() < 1e-6);
+
+    // What is missing is written again, what is there stays.
+    let before = std::fs::read(file("pass-0002.vti")).unwrap();
+    std::fs::remove_file(file("pass-0002.vti")).unwrap();
+    run(&case, wanted, directory.path(), Existing::Resume);
+    assert!(std::fs::read(file("pass-0002.vti")).unwrap() == before);
+    run(MOVING, wanted, directory.path(), Existing::Overwrite);
+    assert!(!file("pass-0002.vti").exists() && !file("subsurface-0001.vti").exists());
+}

@@ -1,5 +1,6 @@
 //! The arguments of every command.
 
+mod drawing;
 mod generate;
 mod preparation;
 mod surface;
@@ -11,8 +12,9 @@ use clap::error::Error;
 use clap::{Args, Parser, Subcommand};
 
 use crate::report::{Failure, Outcome, written};
-pub(crate) use generate::{Generate, Recipe};
 
+pub(crate) use drawing::Drawing;
+pub(crate) use generate::{Generate, Recipe};
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
 
 /// Contact of two rough surfaces that press together and move
@@ -105,11 +107,22 @@ pub(crate) struct Run {
 }
 
 /// Draw the figures of a results directory again
+///
+/// All of them, or those of --only, into DIR/figures. Widths suit a page of two columns: 85mm and 170mm are common.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  asperity plot results --format pdf\n  asperity plot results --only pressure --range 0,2GPa \
+--width 85mm"
+)]
 pub(crate) struct Plot {
     /// Results directory
     #[arg(value_name = "DIR")]
     pub(crate) directory: PathBuf,
+    /// Name of a figure, as pressure; may be given several times, and is needed by --range
+    #[arg(long, value_name = "NAME")]
+    pub(crate) only: Vec<String>,
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
 }
 
 /// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost

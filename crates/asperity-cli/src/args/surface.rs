@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::drawing::Drawing;
 use super::generate::Generate;
 use super::preparation::Preparing;
 use super::values::{Pair, lengths, positive_length};
@@ -36,7 +37,7 @@ pub(crate) struct Info {
 
 /// Draw a topography, its material ratio curve, distributions, spectrum, autocorrelation and hills
 ///
-/// The figures (png) go into DIR, the curves as numbers in SI into curves.json beside them.
+/// The figures go into DIR, the curves as numbers in SI into curves.json beside them.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface plot disc.sur --level plane --out disc")]
 pub(crate) struct PlotSurface {
@@ -46,6 +47,8 @@ pub(crate) struct PlotSurface {
     /// Replace the figures that are there
     #[arg(long)]
     pub(crate) overwrite: bool,
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
     #[command(flatten)]
     pub(crate) input: Input,
 }

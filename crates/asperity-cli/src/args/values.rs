@@ -79,6 +79,18 @@ pub(super) fn resample(text: &str) -> Result<Resample, String> {
     }
 }
 
+/// Two quantities of any one kind, the first below the second.
+pub(super) fn range(text: &str) -> Result<Pair, String> {
+    const EXPECTED: &str = "two quantities with a comma between, the lower first, such as 0,2GPa";
+    const KINDS: [Dimension; 3] = [Dimension::Length, Dimension::Pressure, Dimension::Force];
+    let read = |text: &str| KINDS.iter().find_map(|kind| units::parse(text.trim(), *kind).ok());
+    let [low, high] = match text.split(',').map(read).collect::<Vec<_>>()[..] {
+        [Some(low), Some(high)] => [low, high],
+        _ => return Err(format!("expected {EXPECTED}")),
+    };
+    if low < high { Ok(Pair([low, high])) } else { Err(format!("expected {EXPECTED}")) }
+}
+
 /// A number above 0.
 pub(super) fn factor(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor: &f64| NUMBERS.holds(*factor));
@@ -140,6 +152,9 @@ mod tests {
         }
         assert_eq!(resample("256x128"), Ok(Resample::Shape([256, 128])));
         assert_eq!(resample("0.5um,1um"), Ok(Resample::Pitch([0.5e-6, 1e-6])));
+        assert_eq!(range("-20nm, 0.1um").unwrap().0, [-20e-9, 0.1e-6]);
+        assert_eq!(range("0,2GPa").unwrap().0, [0.0, 2e9]);
+        assert!(range("2GPa,0").is_err() && range("1").is_err() && range("1 furlong,2").is_err());
         assert!(resample("0x4").is_err() && resample("4x4um").is_err());
         assert!(lengths("8um,inf").is_err() && lengths("1um,2um,3um").is_err() && lengths("0").is_err());
     }

@@ -1,92 +1,43 @@
-//! A field that changes, as an endless GIF.
+//! A figure that changes, as an endless GIF.
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use asperity::grid::{Field, Grid};
+use rayon::prelude::*;
 
-use super::axis::Quantity;
-use super::canvas::{Canvas, INK, PAPER, Rgb, mix};
-use super::map::{Colours, MISSING, MapFigure, Picture, Shading, heading, sheet_of_width};
+use super::colour::{Colours, Image, MISSING, Rgb, Shading, mix};
+use super::output::pixels;
+use super::scene::{INK, PAPER, Scene};
 use super::{Result, at, invalid, write};
 
-/// What all frames have in common.
-#[derive(Debug, Clone)]
-pub(crate) struct Animation<'a> {
-    /// The common frame, such as the grid of the lower body.
-    pub(crate) grid: &'a Grid,
-    /// What the fields hold.
-    pub(crate) quantity: Quantity,
-    /// The colours.
-    pub(crate) colours: Colours,
-    /// Values at the ends of the colour bar, SI: the same for all frames.
-    pub(crate) range: [f64; 2],
-    /// Time that a frame is shown, hundredths of a second.
-    pub(crate) delay: u16,
-}
-
-/// One frame.
-#[derive(Debug, Clone)]
-pub(crate) struct Frame<'a> {
-    /// Stands above the frame, such as "pass 2, position 17 of 96".
-    pub(crate) title: String,
-    /// The field on the common frame; what is not defined is grey.
-    pub(crate) field: &'a Field,
-}
-
-/// Width of the map, px.
-const WIDTH: f64 = 360.0;
-/// Height of the part above the map that holds the title, px.
-const STRIP: i32 = 32;
+/// Dots per inch: a sheet of 110 mm has about 480 pixels.
+const DPI: f64 = 110.0;
 /// Index of the colour that leaves the frame before as it is.
 const UNCHANGED: u8 = 255;
 
-/// Draws `frames` one after the other into the GIF file `path`; fields are taken when their turn comes.
-pub(crate) fn animation<'f>(
-    path: &Path,
-    figure: &Animation,
-    frames: impl IntoIterator<Item = Frame<'f>>,
-) -> Result<()> {
-    let shape = figure.grid.shape;
-    let background = Field::from_elem(shape, f64::NAN);
-    let still = MapFigure {
-        // Room for a title of one line.
-        title: " ".to_owned(),
-        field: &background,
-        grid: figure.grid,
-        quantity: figure.quantity.clone(),
-        colours: figure.colours,
-        range: Some(figure.range),
-    };
-    let picture = Picture::of(path, &still)?;
-    let shading = picture.shading;
-    let sheet = sheet_of_width(&[picture], 1, false, WIDTH);
-    let base = sheet.canvas.reduced();
-    let mut colours = Palette::new(&shading);
-
-    let (width, height) = (base.width as u16, base.height as u16);
+/// Shows `frames` one after the other, each for `delay` hundredths of a second, in the GIF file `path`. The frames differ
+/// in a map of `colours` only, and are of one size.
+pub(crate) fn animation(path: &Path, frames: &[Scene], colours: Colours, delay: u16) -> Result<()> {
+    // The palette needs no values, only colours.
+    let mut palette = Palette::new(&Shading { range: [0.0, 1.0], colours });
     let io = |e: gif::EncodingError| at(path)(std::io::Error::other(e));
-    let mut encoder = gif::Encoder::new(Vec::new(), width, height, colours.rgb.as_flattened()).map_err(io)?;
+    let images: Vec<Image> = frames
+        .par_iter()
+        .map(|frame| pixels(frame, DPI))
+        .collect::<std::io::Result<_>>()
+        .map_err(at(path))?;
+    let Some(first) = images.first() else { return Err(invalid(path, "no frame to draw".to_owned())) };
+    let (width, height) = (first.width as u16, first.height as u16);
+    let mut encoder = gif::Encoder::new(Vec::new(), width, height, palette.rgb.as_flattened()).map_err(io)?;
     encoder.set_repeat(gif::Repeat::Infinite).map_err(io)?;
     let mut before: Option<Vec<u8>> = None;
-    for frame in frames {
-        if frame.field.shape() != shape {
-            let found = frame.field.shape();
-            return Err(invalid(path, format!("a field of shape {found:?} in a frame of shape {shape:?}")));
+    for image in &images {
+        if (image.width, image.height) != (first.width, first.height) {
+            return Err(invalid(path, "frames of different sizes".to_owned()));
         }
-        let mut image = base.clone();
-        let map = shading.image(frame.field.view(), sheet.map.width as usize, sheet.map.height as usize);
-        image.paste(&map, sheet.map.x as usize, sheet.map.y as usize);
-        let mut strip = Canvas::new(image.width as i32, STRIP);
-        heading(&mut strip, &frame.title, sheet.title, image.width as f64);
-        image.paste(&strip.reduced(), 0, 0);
-
-        let indices: Vec<u8> = image.pixels.iter().map(|colour| colours.nearest(*colour)).collect();
-        encoder.write_frame(&change(&indices, before.as_deref(), width, height, figure.delay)).map_err(io)?;
+        let indices: Vec<u8> = image.pixels.iter().map(|colour| palette.nearest(*colour)).collect();
+        encoder.write_frame(&change(&indices, before.as_deref(), width, height, delay)).map_err(io)?;
         before = Some(indices);
-    }
-    if before.is_none() {
-        return Err(invalid(path, "no frame to draw".to_owned()));
     }
     write(path, &encoder.into_inner().map_err(io)?)
 }

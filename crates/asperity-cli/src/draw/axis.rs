@@ -1,14 +1,6 @@
 //! Units that suit a range, and ticks at round numbers.
 
-use std::ops::Range;
-
-use plotters::coord::Shift;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, DrawingArea, IntoFont, TextStyle};
-use plotters::style::{Color, RGBColor, ShapeStyle};
-
-use super::canvas::{FINE, INK, Pen, Rect, SMALL, width_of};
+use super::text::{SMALL, width_of};
 
 /// What numbers measure; they are in SI and are shown in a multiple that suits them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +21,8 @@ pub(crate) enum Unit {
     Wavenumber,
     /// A pure number.
     Number,
+    /// A pure number that is whole, such as a pass.
+    Count,
     /// A unit without multiples, such as "m/Pa".
     Of(&'static str),
 }
@@ -62,8 +56,7 @@ impl Unit {
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
             Self::Wavenumber => (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0),
-            Self::Number => (&[(1.0, "")], 1.0),
-            Self::Of(_) => (&[(1.0, "")], 1.0),
+            Self::Number | Self::Count | Self::Of(_) => (&[(1.0, "")], 1.0),
         }
     }
 
@@ -98,11 +91,13 @@ impl Unit {
 /// An axis: the range it shows, in the unit it shows (or the decimal logarithm), and its ticks.
 #[derive(Debug, Clone)]
 pub(super) struct Scale {
-    pub(super) low: f64,
-    pub(super) high: f64,
+    /// Where ticks stand, from 0 at the low to 1 at the high end, with their labels.
     pub(super) ticks: Vec<(f64, String)>,
+    /// Where lines of the mesh without labels stand.
     pub(super) minor: Vec<f64>,
     pub(super) symbol: String,
+    low: f64,
+    high: f64,
     factor: f64,
     log: bool,
 }
@@ -112,7 +107,8 @@ impl Scale {
     pub(super) fn linear(range: [f64; 2], magnitude: f64, unit: Unit, most: usize) -> Self {
         let (factor, symbol) = unit.shown(magnitude);
         let [low, high] = range.map(|v| v / factor);
-        let step = round_step((high - low) / most.max(1) as f64);
+        let least = if unit == Unit::Count { 1.0 } else { 0.0 };
+        let step = round_step((high - low) / most.max(1) as f64).max(least);
         let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
         let slack = (high - low) * 1e-9;
         let first = ((low - slack) / step).ceil() as i64;
@@ -120,19 +116,23 @@ impl Scale {
         let ticks = (first..=last)
             .map(|i| {
                 let label = format!("{:.decimals$}", i as f64 * step);
-                (i as f64 * step, label.replace('-', "−"))
+                ((i as f64 * step - low) / (high - low), label.replace('-', "−"))
             })
             .collect();
         // One tick tells no scale.
-        if first == last && most < 8 {
+        if first == last && most < 8 && least == 0.0 {
             return Self::linear(range, magnitude, unit, most + 1);
         }
-        Self { low, high, ticks, minor: Vec::new(), symbol, factor, log: false }
+        Self { ticks, minor: Vec::new(), symbol, low, high, factor, log: false }
     }
 
     /// A logarithmic axis over `range` (SI, positive), with about `most` ticks.
     pub(super) fn logarithmic(range: [f64; 2], unit: Unit, most: usize) -> Self {
-        let [low, high] = range.map(f64::log10);
+        let (factor, symbol) = match unit {
+            Unit::Number | Unit::Count | Unit::Of(_) => (1.0, unit.base().to_owned()),
+            _ => unit.shown((range[0] * range[1]).sqrt()),
+        };
+        let [low, high] = range.map(|v| (v / factor).log10());
         let [first, last] = [(low - 1e-9).ceil() as i32, (high + 1e-9).floor() as i32];
         let inside = |v: &f64| (low - 1e-9..=high + 1e-9).contains(v);
         let plain = low >= -2.5 && high <= 4.5;
@@ -151,31 +151,23 @@ impl Scale {
             0..=2 if decades * 3 <= most.max(3) => &[1, 2, 5],
             _ => &[1],
         };
+        let share = |position: f64| (position - low) / (high - low);
         let ticks = (first - 1..=last)
             .filter(|e| mantissas.len() > 1 || (e - first) % stride == 0)
             .flat_map(|e| mantissas.iter().map(move |&m| (e, m)))
             .map(|(e, m)| (at(e, m), label(e, m)))
             .filter(|(position, _)| inside(position))
+            .map(|(position, label)| (share(position), label))
             .collect();
-        let minor = (first - 1..=last).flat_map(|e| (1..10).map(move |m| at(e, m))).filter(inside).collect();
-        Self { low, high, ticks, minor, symbol: unit.base().to_owned(), factor: 1.0, log: true }
+        let minor = (first - 1..=last).flat_map(|e| (1..10).map(move |m| at(e, m))).filter(inside);
+        Self { ticks, minor: minor.map(share).collect(), symbol, low, high, factor, log: true }
     }
 
-    /// Where `value` (SI) lies on the axis; `None` if the axis cannot show it.
-    pub(super) fn position(&self, value: f64) -> Option<f64> {
-        let position = if self.log { value.log10() } else { value / self.factor };
-        position.is_finite().then_some(position)
-    }
-
-    /// The same, within the axis's ends.
-    pub(super) fn inside(&self, value: f64) -> Option<f64> {
-        let slack = 1e-9 * (self.high - self.low);
-        self.position(value).filter(|p| (self.low - slack..=self.high + slack).contains(p))
-    }
-
-    /// The axis without ticks.
-    pub(super) fn bare(&self) -> Self {
-        Self { ticks: Vec::new(), minor: Vec::new(), ..self.clone() }
+    /// Where `value` (SI) lies on the axis, from 0 at its low to 1 at its high end and beyond; `None` if the axis cannot
+    /// show it.
+    pub(super) fn share(&self, value: f64) -> Option<f64> {
+        let position = if self.log { (value / self.factor).log10() } else { value / self.factor };
+        Some((position - self.low) / (self.high - self.low)).filter(|share| share.is_finite())
     }
 
     /// `name (unit)`.
@@ -183,56 +175,9 @@ impl Scale {
         if self.symbol.is_empty() { name.to_owned() } else { format!("{name} ({})", self.symbol) }
     }
 
-    /// Width of the widest tick label, px.
+    /// Width of the widest tick label, pt.
     pub(super) fn width(&self) -> f64 {
         self.ticks.iter().map(|(_, label)| width_of(label, SMALL)).fold(0.0, f64::max)
-    }
-
-    pub(super) fn coordinate(&self) -> Coordinate {
-        Coordinate { scale: self.clone(), line: RangedCoordf64::from(self.low..self.high) }
-    }
-
-    /// The axis with its low end at the top.
-    pub(super) fn reversed(&self) -> Coordinate {
-        Coordinate { scale: self.clone(), line: RangedCoordf64::from(self.high..self.low) }
-    }
-}
-
-/// The axis as plotters sees it: our ticks are its key points, the minor ones its light points.
-pub(super) struct Coordinate {
-    scale: Scale,
-    line: RangedCoordf64,
-}
-
-impl Ranged for Coordinate {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        self.line.map(value, limit)
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if hint.weight().allow_light_points() {
-            self.scale.minor.clone()
-        } else {
-            self.scale.ticks.iter().map(|tick| tick.0).collect()
-        }
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.line.range()
-    }
-}
-
-impl ValueFormatter<f64> for Coordinate {
-    fn format(position: &f64) -> String {
-        position.to_string()
-    }
-
-    fn format_ext(&self, position: &f64) -> String {
-        let tick = self.scale.ticks.iter().find(|tick| tick.0 == *position);
-        tick.map_or(String::new(), |tick| tick.1.clone())
     }
 }
 
@@ -254,60 +199,6 @@ pub(super) fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 pub(super) fn extremes(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let finite = values.into_iter().filter(|v| v.is_finite());
     finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
-}
-
-pub(super) type Area<'a> = DrawingArea<Pen<'a>, Shift>;
-pub(super) type Chart<'a> = ChartContext<'a, Pen<'a>, Cartesian2d<Coordinate, Coordinate>>;
-
-/// Draws the axes with ticks and labels, and no mesh.
-pub(super) fn bare_axes(chart: &mut Chart<'_>) {
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .axis_style(axis_style())
-        .label_style(tick_style())
-        .set_all_tick_mark_size(TICK)
-        .draw()
-        .expect(SOUND);
-}
-
-/// A chart whose plotting rectangle is `at`; the label areas reach to the edges of the sheet where there are labels.
-pub(super) fn chart<'a>(area: &Area<'a>, at: Rect, [x, y]: [Coordinate; 2], labels: Labels) -> Chart<'a> {
-    let (width, height) = area.dim_in_pixel();
-    let right = width as i32 - (at.x + at.width) * FINE;
-    let bottom = height as i32 - (at.y + at.height) * FINE;
-    let mut builder = ChartBuilder::on(area);
-    builder.margin_top(at.y * FINE).x_label_area_size(bottom);
-    match labels {
-        Labels::Left => builder.y_label_area_size(at.x * FINE).margin_right(right),
-        Labels::Right => builder.margin_left(at.x * FINE).right_y_label_area_size(right),
-    };
-    builder.build_cartesian_2d(x, y).expect(SOUND)
-}
-
-/// The side on which y is labelled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Labels {
-    Left,
-    Right,
-}
-
-/// Why drawing cannot fail.
-pub(super) const SOUND: &str = "the canvas accepts everything";
-
-/// Length of a tick, fine px.
-pub(super) const TICK: i32 = 4 * FINE;
-
-pub(super) fn tick_style() -> TextStyle<'static> {
-    ("sans-serif", SMALL * f64::from(FINE)).into_font().color(&colour(INK))
-}
-
-pub(super) fn axis_style() -> ShapeStyle {
-    colour(INK).stroke_width(FINE as u32)
-}
-
-pub(super) fn colour([r, g, b]: super::canvas::Rgb) -> RGBColor {
-    RGBColor(r, g, b)
 }
 
 /// 1, 2 or 5 times a power of ten, at least `least`.

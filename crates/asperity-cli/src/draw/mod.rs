@@ -1,27 +1,41 @@
-//! Figures: maps of fields, curves, matrices, animations.
+//! Figures: maps of fields, curves, reliefs, matrices, animations.
 //!
-//! A figure is a value; a function draws it into a file. Lengths, pressures and all else come in SI and are
-//! shown in the unit that suits them. A field is indexed `[ix, iy]`, x to the right, y up. Undefined (NaN) cells
-//! are light grey. The same figure gives the same bytes on every machine: the font is part of the program.
+//! A figure is a value; it draws itself as a [`Scene`] of shapes, images and text, which becomes a PNG, SVG or PDF file.
+//! Lengths, pressures and all else come in SI and are shown in the unit that suits them. A field is indexed `[ix, iy]`,
+//! x to the right, y up. Undefined (NaN) cells are light grey. The same figure gives the same bytes on every machine: the
+//! font is part of the program.
 
 mod animation;
 mod axis;
-mod canvas;
-mod lines;
+mod chart;
+mod colour;
+mod frame;
+mod legend;
 mod map;
+mod output;
+mod pdf;
+mod raster;
+mod relief;
+mod scene;
+mod sheet;
+mod svg;
 #[cfg(test)]
 mod tests;
+mod text;
 
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub(crate) use animation::{Animation, Frame, animation};
+pub(crate) use animation::animation;
 pub(crate) use axis::{Quantity, Unit};
-pub(crate) use lines::{Axis, LineFigure, Mark, Series, lines};
-pub(crate) use map::{
-    Colours, MapFigure, MatrixFigure, PlaneFigure, SectionFigure, map, maps, matrix, plane, section,
-};
+pub(crate) use chart::{Axis, Chart, Charts, Mark, Series};
+pub(crate) use colour::Colours;
+pub(crate) use map::Map;
+pub(crate) use output::{Caption, Figure, Format, Paper, captioned, save, write as write_scene};
+pub(crate) use relief::Relief;
+pub(crate) use scene::Scene;
+pub(crate) use sheet::{Maps, heights, range_of_heights};
 
 /// A figure that could not be drawn, or not be written.
 #[derive(Debug)]

@@ -1,34 +1,12 @@
 //! Each kind of figure, drawn from made-up data, read back, and looked at in places.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use asperity::grid::{Field, Grid};
 use ndarray::Array2;
+use tempfile::TempDir;
 
-use super::axis::Scale;
 use super::*;
-
-/// Where figures go: a folder that is removed, or `ASPERITY_FIGURES` for eyes.
-struct Folder {
-    path: PathBuf,
-    _removed_at_the_end: Option<tempfile::TempDir>,
-}
-
-impl Folder {
-    fn new() -> Self {
-        match std::env::var_os("ASPERITY_FIGURES") {
-            Some(path) => Self { path: path.into(), _removed_at_the_end: None },
-            None => {
-                let folder = tempfile::tempdir().unwrap();
-                Self { path: folder.path().to_owned(), _removed_at_the_end: Some(folder) }
-            }
-        }
-    }
-
-    fn file(&self, name: &str) -> PathBuf {
-        self.path.join(name)
-    }
-}
 
 struct Picture {
     size: [usize; 2],
@@ -103,357 +81,453 @@ fn spots(nx: usize, ny: usize, phase: f64, hardness: f64) -> Field {
     bumps(nx, ny, phase).mapv(|h| (3e9 * (h - 0.55).max(0.0).sqrt()).min(hardness))
 }
 
-fn pressure() -> Quantity {
-    Quantity::new("pressure", Unit::Pressure)
+fn pressures<'a>(title: &str, field: &'a Field, grid: &Grid) -> Map<'a> {
+    Map::new(title, field, grid, Quantity::new("pressure", Unit::Pressure), Colours::Pressure)
 }
 
-fn height() -> Quantity {
-    Quantity::new("height", Unit::Length)
+fn heights<'a>(title: &str, field: &'a Field, grid: &Grid) -> Map<'a> {
+    Map::new(title, field, grid, Quantity::new("height", Unit::Length), Colours::Heights)
 }
 
-fn heights<'a>(title: &str, field: &'a Field, grid: &'a Grid) -> MapFigure<'a> {
-    let title = title.to_owned();
-    MapFigure { title, field, grid, quantity: height(), colours: Colours::Heights, range: None }
+/// Enough pixels to count.
+const PAPER: Paper = Paper { format: Format::Png, dpi: 150.0, width: None, range: None };
+
+fn caption() -> Caption {
+    Caption { title: "a figure".to_owned(), of: "case · load 2 N · pass 5".to_owned() }
 }
 
-fn pressures<'a>(title: &str, field: &'a Field, grid: &'a Grid) -> MapFigure<'a> {
-    MapFigure { quantity: pressure(), colours: Colours::Pressure, ..heights(title, field, grid) }
+/// A figure as its pixels.
+fn drawn(figure: &dyn Figure) -> Picture {
+    drawn_on(figure, &PAPER)
 }
+
+fn drawn_on(figure: &dyn Figure, paper: &Paper) -> Picture {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("figure.png");
+    save(&path, figure, &caption(), paper).unwrap();
+    Picture::read(&path)
+}
+
+/// Whether lengths agree to two pixels.
+#[track_caller]
+fn assert_near(found: usize, expected: f64) {
+    assert!((found as f64 - expected).abs() <= 2.0, "{found}, expected {expected}");
+}
+
+// ---- maps ------------------------------------------------------------------------------------------------
 
 #[test]
 fn a_cell_has_its_colour_at_its_place() {
-    let folder = Folder::new();
-    let path = folder.file("two-cells.png");
     let g = grid(20, 10, 1e-6);
     let mut field = g.zeros();
     field[[0, 0]] = 1e9;
     field[[15, 7]] = 2e9;
-    map(&path, &pressures("two cells", &field, &g)).unwrap();
-    let picture = Picture::read(&path);
+    let picture = drawn(&Maps::new(vec![pressures("two cells", &field, &g)]));
     assert!(picture.has_a_white_edge());
-    let bar = picture.size[0] - 100;
-    let side = 27;
+    let bar = picture.size[0] * 3 / 4;
     let [left, top, right, bottom] = picture.bounds(viridis(0.5), bar);
-    assert_eq!([right - left, bottom - top], [side; 2]);
+    let side = (right - left) as f64;
+    assert_near(bottom - top, side);
     let other = picture.bounds(viridis(1.0), bar);
-    assert_eq!(other, [left + 15 * side, top - 7 * side, right + 15 * side, bottom - 7 * side]);
-    assert_eq!(picture.at(left + 5 * side, top), [255; 3], "no pressure is white");
-    assert_eq!(picture.at(left - 1, bottom), [38; 3], "a frame");
+    // A side is known to a pixel.
+    assert!((other[0] as f64 - left as f64 - 15.0 * side).abs() < 15.0, "{other:?}");
+    assert!((other[3] as f64 - bottom as f64 + 7.0 * side).abs() < 7.0, "{other:?}");
+    assert_eq!(picture.at(left + 5 * (right - left), top + 3), [255; 3], "no pressure is white");
 }
 
 #[test]
-fn the_colour_bar_begins_and_ends_with_the_range() {
-    let folder = Folder::new();
-    let path = folder.file("bar.png");
+fn the_colour_bar_is_as_high_as_its_map_and_begins_and_ends_with_the_range() {
     let g = grid(20, 20, 1e-6);
-    let field = g.zeros();
-    map(&path, &MapFigure { range: Some([0.0, 3e9]), ..pressures("bar", &field, &g) }).unwrap();
-    let picture = Picture::read(&path);
-    let end = picture.size[0];
-    let (low, high) = (viridis(0.5 / 540.0), viridis(1.0 - 0.5 / 540.0));
-    let [low, high] = [low, high].map(|colour| picture.bounds(colour, end));
-    assert_eq!((low[0], low[2]), (high[0], high[2]));
-    assert_eq!(low[3] - high[1], 540, "as high as the map");
+    let field = Field::from_elem([20, 20], 1.5e9);
+    let picture = drawn(&Maps::new(vec![pressures("bar", &field, &g).range([0.0, 3e9])]));
+    let map = picture.bounds(viridis(0.5), picture.size[0] * 3 / 4);
+    let [low, high] = [0.5 / 256.0, 255.5 / 256.0].map(|t| picture.bounds(viridis(t), picture.size[0]));
+    assert!(low[0] > map[2] && (low[0], low[2]) == (high[0], high[2]));
+    assert_near(high[1], map[1] as f64);
+    assert_near(low[3], map[3] as f64);
 }
 
 #[test]
-fn a_rough_topography_and_its_contact() {
-    let folder = Folder::new();
-    let g = grid(256, 256, 0.5e-6);
-    map(&folder.file("heights.png"), &heights("lower body", &(bumps(256, 256, 0.0) * 0.3e-6), &g)).unwrap();
-    let p = spots(256, 256, 1.0, 2.4e9);
-    map(&folder.file("pressure.png"), &pressures("pressure at pass 3, position 17", &p, &g)).unwrap();
-    let contact = MapFigure { colours: Colours::Contact { hardness: 2.4e9 }, ..pressures("contact", &p, &g) };
-    map(&folder.file("contact.png"), &contact).unwrap();
-    let picture = Picture::read(&folder.file("contact.png"));
-    // 2 × 2 px per cell, and the box of the legend.
-    let area = |of: &dyn Fn(f64) -> bool| 4 * p.iter().filter(|p| of(**p)).count() + 11 * 11;
-    assert_eq!(picture.count([213, 94, 0]), area(&|p| p == 2.4e9));
-    assert_eq!(picture.count([0, 114, 178]), area(&|p| p > 0.0 && p < 2.4e9));
-}
-
-#[test]
-fn narrow_and_tall_domains() {
-    let folder = Folder::new();
-    let shapes = [[384, 128], [256, 64], [1024, 64], [64, 192], [20, 180], [1, 40], [40, 1], [1, 1]];
-    for [nx, ny] in shapes {
-        let g = grid(nx, ny, 0.25e-6);
-        let path = folder.file(&format!("domain-{nx}-{ny}.png"));
-        let p = spots(nx, ny, 0.3, 3e9);
-        let contact =
-            MapFigure { colours: Colours::Contact { hardness: 3e9 }, ..pressures("contact", &p, &g) };
-        let title = format!("a domain of {nx} × {ny} cells");
-        maps(&path, &[pressures(&title, &p, &g), contact], 1).unwrap();
-        assert!(Picture::read(&path).has_a_white_edge(), "{nx} × {ny}");
+fn classes_fill_the_shares_of_their_cells_and_the_legend_names_grey() {
+    let g = grid(64, 64, 0.5e-6);
+    let classes = Field::from_shape_fn(g.shape, |(i, j)| match i {
+        0..16 => f64::NAN,
+        16..32 => 2.0,
+        _ => f64::from(u8::from(j < 32)),
+    });
+    let contact = Map::new("", &classes, &g, Quantity::new("", Unit::Number), Colours::CONTACT);
+    let picture = drawn(&Maps::new(vec![contact.missing("nothing faces it")]));
+    let [plastic, elastic, grey] =
+        [[213, 94, 0], [0, 114, 178], GREY].map(|colour| picture.count(colour) as f64);
+    for share in [plastic / elastic, plastic / grey] {
+        assert!((share - 1.0).abs() < 0.02, "{share}");
     }
 }
 
 #[test]
-fn maps_with_one_range_share_a_colour_bar() {
-    let folder = Folder::new();
+fn domains_of_all_shapes_are_drawn_large_enough_at_all_widths() {
+    for [nx, ny] in [[384, 128], [1024, 64], [64, 192], [20, 180], [1, 40], [40, 1], [1, 1]] {
+        let g = grid(nx, ny, 0.25e-6);
+        let p = Field::from_elem([nx, ny], 1e9);
+        for width in [None, Some(0.085), Some(0.04)] {
+            let paper = Paper { width, ..PAPER };
+            let title = format!("{nx} × {ny} cells");
+            let maps = vec![
+                pressures(&title, &p, &g).range([0.0, 2e9]),
+                pressures(&title, &p, &g).range([0.0, 2e9]),
+            ];
+            let picture = drawn_on(&Maps::new(maps), &paper);
+            assert!(picture.has_a_white_edge(), "{nx} × {ny}, {width:?}");
+            let expected = width.unwrap_or(482.0 / 72.0 * 0.0254) / 0.0254 * 150.0;
+            assert_near(picture.size[0], expected);
+            let least = if width == Some(0.04) { 0.003 } else { 0.02 };
+            assert!(
+                picture.count(viridis(0.5)) as f64 > least * expected * expected,
+                "{nx} × {ny}, {width:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn maps_of_one_range_share_a_bar_and_maps_of_one_column_their_edge() {
     let g = grid(192, 128, 1e-6);
     let fields: Vec<_> = (0..6).map(|i| spots(192, 128, 0.2 * f64::from(i), 4e9)).collect();
-    let titled = |(i, f)| pressures(&format!("position {}", 16 * i), f, &g);
-    let own: Vec<_> = fields.iter().enumerate().map(titled).collect();
-    let shared: Vec<_> = own.iter().map(|f| MapFigure { range: Some([0.0, 4e9]), ..f.clone() }).collect();
-    maps(&folder.file("own.png"), &own, 3).unwrap();
-    maps(&folder.file("shared.png"), &shared, 3).unwrap();
-    let [own, shared] = ["own.png", "shared.png"].map(|name| Picture::read(&folder.file(name)));
-    assert!(own.size[0] > shared.size[0] + 100);
-    assert!(own.has_a_white_edge() && shared.has_a_white_edge());
+    let maps = |range: Option<[f64; 2]>| {
+        let map = |field| {
+            let map = pressures("position", field, &g);
+            range.map_or(map.clone(), |range| map.range(range))
+        };
+        Maps::new(fields.iter().map(map).collect())
+    };
+    let bars = |maps: Maps| text_of(&maps).iter().filter(|words| words.starts_with("pressure")).count();
+    assert_eq!([bars(maps(None)), bars(maps(Some([0.0, 4e9])))], [6, 1]);
 
-    let other = grid(256, 128, 1e-6);
-    let (a, b) = (bumps(192, 128, 0.0) * 0.2e-6, bumps(256, 128, 2.0) * 3e-6);
-    let two = [heights("lower body", &a, &g), heights("upper body", &b, &other)];
-    maps(&folder.file("two.png"), &two, 2).unwrap();
+    // Labels of different widths.
+    let (a, b) = (Field::from_elem([30, 60], 1.0), Field::from_elem([30, 60], 1.0));
+    let (near, far) = (grid(30, 60, 1e-6), grid(30, 60, 123.4e-6));
+    let mut two = Maps::new(vec![pressures("", &a, &near), pressures("", &b, &far)]);
+    two.columns = vec![1];
+    let picture = drawn(&two);
+    let half = picture.size[1] / 2;
+    let left = |rows: std::ops::Range<usize>| {
+        (0..picture.size[0]).find(|x| rows.clone().any(|y| picture.at(*x, y) == viridis(1.0))).unwrap()
+    };
+    assert_eq!(left(0..half), left(half..picture.size[1]));
 }
 
 #[test]
 fn a_large_field_is_averaged() {
-    let folder = Folder::new();
     let g = grid(1024, 1024, 0.1e-6);
-    map(&folder.file("large.png"), &pressures("1024 × 1024", &spots(1024, 1024, 0.3, 3e9), &g)).unwrap();
-    let path = folder.file("checkers.png");
     let field = Field::from_shape_fn([1024, 1024], |(i, j)| if (i + j) % 2 == 0 { 1.0 } else { -1.0 });
-    map(&path, &heights("checkers", &field, &g)).unwrap();
+    let paper = Paper { dpi: 72.0, width: Some(0.06), ..PAPER };
+    let picture = drawn_on(&Maps::new(vec![heights("checkers", &field, &g)]), &paper);
     let middle = colorous::CIVIDIS.eval_continuous(0.5).into_array();
-    assert!(Picture::read(&path).count(middle) >= 512 * 512);
+    let near = picture.rgb.chunks_exact(3).filter(|p| (0..3).all(|c| p[c].abs_diff(middle[c]) < 30));
+    assert!(near.count() > 60 * 60);
 }
 
 #[test]
-fn odd_fields_are_drawn() {
-    let folder = Folder::new();
+fn flat_heights_have_no_bar_and_rare_ones_do_not_set_the_colours() {
+    let g = grid(100, 100, 1e-6);
+    let flat = Field::from_elem([100, 100], 3e-7);
+    let text = |figure: &Maps| text_of(figure);
+    assert!(text(&super::heights(&flat, &g)).contains(&"flat".to_owned()));
+    assert!(!text(&super::heights(&flat, &g)).iter().any(|words| words.starts_with("height")));
+    let mut rough = bumps(100, 100, 0.0) * 1e-6;
+    assert!(!text(&super::heights(&rough, &g)).iter().any(|words| words.contains("percentiles")));
+    rough[[50, 50]] = 1e-3;
+    let figure = super::heights(&rough, &g);
+    assert!(text(&figure).iter().any(|words| words.contains("percentiles 0.1 % and 99.9 %")));
+    assert!(text(&figure).contains(&"height (µm)".to_owned()), "not in mm");
+}
+
+#[test]
+fn odd_fields_are_drawn_and_nothing_is_called_none() {
     let g = grid(8, 8, 1e-6);
-    let path = folder.file("odd.png");
     let undefined = Field::from_elem([8, 8], f64::NAN);
     let constant = Field::from_elem([8, 8], 3e-7);
     let mut holed = bumps(8, 8, 0.0) * 1e-6;
     holed[[2, 3]] = f64::NAN;
     holed[[3, 3]] = f64::INFINITY;
     let none = g.zeros();
-    let figures = [
+    let figure = Maps::new(vec![
         heights("undefined", &undefined, &g),
         heights("constant", &constant, &g),
         heights("holes", &holed, &g),
         pressures("no pressure", &none, &g),
-    ];
-    maps(&path, &figures, 2).unwrap();
-    // 53 px per cell; a few pixels at the edges of letters are of the same grey.
-    assert_eq!(Picture::read(&path).count(GREY) / (53 * 53), 64 + 2);
+    ]);
+    assert!(drawn(&figure).has_a_white_edge());
+    let words = text_of(&figure);
+    assert!(words.contains(&"none".to_owned()) && words.contains(&"not defined".to_owned()), "{words:?}");
 }
 
 #[test]
-fn the_same_figure_gives_the_same_bytes() {
-    let folder = Folder::new();
-    let g = grid(64, 64, 1e-6);
-    let field = bumps(64, 64, 0.0);
-    let draw = |name: &str| {
-        map(&folder.file(name), &heights("once more", &field, &g)).unwrap();
-        std::fs::read(folder.file(name)).unwrap()
-    };
-    assert!(draw("first.png") == draw("second.png"));
-}
-
-#[test]
-fn the_first_row_of_a_matrix_is_at_the_top() {
-    let folder = Folder::new();
-    let path = folder.file("matrix.png");
-    let n = 96;
+fn the_first_row_of_a_matrix_is_at_the_top_and_its_block_is_outlined() {
+    let n = 48;
     let near = |i: usize, j: usize| 1e-12 / (0.5 + (i as f64 - j as f64).abs());
     let mut m = Array2::from_shape_fn([n, n], |(i, j)| near(i, j));
     m[[0, n - 1]] = 1e-10;
     m[[n - 1, 0]] = 0.0;
-    let figure = MatrixFigure {
-        title: "influence coefficients".to_owned(),
-        matrix: &m,
-        quantity: Quantity::new("displacement per pressure", Unit::Of("m/Pa")),
-        nodes: ["displaced cell".to_owned(), "pressed cell".to_owned()],
-    };
-    matrix(&path, &figure).unwrap();
-    let picture = Picture::read(&path);
-    let [left, top, right, bottom] = picture.bounds(viridis(1.0), picture.size[0] - 110);
-    assert_eq!([right - left, bottom - top], [6, 6]);
-    let first = [right - 6 * n, top];
-    assert_eq!(picture.at(first[0] - 1, first[1] - 1), [38; 3], "the corner of the frame");
-    assert_eq!(picture.at(first[0] + 3, first[1] + 6 * n - 3), [255; 3], "zero is white");
-    assert!(picture.has_a_white_edge());
+    let quantity = || Quantity::new("influence", Unit::Of("m/Pa"));
+    let map = Map::matrix("", &m, ["displaced cell", "pressed cell"], quantity());
+    let picture = drawn(&Maps::new(vec![map.clone()]));
+    let corner = picture.bounds(viridis(1.0), picture.size[0] * 5 / 6);
+    let whole = picture.bounds([38; 3], picture.size[0]);
+    assert!(corner[0] > picture.size[0] / 2 && corner[1] < picture.size[1] / 3, "{corner:?} in {whole:?}");
+    let marked = drawn(&Maps::new(vec![map.with_block(12, "the first overlap")]));
+    assert!(marked.count([213, 94, 0]) > picture.count([213, 94, 0]) + 100);
 }
 
 #[test]
 fn a_section_has_the_surface_at_the_top_and_a_cross_at_its_mark() {
-    let folder = Folder::new();
-    let path = folder.file("section.png");
     let mut field = Field::zeros([20, 10]);
     field[[15, 2]] = 2e9;
-    let figure = SectionFigure {
-        title: "section".to_owned(),
-        field: &field,
-        ends: [[1e-6, 21e-6], [0.0, 10e-6]],
-        quantity: Quantity::new("von Mises stress", Unit::Pressure),
-        mark: None,
-    };
-    section(&path, &figure).unwrap();
-    let picture = Picture::read(&path);
-    assert!(picture.has_a_white_edge());
-    let [left, top, right, bottom] = picture.bounds(viridis(1.0), picture.size[0] - 100);
-    let side = 27;
-    assert_eq!([right - left, bottom - top], [side; 2]);
+    let ends = [[1e-6, 21e-6], [0.0, 10e-6]];
+    let map = Map::section("", &field, ends, Quantity::new("von Mises stress", Unit::Pressure));
+    let picture = drawn(&Maps::new(vec![map.clone()]));
+    let end = picture.size[0] * 3 / 4;
+    let [left, top, right, bottom] = picture.bounds(viridis(1.0), end);
+    let side = right - left;
     // Two cells below the frame; a map would have it seven cells below.
-    assert_eq!(picture.at(left, top - 2 * side - 1), [38; 3]);
-
-    section(&path, &SectionFigure { mark: Some([16.5e-6, 2.5e-6]), ..figure }).unwrap();
-    let marked = Picture::read(&path);
-    assert_eq!(marked.at(left + side / 2, top + side / 2), [38; 3]);
+    let frame = (top - 5 * side / 2..top - 3 * side / 2).find(|y| picture.at(left + side / 2, *y) == [38; 3]);
+    assert!(frame.is_some());
+    let marked = drawn(&Maps::new(vec![map.marked([16.5e-6, 2.5e-6], "here")]));
+    let offset = marked.size[1] - picture.size[1];
+    let middle = marked.at((left + right) / 2, (top + bottom) / 2);
+    assert!(middle.iter().all(|c| *c < 90), "{middle:?}, {offset}");
 }
 
 #[test]
-fn load_and_area_have_an_axis_each() {
-    let folder = Folder::new();
-    let path = folder.file("load.png");
+fn an_outline_and_arrows_lie_where_their_fields_are() {
+    let g = grid(20, 20, 1e-6);
+    let mut spot = g.zeros();
+    spot.slice_mut(ndarray::s![4..8, 12..16]).fill(1.0);
+    let zeros = g.zeros();
+    let map = heights("", &zeros, &g).outlined(&spot, "edge").with_arrows([&spot, &zeros], "direction");
+    let words = text_of(&Maps::new(vec![map.clone()]));
+    assert!(words.contains(&"edge".to_owned()) && words.contains(&"direction".to_owned()));
+    let picture = drawn(&Maps::new(vec![map]));
+    let edge: Vec<[usize; 2]> = (0..picture.size[1] * 5 / 6)
+        .flat_map(|y| (0..picture.size[0]).map(move |x| [x, y]))
+        .filter(|[x, y]| matches!(picture.at(*x, *y), [180..=255, 0..120, 0..120]))
+        .collect();
+    let ends = |axis: usize| {
+        let along = edge.iter().map(|p| p[axis]);
+        (along.clone().min().unwrap(), along.max().unwrap())
+    };
+    let ((left, right), (top, bottom)) = (ends(0), ends(1));
+    assert_near(right - left, (bottom - top) as f64);
+    // A fifth of the map, in its upper left quarter.
+    assert!(right < picture.size[0] / 2 && bottom < picture.size[1] / 2, "{left} {right} {top} {bottom}");
+}
+
+// ---- curves ----------------------------------------------------------------------------------------------
+
+#[test]
+fn load_and_area_have_an_axis_each_and_a_legend_once() {
     let along = |f: &dyn Fn(f64) -> f64| (0..96).map(|i| [f64::from(i), f(f64::from(i))]).collect::<Vec<_>>();
     let area = along(&|i| 3e-10 + 1e-10 * (i / 9.0).cos());
-    let mut figure = LineFigure {
-        title: "pass 5".to_owned(),
-        x: Axis::linear("position", Unit::Number),
-        y: Axis::linear("load", Unit::Force),
-        right: Some(Axis::linear("contact area", Unit::Area)),
-        series: vec![
-            Series::new("load", along(&|i| 2.0 + 0.4 * (i / 7.0).sin()), Mark::Line),
-            Series::new("contact area", area, Mark::Line).on_the_right(),
-            Series::new("mean load", vec![[0.0, 2.0], [95.0, 2.0]], Mark::Dashed),
-        ],
-    };
-    lines(&path, &figure).unwrap();
-    let picture = Picture::read(&path);
-    assert_eq!(picture.size, [760, 460]);
+    let series = vec![
+        Series::new("load", along(&|i| 2.0 + 0.4 * (i / 7.0).sin()), Mark::Line),
+        Series::new("contact area", area, Mark::Line).on_the_right(),
+        Series::new("mean load", vec![[0.0, 2.0], [95.0, 2.0]], Mark::Dashed),
+    ];
+    let chart =
+        Chart::new("", Axis::linear("position", Unit::Count), Axis::linear("load", Unit::Force), series);
+    let chart = chart.with_right(Axis::linear("contact area", Unit::Area));
+    let picture = drawn(&Charts::from(chart.clone()));
     assert!(picture.has_a_white_edge());
     assert!(picture.count([213, 94, 0]) > 300, "the area is drawn");
-    figure.right = None;
-    let error = lines(&path, &figure).unwrap_err().to_string();
-    assert!(error.contains("load.png") && error.contains("no axis"), "{error}");
+    let sheet = Charts { charts: vec![chart.clone(), chart], columns: 2, aspect: 0.6 };
+    let words = text_of(&sheet);
+    let named = |name: &str| words.iter().filter(|words| *words == name).count();
+    assert_eq!(
+        (named("contact area (right)"), named("mean load"), named("load (N)")),
+        (1, 1, 2),
+        "{words:?}"
+    );
+}
+
+#[test]
+fn passes_have_whole_ticks_and_no_data_are_called_none() {
+    let figure = |points: Vec<[f64; 2]>| {
+        let (x, y) = (Axis::linear("pass", Unit::Count), Axis::linear("Sq", Unit::Length));
+        Charts::from(Chart::new("", x, y, vec![Series::new("lower", points, Mark::LineAndPoints)]))
+    };
+    let words = text_of(&figure(vec![[0.0, 1e-7], [1.0, 2e-7], [2.0, 3e-7]]));
+    assert!(words.contains(&"1".to_owned()) && !words.iter().any(|w| w == "0.5" || w == "1.5"), "{words:?}");
+    for none in [vec![], vec![[f64::NAN, 1.0]]] {
+        assert!(text_of(&figure(none)).contains(&"none".to_owned()));
+    }
 }
 
 #[test]
 fn points_in_geometric_progression_are_evenly_spaced_on_logarithmic_axes() {
-    let folder = Folder::new();
-    let middle = |name: &str, axis: &dyn Fn() -> Axis| {
-        let series = |points: &[[f64; 2]]| Series::new("", points.to_vec(), Mark::LineAndPoints);
-        let figure = LineFigure {
-            title: String::new(),
-            x: axis(),
-            y: axis(),
-            right: None,
-            series: vec![
-                series(&[[10.0, 10.0]]),
-                series(&[]),
-                series(&[]),
-                // A break between the two: no line.
-                series(&[[1.0, 1.0], [f64::NAN; 2], [100.0, 100.0]]),
-            ],
-        };
-        lines(&folder.file(name), &figure).unwrap();
-        let picture = Picture::read(&folder.file(name));
-        // Below the legend.
-        let below = Picture { size: [760, 420], rgb: picture.rgb[3 * 40 * 760..].to_vec() };
-        let centre = |b: [usize; 4]| [(b[0] + b[2]) as f64 / 2.0, (b[1] + b[3]) as f64 / 2.0];
-        let (one, ends) = (below.bounds([0, 114, 178], 760), below.bounds([204, 121, 167], 760));
-        [0, 1].map(|i| (centre(one)[i] - ends[i] as f64) / (ends[i + 2] - ends[i]) as f64)
+    let middle = |axis: &dyn Fn() -> Axis| {
+        let series = |points: &[[f64; 2]]| Series::new("", points.to_vec(), Mark::Points);
+        // A break between the two: no line.
+        let points = [[1.0, 1.0], [10.0, 10.0], [100.0, 100.0]];
+        let picture = drawn(&Charts::from(Chart::new("", axis(), axis(), vec![series(&points)])));
+        let columns: Vec<usize> = (0..picture.size[0])
+            .filter(|x| (0..picture.size[1]).any(|y| picture.at(*x, y) == [0, 114, 178]))
+            .collect();
+        // Three runs of columns.
+        let mut runs: Vec<Vec<usize>> = Vec::new();
+        for x in columns {
+            match runs.last_mut() {
+                Some(run) if run.last() == Some(&(x - 1)) => run.push(x),
+                _ => runs.push(vec![x]),
+            }
+        }
+        assert_eq!(runs.len(), 3);
+        let centres: Vec<f64> = runs.iter().map(|run| (run[0] + run[run.len() - 1]) as f64 / 2.0).collect();
+        (centres[1] - centres[0]) / (centres[2] - centres[0])
     };
-    let [x, y] = middle("log.png", &|| Axis::log("n", Unit::Number));
-    assert!((x - 0.5).abs() < 0.01 && (y - 0.5).abs() < 0.01, "{x} {y}");
-    let [x, y] = middle("linear.png", &|| Axis::linear("n", Unit::Number));
-    assert!((x - 0.1).abs() < 0.02 && (y - 0.9).abs() < 0.02, "{x} {y}");
+    let log = middle(&|| Axis::log("n", Unit::Number));
+    let linear = middle(&|| Axis::linear("n", Unit::Number));
+    assert!((log - 0.5).abs() < 0.01 && (linear - 1.0 / 11.0).abs() < 0.02, "{log} {linear}");
 }
 
 #[test]
-fn roughness_over_passes_and_times_over_sizes() {
-    let folder = Folder::new();
-    let passes =
-        |a: f64, b: f64| (0..=10).map(|i| [f64::from(i), a + b * (-f64::from(i)).exp()]).collect::<Vec<_>>();
-    let figure = LineFigure {
-        title: "running in".to_owned(),
-        x: Axis::linear("pass", Unit::Number),
-        y: Axis::linear("Sq", Unit::Length),
-        right: None,
-        series: vec![
-            Series::new("lower body", passes(0.21e-6, 0.05e-6), Mark::LineAndPoints),
-            Series::new("upper body", passes(0.32e-6, 0.01e-6), Mark::LineAndPoints),
-            Series::new("composite", passes(0.38e-6, 0.04e-6), Mark::LineAndPoints),
-        ],
-    };
-    lines(&folder.file("roughness.png"), &figure).unwrap();
-    let power =
-        |a: f64, n: f64| (4..11).map(|k| [2f64.powi(k), a * 2f64.powi(k).powf(n)]).collect::<Vec<_>>();
-    let figure = LineFigure {
-        title: "time of one solution".to_owned(),
-        x: Axis::log("cells along x", Unit::Number),
-        y: Axis::log("time", Unit::Time),
-        right: None,
-        series: vec![
-            Series::new("direct", power(2e-9, 4.0), Mark::LineAndPoints),
-            Series::new("Polonsky–Keer", power(5e-7, 2.1), Mark::LineAndPoints),
-            Series::new("∝ n²", power(1e-7, 2.0), Mark::Dashed),
-        ],
-    };
-    lines(&folder.file("times.png"), &figure).unwrap();
-    for name in ["roughness.png", "times.png"] {
-        assert!(Picture::read(&folder.file(name)).has_a_white_edge(), "{name}");
-    }
-}
-
-#[test]
-fn odd_series_are_drawn() {
-    let folder = Folder::new();
+fn odd_curves_are_drawn() {
     let odd: [&[[f64; 2]]; 7] = [
         &[],
-        &[[1.0, 2.0]],
-        &[[0.0, 0.0], [0.0, 0.0]],
-        &[[f64::NAN, 1.0], [1.0, f64::INFINITY]],
-        &[[1.0, 1e-14], [2.0, 2e-14], [3.0, f64::NAN], [4.0, 1e-14]],
+        &[[1.0, 1.0]],
+        &[[1.0, 0.0], [2.0, 0.0]],
+        &[[1.0, -4e-9], [2.0, 3e9]],
+        &[[0.0, 1e-14], [2.0, 2e-14], [3.0, f64::NAN], [4.0, 1e-14]],
         &[[-1.0, -1e9], [1.0, 1e9]],
         &[[0.0, 2.0], [1.0, 2.0 + 1e-12]],
     ];
-    for (i, points) in odd.into_iter().enumerate() {
-        for log in [false, true] {
-            let axis = |label: &str| Axis { log, ..Axis::linear(label, Unit::Number) };
-            let path = folder.file(&format!("odd-{i}-{log}.png"));
-            let series = vec![Series::new("odd", points.to_vec(), Mark::LineAndPoints)];
-            let figure =
-                LineFigure { title: "odd".to_owned(), x: axis("x"), y: axis("y"), right: None, series };
-            lines(&path, &figure).unwrap();
-            assert!(Picture::read(&path).has_a_white_edge(), "{i} {log}");
+    for points in odd {
+        for mark in [Mark::Line, Mark::Dashed, Mark::LineAndPoints, Mark::Points, Mark::Arrows, Mark::Bars] {
+            for log in [false, true] {
+                let axis = |label: &str| Axis { log, ..Axis::linear(label, Unit::Number) };
+                let series = vec![Series::new("odd", points.to_vec(), mark)];
+                let figure = Charts::from(Chart::new("", axis("x"), axis("y"), series));
+                assert!(
+                    drawn_on(&figure, &Paper { dpi: 50.0, ..PAPER }).has_a_white_edge(),
+                    "{points:?} {mark:?}"
+                );
+            }
         }
     }
 }
 
+// ---- reliefs ---------------------------------------------------------------------------------------------
+
 #[test]
-fn an_overlap_moves_through_the_common_frame() {
-    let folder = Folder::new();
-    let path = folder.file("pass.gif");
-    let g = grid(128, 64, 1e-6);
-    let p = spots(256, 64, 0.4, 3e9);
-    let frames = (0..24usize).map(|step| {
-        let offset = (4 * step).saturating_sub(48);
-        let columns = (32 + 4 * step).min(128) - offset;
-        let field = Field::from_shape_fn([128, 64], |(i, j)| {
-            if (offset..offset + columns).contains(&i) { p[[i + 100 - 4 * step, j]] } else { f64::NAN }
-        });
-        (format!("position {} of 24", step + 1), field)
-    });
-    let frames: Vec<_> = frames.collect();
-    let frames = frames.iter().map(|(title, field)| Frame { title: title.clone(), field });
-    let (quantity, colours) = (pressure(), Colours::Pressure);
-    let figure = Animation { grid: &g, quantity, colours, range: [0.0, 3e9], delay: 10 };
-    animation(&path, &figure, frames).unwrap();
+fn reliefs_of_all_shapes_are_drawn() {
+    for [nx, ny] in [[1, 1], [1, 30], [40, 1], [700, 30]] {
+        let field = bumps(nx, ny, 0.0);
+        assert!(drawn(&Relief::of_heights(&field, &grid(nx, ny, 1e-6))).has_a_white_edge(), "{nx} × {ny}");
+    }
+}
+
+// ---- files -----------------------------------------------------------------------------------------------
+
+/// All texts of a figure under its caption.
+fn text_of(figure: &dyn Figure) -> Vec<String> {
+    let steps = captioned(figure, &caption(), &PAPER).steps;
+    let words = |step| if let scene::Step::Text(words) = step { Some(words.text) } else { None };
+    steps.into_iter().filter_map(words).collect()
+}
+
+fn example<'a>(field: &'a Field, grid: &Grid) -> Maps<'a> {
+    Maps::new(vec![pressures("p < H & \u{1}", field, grid)])
+}
+
+#[test]
+fn a_png_has_its_resolution_and_its_width() {
+    let folder = TempDir::new().unwrap();
+    let (g, path) = (grid(8, 8, 1e-6), folder.path().join("figure.png"));
+    let field = Field::from_elem([8, 8], 1e9);
+    let paper = Paper { width: Some(0.085), ..Paper::default() };
+    save(&path, &example(&field, &g), &caption(), &paper).unwrap();
+    let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+    let reader = png::Decoder::new(file).read_info().unwrap();
+    let dimensions = reader.info().pixel_dims.unwrap();
+    assert_eq!((dimensions.xppu, dimensions.yppu, dimensions.unit), (11_811, 11_811, png::Unit::Meter));
+    assert_near(reader.info().width as usize, 0.085 / 0.0254 * 300.0);
+}
+
+#[test]
+fn text_is_text_in_svg_and_pdf_and_brings_its_glyphs() {
+    let folder = TempDir::new().unwrap();
+    let g = grid(8, 8, 1e-6);
+    let field = Field::from_elem([8, 8], 1e9);
+    let file = |format: Format| {
+        let path = folder.path().join("figure");
+        save(&path, &example(&field, &g), &caption(), &Paper { format, ..PAPER }).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let svg = String::from_utf8(file(Format::Svg)).unwrap();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<&str> =
+        document.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect();
+    assert!(texts.contains(&"p < H &  ") && texts.contains(&"case · load 2 N · pass 5"), "{texts:?}");
+    assert!(svg.contains("src: url('data:font/ttf;base64,"));
+    assert!(svg.len() < 60_000, "{} bytes: a part of the font", svg.len());
+
+    let pdf = file(Format::Pdf);
+    let has = |needle: &[u8]| pdf.windows(needle.len()).any(|window| window == needle);
+    assert!(
+        pdf.starts_with(b"%PDF-1") && has(b"/FontFile2") && has(b"/ToUnicode") && has(b"/Subtype /Image")
+    );
+    assert!(pdf.len() < 60_000, "{} bytes: a part of the font", pdf.len());
+}
+
+#[test]
+fn the_same_figure_gives_the_same_bytes() {
+    let folder = TempDir::new().unwrap();
+    let g = grid(64, 64, 1e-6);
+    let field = bumps(64, 64, 0.0);
+    for format in [Format::Png, Format::Svg, Format::Pdf] {
+        let draw = |name: &str| {
+            let path = folder.path().join(name);
+            let figure = Maps::new(vec![heights("once more", &field, &g)]);
+            save(&path, &figure, &caption(), &Paper { format, ..PAPER }).unwrap();
+            std::fs::read(path).unwrap()
+        };
+        assert!(draw("first") == draw("second"));
+    }
+}
+
+#[test]
+fn a_figure_that_cannot_be_written_names_its_file() {
+    let folder = TempDir::new().unwrap();
+    let (g, field) = (grid(2, 2, 1e-6), Field::zeros([2, 2]));
+    let path = folder.path().join("missing/figure.png");
+    let error = save(&path, &example(&field, &g), &caption(), &PAPER).unwrap_err().to_string();
+    assert!(error.contains("cannot draw") && error.contains("figure.png"), "{error}");
+}
+
+#[test]
+fn an_animation_shows_each_frame_in_its_time() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("pass.gif");
+    let g = grid(32, 16, 1e-6);
+    let fields: Vec<Field> = (0..6)
+        .map(|step| {
+            Field::from_shape_fn(
+                [32, 16],
+                |(i, _)| if (4 * step..4 * step + 8).contains(&i) { 2e9 } else { f64::NAN },
+            )
+        })
+        .collect();
+    let scene =
+        |field| captioned(&Maps::new(vec![pressures("", field, &g).range([0.0, 4e9])]), &caption(), &PAPER);
+    let scenes: Vec<Scene> = fields.iter().map(scene).collect();
+    animation(&path, &scenes, Colours::Pressure, 10).unwrap();
 
     let mut decoder = gif::Decoder::new(std::fs::File::open(&path).unwrap()).unwrap();
     let [width, height] = [decoder.width(), decoder.height()].map(usize::from);
     let palette = decoder.global_palette().unwrap().to_vec();
     let mut sheet = vec![[0; 3]; width * height];
-    let mut greys = Vec::new();
+    let mut lefts = Vec::new();
     while let Some(frame) = decoder.read_next_frame().unwrap() {
-        assert_eq!(frame.delay, 10);
-        assert!(frame.palette.is_none());
+        assert!(frame.delay == 10 && frame.palette.is_none());
         for (i, &index) in
             frame.buffer.iter().enumerate().filter(|(_, index)| Some(**index) != frame.transparent)
         {
@@ -461,57 +535,15 @@ fn an_overlap_moves_through_the_common_frame() {
             let colour = palette[3 * usize::from(index)..][..3].try_into().unwrap();
             sheet[(y + usize::from(frame.top)) * width + x + usize::from(frame.left)] = colour;
         }
-        // The map without the labels around it.
-        let map = (40..232).flat_map(|y| sheet[y * width + 60..y * width + 450].iter());
-        greys.push(map.filter(|colour| **colour == GREY).count());
+        // The largest run of colour in a row through the middle of the map.
+        let row = &sheet[width * (height / 2)..][..width * 3 / 4];
+        let coloured = |c: &[u8; 3]| (0..3).all(|i| c[i].abs_diff(viridis(0.5)[i]) < 8);
+        lefts.push(row.iter().position(coloured).unwrap());
     }
-    // 3 × 3 px per cell; the last overlap has columns 44 to 124.
-    assert_eq!(greys.len(), 24);
-    assert_eq!((greys[0], greys[23]), (9 * 64 * (128 - 32), 9 * 64 * (128 - 80)));
-    assert_eq!(decoder.repeat(), gif::Repeat::Infinite);
-
-    let too_wide = Frame { title: String::new(), field: &p };
-    let error = animation(&path, &figure, [too_wide]).unwrap_err().to_string();
-    assert!(error.contains("[256, 64]") && error.contains("[128, 64]"), "{error}");
-}
-
-#[test]
-fn errors_name_the_file() {
-    let g = grid(8, 8, 1e-6);
-    let field = Field::zeros([8, 9]);
-    let error = map(Path::new("x.png"), &heights("", &field, &g)).unwrap_err().to_string();
-    assert_eq!(error, "cannot draw `x.png`: a field of shape [8, 9] on a grid of shape [8, 8]");
-    let nowhere = Path::new("/no/such/folder/x.png");
-    let error = map(nowhere, &heights("", &g.zeros(), &g)).unwrap_err().to_string();
-    assert!(error.starts_with("cannot draw `/no/such/folder/x.png`: "), "{error}");
-}
-
-#[test]
-fn a_unit_suits_the_largest_number() {
-    let shown = |unit: Unit, v: f64| unit.shown(v).1;
-    assert_eq!(shown(Unit::Length, 0.3e-6), "nm");
-    assert_eq!(shown(Unit::Length, 128e-6), "µm");
-    assert_eq!(shown(Unit::Pressure, 2.4e9), "GPa");
-    assert_eq!(shown(Unit::Pressure, 950e6), "MPa");
-    assert_eq!(shown(Unit::Area, 4e-10), "µm²");
-    assert_eq!(shown(Unit::Area, 4e-8), "mm²");
-    assert_eq!(shown(Unit::Force, 2.0), "N");
-    assert_eq!(shown(Unit::Volume, 3e-17), "µm³");
-    assert_eq!(shown(Unit::Number, 512.0), "");
-    assert_eq!(shown(Unit::Number, 2.5e6), "10⁶");
-    assert_eq!(shown(Unit::Of("m/Pa"), 3e-14), "10⁻¹⁴ m/Pa");
-    assert_eq!(shown(Unit::Length, 0.0), "m");
-}
-
-#[test]
-fn ticks_stand_at_round_numbers() {
-    let labels = |scale: Scale| scale.ticks.into_iter().map(|tick| tick.1).collect::<Vec<_>>();
-    let linear = |range, most| labels(Scale::linear(range, 1.0, Unit::Number, most));
-    assert_eq!(linear([0.0, 1.0], 5), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
-    assert_eq!(linear([-0.3, 0.31], 7), ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]);
-    assert_eq!(linear([0.0, 128.0], 8), ["0", "20", "40", "60", "80", "100", "120"]);
-    let log = |range, most| labels(Scale::logarithmic(range, Unit::Number, most));
-    assert_eq!(log([1e-8, 1e-5], 7), ["10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵"]);
-    assert_eq!(log([15.0, 1100.0], 8), ["20", "50", "100", "200", "500", "1000"]);
-    assert_eq!(log([2e-13, 3e-13], 5), ["2×10⁻¹³", "3×10⁻¹³"]);
+    assert_eq!((lefts.len(), decoder.repeat()), (6, gif::Repeat::Infinite));
+    let step = (lefts[5] - lefts[0]) as f64 / 5.0;
+    for (i, left) in lefts.iter().enumerate() {
+        assert_near(*left, lefts[0] as f64 + step * i as f64);
+    }
+    assert!(animation(&path, &[], Colours::Pressure, 10).unwrap_err().to_string().contains("no frame"));
 }

@@ -1,6 +1,7 @@
 //! Figures of computed results: all there, all whole, for whatever a case asks for.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use arbtest::arbitrary::{Result as Arbitrary, Unstructured};
 use asperity::io::case::Case;
@@ -8,6 +9,12 @@ use asperity::io::engine;
 use asperity::io::fields::FieldFile;
 use asperity::io::results::Existing;
 
+use asperity::io::fields::Fields;
+use asperity::motion::IncrementRecord;
+use asperity::{Field, Grid};
+
+use super::loading::direction;
+use super::stored::{Cap, Stored};
 use super::*;
 
 fn under(forces: &[[f64; 2]]) -> Vec<IncrementRecord> {
@@ -66,8 +73,8 @@ fn a_cell_at_its_own_cap_is_plastic_whatever_the_hardness() {
         file.add_field("pressure", "Pa", &grid, [0.0; 2], &row([0.0, 1.6e9, 2e9]));
         file.write(&path).unwrap();
         let fields = Fields::open(&path).unwrap();
-        let share = Stored::read(&fields, "pressure").unwrap().over(&Cap::read(&fields).unwrap());
-        share.field.iter().map(|p| *p >= 1.0).collect::<Vec<_>>()
+        let contact = Stored::read(&fields, "pressure").unwrap().contact(&Cap::read(&fields).unwrap());
+        contact.field.iter().map(|class| *class == 2.0).collect::<Vec<_>>()
     };
     assert_eq!(classes(None, None), [false, false, true]);
     assert_eq!(classes(Some(1.6e9), None), [false, true, true]);
@@ -154,8 +161,8 @@ fn has_all_its_figures(text: &str) -> bool {
     if engine::run(&case, &directory, Existing::Keep, &()).is_err() {
         return false;
     }
-    let paths =
-        draw(&Results::open(&directory).unwrap(), &|| false).unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
+    let paths = draw(&Results::open(&directory).unwrap(), &Wanted::default(), &|| false)
+        .unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
     let names: BTreeSet<_> = paths.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
     for name in ["topographies", "mean_pressure", "load", "contact_area", "roughness", "approach"] {
         assert!(names.contains(format!("{name}.png").as_str()), "no {name} of\n{text}");

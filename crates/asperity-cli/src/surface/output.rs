@@ -8,7 +8,7 @@ use asperity::surface::Topography;
 use asperity::units::Metre;
 
 use super::without_pitch;
-use crate::draw::{self, Colours, MapFigure, Quantity, Unit};
+use crate::draw::{self, Caption, Paper};
 use crate::report::{Failure, Outcome};
 
 /// A file that may be written, of a format that its name tells.
@@ -67,17 +67,11 @@ impl Output {
             Format::Sdf => sdf::write(&self.path, grid, heights)?,
             Format::Gwy => gwy::write(&self.path, grid, heights)?,
             Format::Vtk => vtk::write(&self.path, grid, &[("height", heights)])?,
-            Format::Png => draw::map(
-                &self.path,
-                &MapFigure {
-                    title: self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-                    field: heights,
-                    grid,
-                    quantity: Quantity::new("height", Unit::Length),
-                    colours: Colours::Heights,
-                    range: None,
-                },
-            )?,
+            Format::Png => {
+                let title = self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let caption = Caption { title, of: String::new() };
+                draw::save(&self.path, &draw::heights(heights, grid), &caption, &Paper::default())?;
+            }
         }
         Ok(())
     }

@@ -15,7 +15,10 @@ use serde_json::{Value, json};
 use super::description::{Law, RINGS};
 use super::{read_prepared, without_pitch};
 use crate::args::PlotSurface;
-use crate::draw::{self, Axis, Colours, LineFigure, MapFigure, Mark, PlaneFigure, Quantity, Series, Unit};
+use crate::draw::{
+    self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper, Quantity, Relief, Series,
+    Unit,
+};
 use crate::report::{Failure, Outcome, note};
 
 /// Points of a sampled curve.
@@ -40,7 +43,9 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     let folder = |source| asperity::Error::File { path: out.clone(), source };
     std::fs::create_dir_all(out).map_err(folder)?;
     atomic::sweep(out);
-    let sheet = Sheet { folder: out.clone(), topography: &file.topography };
+    let name = arguments.input.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let sheet =
+        Sheet { folder: out.clone(), topography: &file.topography, name, paper: arguments.drawing.paper() };
     let curves = json!({
         "bearing": sheet.bearing()?,
         "distributions": sheet.distributions()?,
@@ -58,11 +63,20 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
 struct Sheet<'a> {
     folder: PathBuf,
     topography: &'a Topography,
+    /// Of the file.
+    name: String,
+    paper: Paper,
 }
 
 impl Sheet<'_> {
     fn heights(&self) -> Outcome {
-        self.map("heights.png", "heights", self.topography.heights())
+        let (heights, grid) = (self.topography.heights(), self.topography.grid());
+        self.save("heights", "heights", &draw::heights(heights, grid))?;
+        let relief = Relief::of_heights(heights, grid);
+        if relief.is_flat() {
+            return Ok(());
+        }
+        self.save("relief", "heights in perspective", &relief)
     }
 
     /// The heights, the borders of the hills left out.
@@ -76,19 +90,18 @@ impl Sheet<'_> {
                 *z = f64::NAN;
             }
         }
-        self.map("hills.png", "hills, pruned at 5 % of Sz", &heights)
+        let map = draw::heights(&heights, self.topography.grid());
+        self.save("hills", "hills, pruned at 5 % of Sz", &map.remark("grey: their borders"))
     }
 
-    fn map(&self, name: &str, title: &str, field: &Field) -> Outcome {
-        let figure = MapFigure {
-            title: title.to_owned(),
-            field,
-            grid: self.topography.grid(),
-            quantity: Quantity::new("height", Unit::Length),
-            colours: Colours::Heights,
-            range: None,
-        };
-        Ok(draw::map(&self.path(name), &figure)?)
+    fn save(&self, name: &str, title: &str, figure: &dyn Figure) -> Outcome {
+        let path = self.folder.join(format!("{name}.{}", self.paper.format.extension()));
+        let caption = Caption { title: title.to_owned(), of: self.name.clone() };
+        Ok(draw::save(&path, figure, &caption, &self.paper)?)
+    }
+
+    fn chart(&self, name: &str, title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Outcome {
+        self.save(name, title, &Charts::from(Chart::new("", x, y, series)))
     }
 
     /// The material ratio curve with the line through its core.
@@ -96,18 +109,15 @@ impl Sheet<'_> {
         let curve = self.topography.bearing_curve()?;
         let points = curve.sampled(POINTS);
         let core = core_line(&curve);
-        let mut series = vec![Series::new("material ratio curve", points.clone(), Mark::Line)];
+        // In the figure per cent, as the parameters are told.
+        let per_cent = |points: &[[f64; 2]]| points.iter().map(|[ratio, z]| [100.0 * ratio, *z]).collect();
+        let mut series = vec![Series::new("material ratio curve", per_cent(&points), Mark::Line)];
         if let Some(core) = &core {
-            series.push(Series::new("core", core.clone(), Mark::Dashed));
+            series.push(Series::new("core", per_cent(core), Mark::Dashed));
         }
-        let figure = LineFigure {
-            title: "material ratio (Abbott–Firestone) curve".to_owned(),
-            x: Axis { range: Some([0.0, 1.0]), ..Axis::linear("material ratio", Unit::Number) },
-            y: Axis::linear("height above the mean", Unit::Length),
-            right: None,
-            series,
-        };
-        draw::lines(&self.path("bearing.png"), &figure)?;
+        let x = Axis { range: Some([0.0, 100.0]), ..Axis::linear("material ratio", Unit::Of("%")) };
+        let y = Axis::linear("height above the mean", Unit::Length);
+        self.chart("bearing", "material ratio (Abbott–Firestone) curve", x, y, series)?;
         Ok(json!({ "ratio_height": points, "core": core }))
     }
 
@@ -124,13 +134,7 @@ impl Sheet<'_> {
                 Series::new("Gaussian", gaussian(&heights, self.topography.sq()), Mark::Dashed),
             ];
             let x = Axis::linear("height above the mean", Unit::Length);
-            self.density(
-                "height-distribution.png",
-                "distribution of the heights",
-                x,
-                Unit::Of("1/m"),
-                series,
-            )?;
+            self.density("height-distribution", "distribution of the heights", x, Unit::Of("1/m"), series)?;
             json["heights"] = json!(points);
         }
         let mut series = Vec::new();
@@ -143,15 +147,14 @@ impl Sheet<'_> {
         }
         if !series.is_empty() {
             let x = Axis::linear("slope", Unit::Number);
-            self.density("slope-distribution.png", "distribution of the slopes", x, Unit::Number, series)?;
+            self.density("slope-distribution", "distribution of the slopes", x, Unit::Number, series)?;
         }
         Ok(json)
     }
 
     fn density(&self, name: &str, title: &str, x: Axis, unit: Unit, series: Vec<Series>) -> Outcome {
         let y = Axis::linear("density", unit);
-        let figure = LineFigure { title: title.to_owned(), x, y, right: None, series };
-        Ok(draw::lines(&self.path(name), &figure)?)
+        self.chart(name, title, x, y, series)
     }
 
     /// The spectrum over all directions with its power law, and as a map.
@@ -170,14 +173,8 @@ impl Sheet<'_> {
             };
             series.push(Series::new(name, power_law(&law, &radial), Mark::Dashed));
         }
-        let figure = LineFigure {
-            title: "power spectral density".to_owned(),
-            x: Axis::log("wave number", Unit::Of("rad/m")),
-            y: Axis::log("C", Unit::Of("m⁴")),
-            right: None,
-            series,
-        };
-        draw::lines(&self.path("spectrum.png"), &figure)?;
+        let x = Axis::log("wave number", Unit::Wavenumber);
+        self.chart("spectrum", "power spectral density", x, Axis::log("C", Unit::Of("m⁴")), series)?;
         self.spectrum_map(&spectrum)?;
         Ok(json!({
             "radial": radial,
@@ -198,16 +195,12 @@ impl Sheet<'_> {
         if largest == 0.0 || !largest.is_finite() {
             return Ok(());
         }
-        let figure = PlaneFigure {
-            title: "power spectral density, Hann's window".to_owned(),
-            field: &field,
-            step: grid.extent().map(|length| TAU / length),
-            names: ["qx", "qy"],
-            unit: Unit::Wavenumber,
-            quantity: Quantity::new("C", Unit::Of("m⁴")),
-            range: [largest * 10f64.powi(-DECADES), largest],
-        };
-        Ok(draw::plane(&self.path("spectrum-map.png"), &figure)?)
+        let step = grid.extent().map(|length| TAU / length);
+        let quantity = Quantity::new("C", Unit::Of("m⁴"));
+        let names = ["wave number along x", "wave number along y"];
+        let map = Map::plane("", &field, step, names, Unit::Wavenumber, quantity, Colours::Logarithmic);
+        let map = map.range([largest * 10f64.powi(-DECADES), largest]);
+        self.save("spectrum-map", "power spectral density, Hann's window", &Maps::new(vec![map]))
     }
 
     /// The autocorrelation as a map, and along lines.
@@ -218,16 +211,10 @@ impl Sheet<'_> {
             return Ok(Value::Null);
         }
         let field = correlation.values() / variance;
-        let figure = PlaneFigure {
-            title: "autocorrelation".to_owned(),
-            field: &field,
-            step: self.topography.grid().pitch,
-            names: ["lag along x", "lag along y"],
-            unit: Unit::Length,
-            quantity: Quantity::new("R/Sq²", Unit::Number),
-            range: [field.iter().copied().fold(0.0, f64::min), 1.0],
-        };
-        draw::plane(&self.path("autocorrelation-map.png"), &figure)?;
+        let names = ["lag along x", "lag along y"];
+        let (step, quantity) = (self.topography.grid().pitch, Quantity::new("R/Sq²", Unit::Number));
+        let map = Map::plane("", &field, step, names, Unit::Length, quantity, Colours::Heights);
+        self.save("autocorrelation-map", "autocorrelation", &Maps::new(vec![map]))?;
         let share = |curve: Vec<(Metre, f64)>| -> Vec<[f64; 2]> {
             curve.into_iter().map(|(lag, r)| [lag, r / variance]).collect()
         };
@@ -242,19 +229,9 @@ impl Sheet<'_> {
             json[key] = json!(points);
             series.push(Series::new(name, points, Mark::Line));
         }
-        let figure = LineFigure {
-            title: "autocorrelation".to_owned(),
-            x: Axis::linear("lag", Unit::Length),
-            y: Axis::linear("R/Sq²", Unit::Number),
-            right: None,
-            series,
-        };
-        draw::lines(&self.path("autocorrelation.png"), &figure)?;
+        let x = Axis::linear("lag", Unit::Length);
+        self.chart("autocorrelation", "autocorrelation", x, Axis::linear("R/Sq²", Unit::Number), series)?;
         Ok(json)
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
     }
 }
 

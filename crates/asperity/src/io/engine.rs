@@ -81,6 +81,9 @@ pub fn run(
         }
     };
     warnings.extend(writer.warning().map(str::to_owned));
+    if case.output.paraview {
+        writer.write_for_paraview()?;
+    }
     let summary = Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,

@@ -16,3 +16,4 @@ pub mod summary; // summary.json
 pub mod tables; // steps.csv, passes.csv, increments.csv
 pub mod topography; // x3p, npy, sur, text in; x3p, npy, vtk out
 mod warm_start; // where the next pass begins
+pub mod vti; // fields for ParaView

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::case::{Case, Side};
 use super::fields::{Attribute, FieldFile, Fields};
+use super::vti;
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::motion::Position;
@@ -39,6 +40,8 @@ pub struct Plan {
     planes: Vec<Metre>,
     section: Option<usize>,
     columns: Vec<[usize; 2]>,
+    /// Whether the stress is wanted as a volume, too.
+    volume: bool,
 }
 
 /// The most stressed points of a contact: an entry of `subsurface` in `summary.json`.
@@ -107,6 +110,7 @@ impl Plan {
             planes: spec.planes.clone(),
             section: spec.section.map(|y| cell("section", 1, y)).transpose()?,
             columns: spec.columns.iter().map(column).collect::<Result<_>>()?,
+            volume: case.output.paraview,
             grid,
         }))
     }
@@ -149,12 +153,19 @@ impl Plan {
         let look = |plane: Plane| {
             let section = plane.stress.each_ref().map(|component| component.column(row).to_owned());
             let columns: Vec<Stress> = self.columns.iter().map(|cell| plane.at(*cell)).collect();
-            (section, columns)
+            let volume = self.volume.then(|| plane.von_mises().mapv(|stress| stress as f32));
+            (section, columns, volume)
         };
         let layers = body.planes(&self.depths, look);
+        if self.volume {
+            let planes: Vec<_> = layers.iter().filter_map(|(_, _, plane)| plane.clone()).collect();
+            let [dx, dy] = self.grid.pitch;
+            let (origin, pitch) = (self.centre([0, 0]), [dx, dy, self.spacing()]);
+            vti::write_volume(&path.with_extension("vti"), "von_mises", &planes, origin, pitch)?;
+        }
         let section = |component: Component| {
             let mut field = Field::zeros([self.grid.shape[0], self.depths.len()]);
-            for (mut column, (section, _)) in field.axis_iter_mut(Axis(1)).zip(&layers) {
+            for (mut column, (section, ..)) in field.axis_iter_mut(Axis(1)).zip(&layers) {
                 column.assign(&section[component as usize]);
             }
             field
@@ -162,8 +173,10 @@ impl Plan {
         self.add_section(&mut file, &Component::ALL.map(section));
         for k in 0..self.columns.len() {
             for component in Component::ALL {
-                let values: Vec<f64> =
-                    layers.iter().map(|(_, columns)| columns[k].components()[component as usize]).collect();
+                let values: Vec<f64> = layers
+                    .iter()
+                    .map(|(_, columns, _)| columns[k].components()[component as usize])
+                    .collect();
                 let name = format!("column_{:02}_{}", k + 1, component.name());
                 file.add_series(&name, "Pa", "z", self.spacing(), 0.0, &values);
             }

@@ -277,6 +277,13 @@ impl<'a> Entry<'a> {
         }
     }
 
+    pub(super) fn flag(&self) -> Result<bool> {
+        match self.value {
+            DeValue::Boolean(flag) => Ok(*flag),
+            _ => Err(self.wrong_type("true or false")),
+        }
+    }
+
     /// An array of exactly `N` entries; `expected` says what they are.
     pub(super) fn array<T, const N: usize>(
         &self,

@@ -155,6 +155,8 @@ pub struct Output {
     pub pressure_every: usize,
     /// The part of a body's length at its free ends that is left out of what is told of its interior, 0 ≤ rim < ½.
     pub rim: f64,
+    /// Whether all fields are written for ParaView, too.
+    pub paraview: bool,
 }
 
 /// The largest case file that is read.

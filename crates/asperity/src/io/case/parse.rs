@@ -54,7 +54,7 @@ const TABLES: [(&str, &[&str]); 7] = [
         ],
     ),
     ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
-    ("output", &["pressure_every", "rim"]),
+    ("output", &["pressure_every", "rim", "paraview"]),
 ];
 
 /// The keys that each kind of topography has beyond the common ones.
@@ -548,7 +548,7 @@ fn control(table: &Table<'_>, prescribed: Prescribed) -> Result<ControlKind> {
 }
 
 fn output(table: Option<&Table<'_>>) -> Result<Output> {
-    let default = Output { pressure_every: 8, rim: 0.1 };
+    let default = Output { pressure_every: 8, rim: 0.1, paraview: false };
     let Some(table) = table else { return Ok(default) };
     known_in(table)?;
     let pressure_every = table.get("pressure_every").map(|entry| entry.count(0)).transpose()?;
@@ -557,9 +557,11 @@ fn output(table: Option<&Table<'_>>) -> Result<Output> {
         .get("rim")
         .map(|entry| entry.number(part, "a part of the length from 0, below 0.5"))
         .transpose()?;
+    let paraview = table.get("paraview").map(|entry| entry.flag()).transpose()?;
     Ok(Output {
         pressure_every: pressure_every.unwrap_or(default.pressure_every),
         rim: rim.unwrap_or(default.rim),
+        paraview: paraview.unwrap_or(default.paraview),
     })
 }
 

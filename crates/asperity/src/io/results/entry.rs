@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -186,7 +186,7 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
     match kept {
         Kept::Nothing => {
             // First what says that something is done, never the file by which the directory is known as ours.
-            for name in ["passes.csv", "steps.csv", "increments.csv", "fields.h5", "subsurface.h5"] {
+            for name in ["passes.csv", "steps.csv", "increments.csv"].iter().chain(&AT_REST) {
                 results.remove(&at(name))?;
             }
             let folders = [results.fields_folder(), results.figures_folder()];
@@ -196,11 +196,12 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
             Ok(())
         }
         Kept::Passes(passes) => clear_later(results, passes),
-        Kept::Increments => {
-            ["fields.h5", "subsurface.h5"].iter().try_for_each(|name| results.remove(&at(name)))
-        }
+        Kept::Increments => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
     }
 }
+
+/// The fields of a static contact.
+const AT_REST: [&str; 4] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti"];
 
 /// The fields of passes that were not finished, and the warm starts of all but the last that was.
 fn clear_later(results: &Results, passes: usize) -> Result<()> {
@@ -211,7 +212,9 @@ fn clear_later(results: &Results, passes: usize) -> Result<()> {
     let failed = |source| Error::File { path: folder.clone(), source };
     for entry in fs::read_dir(&folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.extension() == Some(OsStr::new("h5")) && !names.contains(&path) {
+        let name = path.to_string_lossy();
+        let of = name.strip_suffix("-upper.vti").or(name.strip_suffix(".vti")).or(name.strip_suffix(".h5"));
+        if of.is_some_and(|of| !names.contains(&PathBuf::from(format!("{of}.h5")))) {
             results.remove(&path)?;
         }
     }

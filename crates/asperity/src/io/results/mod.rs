@@ -11,6 +11,7 @@
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
+//!     *.vti                beside the fields, for ParaView, where they are wanted
 //!     summary.json         once all is done
 //!     figures/             pictures
 //!     .lock                locked while a run writes here

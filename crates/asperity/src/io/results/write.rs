@@ -13,7 +13,7 @@ use crate::io::fields::FieldFile;
 use crate::io::loading::LoadingWriter;
 use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
-use crate::io::{atomic, identity, summary, tables, warm_start};
+use crate::io::{atomic, identity, summary, tables, vti, warm_start};
 use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
 use crate::subsurface::Tractions;
@@ -163,6 +163,20 @@ impl Writer {
             pressure_every,
             plan,
         })
+    }
+
+    /// Writes each file of fields as image data for ParaView, too, unless that is there.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn write_for_paraview(&self) -> Result<()> {
+        let finished = self.results.passes()?.len();
+        let passes = (0..=finished).filter(|_| finished > 0).map(|pass| self.results.fields_path(pass));
+        let all = passes.chain([self.results.static_path()]).filter(|path| path.exists());
+        for path in all.filter(|path| !path.with_extension("vti").exists()) {
+            vti::write_fields(&path)?;
+        }
+        Ok(())
     }
 
     /// A file of fields that says which run it is of.

@@ -1,0 +1,48 @@
+//! How figures are drawn.
+
+use clap::Args;
+
+use super::values::{Pair, factor, positive_length, range};
+use crate::draw::{Format, Paper};
+
+/// The kind, fineness and width of figures.
+#[derive(Debug, Args)]
+pub(crate) struct Drawing {
+    /// Kind of the files: pixels, or vectors with text as text
+    #[arg(long, value_enum, default_value = "png")]
+    format: Format,
+    /// Dots per inch
+    #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = dpi)]
+    dpi: f64,
+    /// Width of a figure, as 85mm; by default one that suits it. Letters keep their size
+    #[arg(long, value_name = "LENGTH", value_parser = width)]
+    width: Option<f64>,
+    /// Values at the ends of the colours, of curves those of the axis of y, as 0,2GPa
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
+    range: Option<Pair>,
+}
+
+impl Drawing {
+    pub(crate) fn paper(&self) -> Paper {
+        Paper {
+            format: self.format,
+            dpi: self.dpi,
+            width: self.width,
+            range: self.range.map(|range| range.0),
+        }
+    }
+}
+
+fn dpi(text: &str) -> Result<f64, String> {
+    factor(text)
+        .ok()
+        .filter(|dpi| (20.0..=2400.0).contains(dpi))
+        .ok_or_else(|| "expected 20 to 2400".to_owned())
+}
+
+fn width(text: &str) -> Result<f64, String> {
+    positive_length(text).and_then(|width| match width {
+        0.03..=1.0 => Ok(width),
+        _ => Err("expected 30mm to 1m".to_owned()),
+    })
+}

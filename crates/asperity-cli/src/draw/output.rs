@@ -1,0 +1,109 @@
+//! Figures as files: PNG, SVG or PDF.
+
+use std::path::Path;
+
+use super::colour::Image;
+use super::scene::{FAINT, INK, Scene};
+use super::text::{SMALL, wrapped};
+use super::{Result, at, pdf, raster, svg};
+
+/// The kind of a figure's file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// Pixels.
+    Png,
+    /// Vectors and text, with the glyphs of the font.
+    Svg,
+    /// Vectors and text, with the glyphs of the font.
+    Pdf,
+}
+
+impl Format {
+    /// The end of a file's name.
+    pub(crate) fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
+}
+
+/// How figures are put onto paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Paper {
+    /// The kind of file.
+    pub(crate) format: Format,
+    /// Dots per inch of pixels, > 0.
+    pub(crate) dpi: f64,
+    /// Width of a figure, m; by default one that suits it.
+    pub(crate) width: Option<f64>,
+    /// Values at the ends of the colours or of the axis of y, SI; by default those that suit the figure.
+    pub(crate) range: Option<[f64; 2]>,
+}
+
+impl Default for Paper {
+    fn default() -> Self {
+        Self { format: Format::Png, dpi: 300.0, width: None, range: None }
+    }
+}
+
+/// Points of a metre.
+const POINTS: f64 = 72.0 / 0.0254;
+
+impl Paper {
+    /// The width of a figure, pt.
+    pub(super) fn width(&self, suits: f64) -> f64 {
+        self.width.map_or(suits, |metres| metres * POINTS)
+    }
+
+    /// Pixels along a length in points.
+    pub(super) fn pixels(&self, length: f64) -> usize {
+        (length / 72.0 * self.dpi).round().max(1.0) as usize
+    }
+}
+
+/// What stands above a figure.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Caption {
+    /// What the figure shows.
+    pub(crate) title: String,
+    /// Of what: case, load, pass.
+    pub(crate) of: String,
+}
+
+/// A kind of figure.
+pub(crate) trait Figure {
+    /// Draws the figure without its caption.
+    fn scene(&self, paper: &Paper) -> Scene;
+}
+
+/// A figure under its caption.
+pub(crate) fn captioned(figure: &dyn Figure, caption: &Caption, paper: &Paper) -> Scene {
+    const TITLE: f64 = 9.5;
+    let scene = figure.scene(paper);
+    let room = scene.size[0] - 12.0;
+    let title = wrapped(&caption.title, TITLE, room).into_iter().map(|line| (line, TITLE, INK));
+    let of = wrapped(&caption.of, SMALL, room).into_iter().map(|line| (line, SMALL, FAINT));
+    scene.under(&title.chain(of).collect::<Vec<_>>())
+}
+
+/// Draws a figure under its caption into the file `path`.
+pub(crate) fn save(path: &Path, figure: &dyn Figure, caption: &Caption, paper: &Paper) -> Result<()> {
+    write(path, &captioned(figure, caption, paper), paper)
+}
+
+/// Writes a scene into the file `path`.
+pub(crate) fn write(path: &Path, scene: &Scene, paper: &Paper) -> Result<()> {
+    let bytes = match paper.format {
+        Format::Png => pixels(scene, paper.dpi).map(|image| image.png(Some(paper.dpi))),
+        Format::Svg => svg::document(scene),
+        Format::Pdf => pdf::document(scene),
+    };
+    bytes.map_err(at(path)).and_then(|bytes| super::write(path, &bytes))
+}
+
+/// The scene in pixels.
+pub(super) fn pixels(scene: &Scene, dpi: f64) -> std::io::Result<Image> {
+    raster::picture(scene, dpi).ok_or_else(|| std::io::Error::other("the picture has too many pixels"))
+}

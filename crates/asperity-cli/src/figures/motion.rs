@@ -1,0 +1,301 @@
+//! Figures of a motion: what it did to the bodies, its pressures, its course.
+
+use asperity::io::fields::Fields;
+use asperity::io::results::{Results, pressure_name};
+use asperity::material::{Compliances, Material};
+use asperity::motion::{PassRecord, StepRecord};
+use asperity::operator::{Boundary, Operators};
+use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
+use asperity::units::{Dimension, format};
+use asperity::{Field, Grid};
+
+use super::pressure;
+use super::profile::{Facing, Profile, materials};
+use super::sheet::Sheet;
+use super::stored::{Cap, Stored};
+use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
+use crate::report::Outcome;
+
+/// Pressure maps on one sheet.
+const SHEET: usize = 6;
+/// Passes whose roughness is computed for its figure, at most.
+const PARAMETERS: usize = 24;
+
+/// Draws them, and says of what load and pass the last are.
+pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome<String> {
+    let steps = results.steps()?;
+    let pass = passes.len();
+    let [first, last] = [results.fields_after(0)?, results.fields_after(pass)?];
+    let before = [Stored::read(&first, "lower")?, Stored::read(&first, "upper")?];
+    let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
+    let cap = Cap::read(&last)?;
+    let load = |record: &PassRecord| format!("mean load {}", format(record.mean_load, Dimension::Force));
+    let of = format!("{}, pass {pass}", load(&passes[pass - 1]));
+    let throughout = match pass {
+        1 => of.clone(),
+        _ => format!("{}, passes 1 to {pass}", load(&passes[0])),
+    };
+    let after_pass = format!("{}, after pass {pass}", load(&passes[pass - 1]));
+
+    sheet.add("topographies", "topographies before and after", &throughout, || {
+        Ok(topographies(&before, &after, pass))
+    })?;
+    for (name, title, body) in [
+        ("relief_lower", "lower body in perspective", &after[0]),
+        ("relief_upper", "upper body in perspective, underside", &after[1]),
+    ] {
+        if !body.relief().is_flat() {
+            sheet.add(name, title, &after_pass, || Ok(body.relief()))?;
+        }
+    }
+    let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
+    sheet.add("mean_pressure", "mean pressure over the pass", &of, || {
+        let largest = mean.iter().flat_map(|m| m.field.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
+        let maps = [(&mean[0], "on the lower body"), (&mean[1], "on the upper body")];
+        Ok(Maps::new(maps.map(|(mean, title)| mean.pressure(title).range([0.0, largest])).into()))
+    })?;
+    if cap.is_finite() {
+        plastic_depth(&before, &after, &throughout, sheet)?;
+    }
+    pressures(results, &last, &steps, pass, before[0].grid, &cap, &of, sheet)?;
+    for (name, title, unit, value) in [
+        ("load", "load", Unit::Force, (|s| s.load) as fn(&StepRecord) -> f64),
+        ("friction", "friction force", Unit::Force, |s| s.tangential_force.abs()),
+        ("contact_area", "real contact area", Unit::Area, |s| s.contact_area),
+    ] {
+        if name != "friction" || steps.iter().any(|step| step.tangential_force != 0.0) {
+            sheet.add(name, &format!("{title} over the positions"), &throughout, || {
+                Ok(over_positions(&steps, pass, title, unit, value))
+            })?;
+        }
+    }
+    sheet.add("roughness", "roughness over the passes", &throughout, || Ok(roughness(passes, &before)))?;
+    sheet.add("parameters", "surface parameters over the passes, material upwards", &throughout, || {
+        parameters(results, pass)
+    })?;
+    sheet.add("approach", "approach and plastic volume over the passes", &throughout, || {
+        Ok(approach(passes))
+    })?;
+    Ok(of)
+}
+
+/// Both bodies before and after, each on one scale, so that its change shows.
+fn topographies<'a>(before: &'a [Stored; 2], after: &'a [Stored; 2], pass: usize) -> Maps<'a> {
+    let at_end = format!("after pass {pass}");
+    let mut remarks = Vec::new();
+    let ranges = [0, 1].map(|body| {
+        let (range, remark) = range_of_heights([&before[body].field, &after[body].field])?;
+        remarks.extend(remark);
+        Some(range)
+    });
+    let map = |stored: &'a Stored, title: String, body: usize| {
+        let map = stored.heights(title);
+        match ranges[body] {
+            Some(range) => map.range(range),
+            None => map,
+        }
+    };
+    let maps = vec![
+        map(&before[0], "lower body, before".to_owned(), 0),
+        map(&before[1], "upper body, underside, before".to_owned(), 1),
+        map(&after[0], format!("lower body, {at_end}"), 0),
+        map(&after[1], format!("upper body, underside, {at_end}"), 1),
+    ];
+    remarks.into_iter().fold(Maps::new(maps), Maps::remark)
+}
+
+/// How deep each body has been flattened since the beginning.
+fn plastic_depth(before: &[Stored; 2], after: &[Stored; 2], of: &str, sheet: &mut Sheet) -> Outcome {
+    let lower = before[0].with(&before[0].field - &after[0].field);
+    let upper = before[1].with(&after[1].field - &before[1].field);
+    sheet.add("plastic", "plastic deformation since the beginning", of, || {
+        // One scale for both: a body that does not yield is then seen not to.
+        let deepest = lower.field.iter().chain(&upper.field).copied().fold(f64::MIN_POSITIVE, f64::max);
+        let maps = [(&lower, "lower body"), (&upper, "upper body")].map(|(depth, body)| {
+            depth.map(body, "depth", Unit::Length, Colours::Pressure).range([0.0, deepest])
+        });
+        Ok(Maps::new(maps.into()))
+    })
+}
+
+/// The pressures that were kept of the last pass: maps, an animation, their distribution, a section.
+#[expect(clippy::too_many_arguments, reason = "all of them are what a pass left")]
+fn pressures(
+    results: &Results,
+    fields: &Fields,
+    steps: &[StepRecord],
+    pass: usize,
+    lower: Grid,
+    cap: &Cap,
+    of: &str,
+    sheet: &mut Sheet,
+) -> Outcome {
+    let names = fields.names()?;
+    let kept: Vec<&StepRecord> =
+        steps.iter().filter(|s| s.pass == pass && names.contains(&pressure_name(s.step))).collect();
+    let largest = kept.iter().map(|step| step.max_pressure).fold(0.0, f64::max);
+    // Of the positions where pressures come to the hardness that of the largest load.
+    let loaded = kept.iter().filter(|step| step.max_pressure >= largest * (1.0 - 1e-6));
+    let Some(most) = loaded.max_by(|a, b| a.load.total_cmp(&b.load)) else { return Ok(()) };
+    let read = |step: &StepRecord| Stored::read(fields, &pressure_name(step.step));
+    let range = [0.0, largest.max(f64::MIN_POSITIVE)];
+    let number = SHEET.min(kept.len());
+    let shown: Vec<(String, Stored)> = (0..number)
+        .map(|k| {
+            // The middles of equal parts of the pass: its very ends show next to nothing.
+            let step = kept[(2 * k + 1) * kept.len() / (2 * number)];
+            let title = format!("position {}: {}", step.step, format(step.load, Dimension::Force));
+            Ok((title, read(step)?.framed(lower)))
+        })
+        .collect::<Outcome<_>>()?;
+    sheet.add("pressure", "pressure on the lower body", of, || {
+        Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure(title).range(range)).collect()))
+    })?;
+    let contacts: Vec<Stored> = shown.iter().map(|(_, stored)| stored.contact(cap)).collect();
+    sheet.add("contact", "contact on the lower body", of, || {
+        let titled = contacts.iter().zip(&shown).map(|(contact, (title, _))| (contact, title));
+        let maps = titled.map(|(contact, title)| contact.map(title, "", Unit::Number, cap.colours()));
+        Ok(Maps::new(maps.map(|map| map.missing("nothing faces it")).collect()))
+    })?;
+    let frames: Vec<Stored> =
+        kept.iter().map(|step| Ok(read(step)?.framed(lower))).collect::<Outcome<_>>()?;
+    sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
+        Ok(pressure::histogram(frames.iter().map(|stored| &stored.field), cap))
+    })?;
+    sheet.animate("pressure", "pressure on the lower body", Colours::Pressure, || {
+        let words = kept.iter().map(|step| {
+            let load = format(step.load, Dimension::Force);
+            format!("pass {pass}, position {}, load {load}", step.step)
+        });
+        let maps = frames.iter().map(|stored| Maps::new(vec![stored.pressure("").range(range)]));
+        Ok(words.zip(maps).collect())
+    })?;
+    if let Some(profile) = section(results, &read(most)?, most)? {
+        let of = format!("{of}, position {}", most.step);
+        sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile.charts()))?;
+    }
+    Ok(())
+}
+
+/// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
+/// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
+fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
+    let case = results.case()?;
+    let [lower, upper] = materials(&case)?;
+    let compliances = Compliances::new(&lower, &upper)?;
+    let yields = |body: &Material| body.hardness.is_finite();
+    let step_by_step = case["motion"]["plastic_update"] == "step" && (yields(&lower) || yields(&upper));
+    if step_by_step || (!case["friction"].is_null() && compliances.coupling != 0.0) {
+        return Ok(None);
+    }
+    let [below, above] = results.surfaces_after(step.pass - 1)?;
+    let boundary = match case["contact"]["boundary"].as_str() {
+        Some("free") => Boundary::Free,
+        Some("periodic") => Boundary::Periodic,
+        _ => return Ok(None),
+    };
+    let shape = pressure.grid.shape;
+    let mut displacement = Field::zeros(shape);
+    Operators::new(pressure.grid.pitch, compliances, boundary)
+        .on(shape)
+        .apply(&pressure.field, &mut displacement);
+    let offset = (step.offset / pressure.grid.pitch[0]).round() as isize;
+    let facing = |body: &Topography, first: isize| {
+        let columns = body.heights().nrows() as isize;
+        Field::from_shape_fn(shape, |(i, j)| {
+            body.heights()[[(first + i as isize).rem_euclid(columns) as usize, j]]
+        })
+    };
+    let first = pressure.column as isize;
+    let (below, above) = (facing(&below, first), facing(&above, first - offset));
+    // What is left of the interference where they touch.
+    let mut plastic = &below - &above - &displacement + step.approach;
+    plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });
+    let facing = Facing {
+        lower: &below,
+        upper: &above,
+        pressure: &pressure.field,
+        displacement: &displacement,
+        plastic: &plastic,
+        approach: step.approach,
+        pitch: pressure.grid.pitch,
+        column: pressure.column,
+    };
+    Profile::of(&facing, &case)
+}
+
+/// A quantity of the positions in the first, a middle and the last pass.
+fn over_positions(
+    steps: &[StepRecord],
+    passes: usize,
+    quantity: &str,
+    unit: Unit,
+    value: fn(&StepRecord) -> f64,
+) -> Charts {
+    let mut shown = vec![1, passes.div_ceil(2), passes];
+    shown.dedup();
+    let series = shown.into_iter().map(|pass| {
+        let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
+        Series::new(format!("pass {pass}"), points, Mark::Line)
+    });
+    let x = Axis::linear("offset of the upper body", Unit::Length);
+    Chart::new("", x, Axis::linear(quantity, unit), series.collect()).into()
+}
+
+fn roughness(passes: &[PassRecord], before: &[Stored; 2]) -> Charts {
+    let points = |body: usize, value: fn(&PassRecord) -> f64| {
+        let first = [0.0, before[body].field.std(0.0)];
+        std::iter::once(first).chain(passes.iter().map(|p| [p.pass as f64, value(p)])).collect()
+    };
+    let series = vec![
+        Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
+        Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
+    ];
+    Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear("Sq", Unit::Length), series).into()
+}
+
+/// Sa, Sq, Ssk, Sk, Spk and Svk of both bodies.
+fn parameters(results: &Results, passes: usize) -> Outcome<Charts> {
+    let every = passes.div_ceil(PARAMETERS);
+    let mut shown: Vec<usize> = (0..=passes).step_by(every).collect();
+    if shown.last() != Some(&passes) {
+        shown.push(passes);
+    }
+    const NAMES: [&str; 6] = ["Sa", "Sq", "Ssk", "Sk", "Spk", "Svk"];
+    // Of each parameter and body.
+    let mut curves: [[Vec<[f64; 2]>; 2]; 6] = Default::default();
+    for pass in shown {
+        let [lower, upper] = results.surfaces_after(pass)?;
+        // The height of an underside turned over is that of the surface as it was measured.
+        for (body, surface) in [lower, upper.underside()].iter().enumerate() {
+            let (height, core) = (HeightParameters::of(surface), FunctionalParameters::of(surface));
+            let values = [height.sa, height.sq, height.ssk, core.sk, core.spk, core.svk];
+            for (curve, value) in curves.iter_mut().zip(values) {
+                curve[body].push([pass as f64, value]);
+            }
+        }
+    }
+    let chart = |(name, [lower, upper]): (&str, [Vec<[f64; 2]>; 2])| {
+        let unit = if name == "Ssk" { Unit::Number } else { Unit::Length };
+        let series = vec![
+            Series::new("lower body", lower, Mark::LineAndPoints),
+            Series::new("upper body", upper, Mark::LineAndPoints),
+        ];
+        Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear(name, unit), series)
+    };
+    Ok(Charts { charts: NAMES.into_iter().zip(curves).map(chart).collect(), columns: 3, aspect: 0.8 })
+}
+
+fn approach(passes: &[PassRecord]) -> Charts {
+    let points = |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [p.pass as f64, value(p)]).collect();
+    let x = Axis::linear("pass", Unit::Count);
+    let series = vec![
+        Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
+        Series::new("plastic volume, lower body", points(|p| p.plastic_volume_lower), Mark::LineAndPoints)
+            .on_the_right(),
+        Series::new("plastic volume, upper body", points(|p| p.plastic_volume_upper), Mark::LineAndPoints)
+            .on_the_right(),
+    ];
+    let chart = Chart::new("", x, Axis::linear("approach", Unit::Length), series);
+    chart.with_right(Axis::linear("plastic volume in the pass", Unit::Volume)).into()
+}

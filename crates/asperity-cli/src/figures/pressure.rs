@@ -1,0 +1,36 @@
+//! How pressures are distributed.
+
+use asperity::Field;
+
+use super::stored::Cap;
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+
+/// Classes of a histogram.
+const CLASSES: usize = 40;
+
+/// The shares of the contact area in classes of pressure, with the cap where there is one.
+pub(super) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
+    let pressures: Vec<f64> =
+        fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| *p > 0.0)).collect();
+    let largest = pressures.iter().copied().fold(0.0, f64::max);
+    let mut counts = [0usize; CLASSES];
+    for p in &pressures {
+        counts[((p / largest * CLASSES as f64) as usize).min(CLASSES - 1)] += 1;
+    }
+    let width = largest / CLASSES as f64;
+    let share = |count: usize| 100.0 * count as f64 / pressures.len() as f64;
+    let bars: Vec<[f64; 2]> = match pressures.is_empty() {
+        true => Vec::new(),
+        false => counts.iter().enumerate().map(|(i, n)| [(i as f64 + 0.5) * width, share(*n)]).collect(),
+    };
+    let highest = bars.iter().map(|bar| bar[1]).fold(0.0, f64::max);
+    let mut series = vec![Series::new("cells in contact", bars, Mark::Bars)];
+    if let Cap::Number(cap) = cap
+        && cap.is_finite()
+        && *cap <= 1.2 * largest
+    {
+        series.push(Series::new("hardness", vec![[*cap, 0.0], [*cap, highest]], Mark::Dashed));
+    }
+    let x = Axis { range: Some([0.0, 1.03 * largest]), ..Axis::linear("pressure", Unit::Pressure) };
+    Chart::new("", x, Axis::linear("share of the contact area", Unit::Of("%")), series).into()
+}

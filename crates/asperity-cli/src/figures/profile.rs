@@ -1,0 +1,136 @@
+//! A section along x through the most loaded spot: both bodies as they are pressed together, the gap, the pressure.
+
+use asperity::Field;
+use asperity::material::{Compliances, Material, plastic_share};
+use serde_json::Value;
+
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use crate::report::Outcome;
+
+/// Widths of the spot shown at each side of it.
+const AROUND: usize = 4;
+/// The least number of cells shown at each side.
+const LEAST: usize = 12;
+
+/// What faces at one position, all on one grid.
+pub(super) struct Facing<'a> {
+    pub(super) lower: &'a Field,
+    /// The upper body's underside.
+    pub(super) upper: &'a Field,
+    pub(super) pressure: &'a Field,
+    /// Elastic displacement of both bodies, positive where it opens the gap.
+    pub(super) displacement: &'a Field,
+    /// What both bodies have taken up plastically.
+    pub(super) plastic: &'a Field,
+    pub(super) approach: f64,
+    pub(super) pitch: [f64; 2],
+    /// Where the grid begins on the lower body, in columns.
+    pub(super) column: usize,
+}
+
+/// A row of cells; pairs of x and a value.
+#[derive(Debug)]
+pub(super) struct Profile {
+    /// Where it lies.
+    y: f64,
+    /// Lower and upper body before and after they deform.
+    undeformed: [Vec<[f64; 2]>; 2],
+    deformed: [Vec<[f64; 2]>; 2],
+    gap: Vec<[f64; 2]>,
+    pressure: Vec<[f64; 2]>,
+}
+
+impl Profile {
+    /// The section through the cell of the largest pressure, of several that in the midst of the most; none without
+    /// contact.
+    pub(super) fn of(facing: &Facing, case: &Value) -> Outcome<Option<Self>> {
+        let Some([ix, iy]) = most_loaded(facing.pressure).filter(|_| facing.approach.is_finite()) else {
+            return Ok(None);
+        };
+        let row = facing.pressure.column(iy);
+        let first = (0..ix).rev().find(|i| row[*i] <= 0.0).map_or(0, |i| i + 1);
+        let end = (ix..row.len()).find(|i| row[*i] <= 0.0).unwrap_or(row.len());
+        let around = (AROUND * (end - first)).max(LEAST);
+        let shown = first.saturating_sub(around)..(end + around).min(row.len());
+        let [lower, upper] = materials(case)?;
+        let [elastic, plastic] = [elastic_share(&lower, &upper)?, plastic_share(&lower, &upper)];
+        let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
+            let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
+            shown.clone().map(|i| [x(i), value(i)]).collect()
+        };
+        let (u, w) = (|i: usize| facing.displacement[[i, iy]], |i: usize| facing.plastic[[i, iy]]);
+        let below = |i: usize| facing.lower[[i, iy]];
+        let above = |i: usize| facing.upper[[i, iy]] - facing.approach;
+        Ok(Some(Self {
+            y: (iy as f64 + 0.5) * facing.pitch[1],
+            undeformed: [along(&below), along(&above)],
+            deformed: [
+                along(&|i| below(i) - elastic * u(i) - plastic * w(i)),
+                along(&|i| above(i) + (1.0 - elastic) * u(i) + (1.0 - plastic) * w(i)),
+            ],
+            gap: along(&|i| above(i) - below(i) + u(i) + w(i)),
+            pressure: along(&|i| row[i]),
+        }))
+    }
+
+    /// The bodies, the gap and the pressure, one below the other.
+    pub(super) fn charts(self) -> Charts {
+        let x = |label: &str| Axis::linear(label, Unit::Length);
+        let length = |label: &str| Axis::linear(label, Unit::Length);
+        let [lower, upper] = self.undeformed;
+        let [lower_deformed, upper_deformed] = self.deformed;
+        let bodies = vec![
+            Series::new("lower body", lower_deformed, Mark::Line),
+            Series::new("upper body", upper_deformed, Mark::Line),
+            Series::new("lower body, undeformed", lower, Mark::Dashed),
+            Series::new("upper body, undeformed", upper, Mark::Dashed),
+        ];
+        let title = format!(
+            "pressed together, y = {}",
+            asperity::units::format(self.y, asperity::units::Dimension::Length)
+        );
+        let gap = vec![Series::new("", self.gap, Mark::Line)];
+        let pressure = vec![Series::new("", self.pressure, Mark::Line)];
+        Charts {
+            charts: vec![
+                Chart::new(title, x("x"), length("height"), bodies),
+                Chart::new("deformed gap", x("x"), length("gap"), gap),
+                Chart::new("pressure", x("x"), Axis::linear("pressure", Unit::Pressure), pressure),
+            ],
+            columns: 1,
+            aspect: 0.36,
+        }
+    }
+}
+
+/// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear the most.
+fn most_loaded(pressure: &Field) -> Option<[usize; 2]> {
+    const AROUND: usize = 2;
+    let largest = pressure.iter().copied().fold(0.0, f64::max);
+    let around = |&[i, j]: &[usize; 2]| {
+        let ends = |at: usize, n: usize| at.saturating_sub(AROUND)..(at + AROUND + 1).min(n);
+        let cells = ndarray::s![ends(i, pressure.nrows()), ends(j, pressure.ncols())];
+        pressure.slice(cells).sum()
+    };
+    let loaded = pressure.indexed_iter().filter(|(_, p)| **p > 0.0 && **p >= largest * (1.0 - 1e-6));
+    loaded.map(|((i, j), _)| [i, j]).max_by(|a, b| around(a).total_cmp(&around(b)))
+}
+
+/// What the bodies are made of.
+pub(super) fn materials(case: &Value) -> Outcome<[Material; 2]> {
+    let body = |name: &str| -> Outcome<Material> {
+        // What JSON cannot hold, or what is not there, is infinite.
+        let number = |key: &str| case[name][key].as_f64().unwrap_or(f64::INFINITY);
+        Ok(Material::new(number("young"), case[name]["poisson"].as_f64().unwrap_or(0.0), number("hardness"))?)
+    };
+    Ok([body("lower")?, body("upper")?])
+}
+
+/// The part of the elastic displacement that is the lower body's.
+fn elastic_share(lower: &Material, upper: &Material) -> Outcome<f64> {
+    if lower.young.is_infinite() {
+        return Ok(0.0);
+    }
+    let rigid = Material::elastic(f64::INFINITY, 0.0)?;
+    Ok(Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal)
+}

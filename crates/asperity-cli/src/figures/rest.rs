@@ -1,0 +1,100 @@
+//! Figures of a static contact.
+
+use asperity::io::fields::{Attribute, Fields};
+use asperity::io::results::Results;
+use asperity::units::{Dimension, format};
+
+use super::profile::{Facing, Profile};
+use super::sheet::Sheet;
+use super::stored::{Cap, Stored};
+use super::{friction, loading, pressure};
+use crate::draw::{Colours, Maps, Unit, range_of_heights};
+use crate::report::Outcome;
+
+/// Draws them, and says of what load they are.
+pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
+    let fields = results.static_fields()?;
+    let read = |name| Stored::read(&fields, name);
+    let (lower, upper, p) = (read("lower")?, read("upper")?, read("pressure")?);
+    let (gap, plastic, displacement) = (read("gap")?, read("plastic")?, read("displacement")?);
+    let cap = Cap::read(&fields)?;
+    let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
+    let of = format!("load {}", format(load, Dimension::Force));
+
+    sheet.add("topographies", "topographies", &of, || Ok(topographies(&lower, &upper)))?;
+    for (name, title, body) in [
+        ("relief_lower", "lower body in perspective", &lower),
+        ("relief_upper", "upper body in perspective, underside", &upper),
+    ] {
+        if !body.relief().is_flat() {
+            sheet.add(name, title, &of, || Ok(body.relief()))?;
+        }
+    }
+    sheet.add("pressure", "pressure", &of, || Ok(Maps::new(vec![p.pressure("")])))?;
+    sheet.add("pressure_histogram", "distribution of the pressure over the contact", &of, || {
+        Ok(pressure::histogram([&p.field], &cap))
+    })?;
+    let contact = p.contact(&cap);
+    sheet.add("contact", "contact", &of, || {
+        Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
+    })?;
+    // Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
+    let mut open = gap.with(&gap.field + &plastic.field);
+    ndarray::Zip::from(&mut open.field).and(&p.field).and(&plastic.field).for_each(|gap, p, w| {
+        *gap = if *p > 0.0 { -w.max(0.0) } else { gap.max(0.0) };
+    });
+    sheet.add("gap", "deformed gap", &of, || {
+        let map = open.map("", "gap", Unit::Length, Colours::Gap);
+        Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
+    })?;
+    if cap.is_finite() {
+        sheet.add("plastic", "plastic interference", &of, || {
+            Ok(Maps::new(vec![plastic.map("", "interference", Unit::Length, Colours::Pressure)]))
+        })?;
+    }
+    let facing = Facing {
+        lower: &lower.field,
+        upper: &upper.field,
+        pressure: &p.field,
+        displacement: &displacement.field,
+        plastic: &plastic.field,
+        approach: approach(&fields)?,
+        pitch: p.grid.pitch,
+        column: 0,
+    };
+    if let Some(profile) = Profile::of(&facing, &results.case()?)? {
+        sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile.charts()))?;
+    }
+    if fields.names()?.iter().any(|name| name == "stick") {
+        friction::draw(&fields, &p, &of, sheet)?;
+    }
+    let increments = results.increments()?;
+    if increments.len() > 1 {
+        sheet.add("loading", "force over displacement", &of, || Ok(loading::chart(&increments)))?;
+    }
+    Ok(of)
+}
+
+/// Both bodies, between heights that are not the rarest.
+fn topographies<'a>(lower: &'a Stored, upper: &'a Stored) -> Maps<'a> {
+    let bodies = [(lower, "lower body"), (upper, "upper body, underside")];
+    let mut remarks = Vec::new();
+    let maps = bodies.map(|(body, title)| {
+        let map = body.heights(title);
+        match range_of_heights([&body.field]) {
+            Some((range, remark)) => {
+                remarks.extend(remark);
+                map.range(range)
+            }
+            None => map,
+        }
+    });
+    remarks.into_iter().fold(Maps::new(maps.into()), Maps::remark)
+}
+
+fn approach(fields: &Fields) -> Outcome<f64> {
+    match fields.attributes()?.get("approach") {
+        Some(Attribute::Number(approach)) => Ok(*approach),
+        _ => Ok(f64::NAN),
+    }
+}

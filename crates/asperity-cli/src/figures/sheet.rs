@@ -1,0 +1,130 @@
+//! Where figures are gathered, and written at the end.
+
+use std::path::PathBuf;
+
+use asperity::io::atomic;
+use asperity::io::results::Results;
+use rayon::prelude::*;
+
+use super::Wanted;
+use crate::draw::{self, Caption, Colours, Figure, Format, Paper, Scene};
+use crate::report::{Failure, Outcome};
+
+/// Hundredths of a second that a frame of an animation is shown.
+const DELAY: u16 = 12;
+
+/// The figures drawn so far. They are written in the end, on as many threads as there are.
+pub(super) struct Sheet<'a> {
+    folder: PathBuf,
+    wanted: &'a Wanted,
+    case: String,
+    names: Vec<String>,
+    drawings: Vec<(PathBuf, Drawing)>,
+    /// Whether no more are wanted.
+    stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// The longest title of a case that stands in full on its figures, characters.
+const LONGEST: usize = 160;
+
+enum Drawing {
+    Still(Scene),
+    Moving(Vec<Scene>, Colours),
+}
+
+impl<'a> Sheet<'a> {
+    pub(super) fn new(
+        results: &Results,
+        wanted: &'a Wanted,
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Outcome<Self> {
+        let case = results.case()?;
+        let title = case.get("title").and_then(|title| title.as_str()).unwrap_or_default();
+        let mut case: String = title.chars().take(LONGEST).collect();
+        if case.len() < title.len() {
+            case.push('…');
+        }
+        let folder = results.figures_folder();
+        Ok(Self { folder, wanted, case, names: Vec::new(), drawings: Vec::new(), stop })
+    }
+
+    /// Adds a figure, if it is wanted: what it shows, of what load and pass.
+    pub(super) fn add<F: Figure>(
+        &mut self,
+        name: &str,
+        title: &str,
+        of: &str,
+        figure: impl FnOnce() -> Outcome<F>,
+    ) -> Outcome {
+        if self.wants(name) {
+            self.go_on()?;
+            let scene = draw::captioned(&figure()?, &self.caption(title, of), &self.wanted.paper);
+            let path = self.folder.join(format!("{name}.{}", self.wanted.paper.format.extension()));
+            self.drawings.push((path, Drawing::Still(scene)));
+        }
+        Ok(())
+    }
+
+    /// Adds an animation, if it is wanted, whose frames differ in a map of `colours`; it is a GIF always.
+    pub(super) fn animate<F: Figure>(
+        &mut self,
+        name: &str,
+        title: &str,
+        colours: Colours,
+        frames: impl FnOnce() -> Outcome<Vec<(String, F)>>,
+    ) -> Outcome {
+        if self.wants(&format!("{name}.gif")) {
+            self.go_on()?;
+            let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
+            let scene =
+                |(of, figure): (String, F)| draw::captioned(&figure, &self.caption(title, &of), &paper);
+            let frames = frames()?.into_iter().map(scene).collect();
+            self.drawings.push((self.folder.join(format!("{name}.gif")), Drawing::Moving(frames, colours)));
+        }
+        Ok(())
+    }
+
+    /// Writes all figures and returns their paths.
+    pub(super) fn finish(self) -> Outcome<Vec<PathBuf>> {
+        if let Some(unknown) = self.wanted.only.iter().find(|name| !self.names.contains(name)) {
+            let hint = format!("there are {}", self.names.join(", "));
+            return Err(Failure::usage(format!("no figure `{unknown}` of these results"), Some(&hint)));
+        }
+        let made = std::fs::create_dir_all(&self.folder);
+        made.map_err(|source| asperity::Error::File { path: self.folder.clone(), source })?;
+        atomic::sweep(&self.folder);
+        let paper = &self.wanted.paper;
+        let write = |(path, drawing): &(PathBuf, Drawing)| {
+            self.go_on()?;
+            match drawing {
+                Drawing::Still(scene) => draw::write_scene(path, scene, paper),
+                Drawing::Moving(frames, colours) => draw::animation(path, frames, *colours, DELAY),
+            }
+        };
+        let written: Vec<draw::Result<()>> = self.drawings.par_iter().map(write).collect();
+        // Of several that cannot be written the first is named.
+        written.into_iter().collect::<draw::Result<()>>()?;
+        Ok(self.drawings.into_iter().map(|(path, _)| path).collect())
+    }
+
+    /// An error of the kind `Interrupted` once no more figures are wanted.
+    fn go_on(&self) -> draw::Result<()> {
+        let interrupted = || std::io::ErrorKind::Interrupted.into();
+        if (self.stop)() {
+            Err(draw::Error { path: self.folder.clone(), source: interrupted() })
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Whether a figure is wanted; its name is one of those that could be.
+    fn wants(&mut self, name: &str) -> bool {
+        self.names.push(name.to_owned());
+        self.wanted.only.is_empty() || self.wanted.only.iter().any(|wanted| wanted == name)
+    }
+
+    fn caption(&self, title: &str, of: &str) -> Caption {
+        let parts: Vec<&str> = [self.case.as_str(), of].into_iter().filter(|part| !part.is_empty()).collect();
+        Caption { title: title.to_owned(), of: parts.join(" · ") }
+    }
+}

@@ -1,0 +1,46 @@
+//! The figure of the stress under a surface.
+
+use asperity::Field;
+use asperity::io::fields::{Attribute, Fields};
+use asperity::units::{Dimension, format};
+
+use super::sheet::Sheet;
+use crate::draw::{Map, Maps, Quantity, Unit};
+use crate::report::{Failure, Outcome};
+
+/// Von Mises' stress on the section; the most stressed point is marked if it lies there.
+pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
+    let stored = fields.read("section_von_mises")?;
+    let ([dx, dz], x) = ([stored.pitch[0], stored.pitch[1]], stored.origin[0]);
+    let layers =
+        stored.into_field().ok_or_else(|| Failure::usage("`section_von_mises` is not a section", None))?;
+    // Values stand at depths, from the surface on: between them, lines.
+    const FINER: usize = 4;
+    let cells = [layers.nrows(), FINER * (layers.ncols() - 1)];
+    let field = Field::from_shape_fn(cells, |(i, k)| {
+        let part = ((k % FINER) as f64 + 0.5) / FINER as f64;
+        (1.0 - part) * layers[[i, k / FINER]] + part * layers[[i, k / FINER + 1]]
+    });
+    let attributes = fields.attributes()?;
+    let place = match (attributes.get("section"), attributes.get("position"), attributes.get("body")) {
+        (Some(Attribute::Number(y)), Some(Attribute::Numbers(at)), Some(Attribute::Text(body))) => {
+            Some((*y, at, body))
+        }
+        _ => None,
+    };
+    let (y, at, body) = place.ok_or_else(|| Failure::usage("it is not said where the section lies", None))?;
+    let begin = x - 0.5 * dx;
+    let ends = [[begin, begin + cells[0] as f64 * dx], [0.0, (layers.ncols() - 1) as f64 * dz]];
+    let title = format!("von Mises stress in the {body} body");
+    let step = match attributes.get("step") {
+        Some(Attribute::Integer(step)) => format!(", position {step}"),
+        _ => String::new(),
+    };
+    let of = format!("{of}{step}, section at y = {}", format(y, Dimension::Length));
+    sheet.add("subsurface", &title, &of, || {
+        let map = Map::section("", &field, ends, Quantity::new("von Mises stress", Unit::Pressure));
+        let on_it = at[1] == y;
+        let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
+        Ok(Maps::new(vec![map]))
+    })
+}
