@@ -154,23 +154,25 @@ pub enum Error {
     LoadNotReached {
         /// The pass-mean load asked for.
         load: Newton,
+        /// The largest found that is less.
+        below: Newton,
         /// Approaches tried.
         trials: usize,
         /// The last of them.
         approach: Metre,
     },
-    /// One approach for a whole pass bears no such load, whatever it is.
+    /// One approach for a whole pass bears no such load up to one at which there is no more to be had.
     #[error(
-        "one approach for the whole pass bears {most:.6e} N in the mean at most, not {load:.6e} N: at {approach:.6e} m {cause}"
+        "one approach for the whole pass bears {most:.6e} N in the mean up to {approach:.6e} m, not {load:.6e} N: there {cause}"
     )]
     BeyondPass {
         /// The pass-mean load asked for.
         load: Newton,
-        /// The most that was found.
+        /// The load at the approach.
         most: Newton,
-        /// The approach there.
+        /// The approach beyond which none is sought.
         approach: Metre,
-        /// Why it is the most.
+        /// Why.
         cause: LoadLimit,
     },
     /// A position of a motion could not be solved.
@@ -269,7 +271,8 @@ pub enum Error {
 /// Why the load of a pass under one approach has a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum LoadLimit {
-    /// Bodies that yield at each position fit together, and bear no more however close they come.
+    /// Bodies that yield at each position fit together: from there on they bear no more where one of them takes all of the
+    /// plastic deformation, and hardly more, growing as the logarithm of the approach, where both do.
     #[error("every cell yields where it first meets another, and bears less at the positions that follow")]
     Yielded,
     /// Periodic bodies in full contact: their mean displacement is free.

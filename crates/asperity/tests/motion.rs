@@ -6,6 +6,7 @@ mod support;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use asperity::error::LoadLimit;
 use asperity::material::Material;
 use asperity::motion::{
     Contact, Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Progress, Simulation,
@@ -379,7 +380,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     }
 }
 
-/// Motions of every kind, of two passes that yield.
+/// Motions of every kind, of three passes that yield.
 fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     let slides = Friction::coulomb(0.3).unwrap();
     let grows = Friction { junction_growth: 9.0, ..slides };
@@ -388,11 +389,12 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     for (strategy, boundary) in
         [(Strategy::Overlap, Boundary::Free), (shift, Boundary::Free), (shift, Boundary::Periodic)]
     {
-        for control in [Control::PassLoad(5.0 * LOAD), Control::StepLoad(2.0 * LOAD), Control::Approach(0.0)]
+        for control in
+            [Control::PassLoad(5.0 * LOAD), Control::StepLoad(0.8 * LOAD), Control::Approach(40e-9)]
         {
             for plastic_update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
                 for friction in [None, Some(slides), Some(grows)] {
-                    let kind = Motion { strategy, plastic_update, friction, stride: 3, ..motion(control, 4) };
+                    let kind = Motion { strategy, plastic_update, friction, stride: 3, ..motion(control, 3) };
                     motions.push((boundary, kind));
                 }
             }
@@ -405,14 +407,15 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
 fn a_resumed_motion_goes_on_with_the_same_bits() {
     for (index, (boundary, motion)) in motions_of_every_kind().into_iter().enumerate() {
         // Every other pair is of dissimilar bodies, which the shear displaces normally.
-        let pair = if index % 2 == 0 { rough_pair(24) } else { dissimilar_pair(24) };
+        let pair = if index % 2 == 0 { rough_pair(16) } else { dissimilar_pair(16) };
         let simulation = |pair: &Pair, passes: usize| {
-            Simulation::new(pair.clone(), boundary, Motion { passes, ..motion }, Params::default()).unwrap()
+            Simulation::new(pair.clone(), boundary, Motion { passes, ..motion }, Params::default())
+                .unwrap_or_else(|error| panic!("{error}: {motion:?}"))
         };
-        let whole = continued(simulation(&pair, 4));
+        let whole = continued(simulation(&pair, 3));
         let mut parts = continued(simulation(&pair, 1));
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        for passes in [2, 4] {
+        for passes in [2, 3] {
             let (done, last) = (parts.passes.len(), parts.pairs.last().unwrap());
             let mut left = pair.clone();
             (left.lower, left.upper) = (last.lower.clone(), last.upper.clone());
@@ -475,6 +478,69 @@ fn an_output_that_fails_ends_the_motion() {
     let motion = Motion { stride: 8, ..motion(Control::StepLoad(0.2 * LOAD), 3) };
     let mut simulation = Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default()).unwrap();
     assert!(matches!(simulation.run(&(), &mut [&mut Full]), Err(Error::Unsupported("no space left"))));
+}
+
+// ---- loads without an approach ---------------------------------------------------------------------------
+
+#[test]
+fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
+    let step = Motion { plastic_update: PlasticUpdate::Step, ..motion(Control::PassLoad(1.0), 1) };
+    // The lower body takes all of the plastic deformation.
+    let [soft, hard] = [1.0, 2.0].map(|times| Material::new(STEEL[0], STEEL[1], times * HARDNESS).unwrap());
+    let pair = || Pair::new(surface([24, 24], 1), surface([24, 24], 2), [&soft, &hard]).unwrap();
+    let limit = pass_limit(24, 24, 1);
+    let tried = |load: f64| {
+        let motion = Motion { control: Control::PassLoad(load), ..step };
+        let mut kept = Kept::default();
+        let mut simulation = Simulation::new(pair(), Boundary::Free, motion, Params::default()).unwrap();
+        simulation.run(&(), &mut [&mut kept]).map(|()| kept)
+    };
+    let Err(Error::BeyondPass { load, most, approach, cause }) = tried(0.9 * limit) else {
+        panic!("there is no such approach");
+    };
+    assert_eq!((load, cause), (0.9 * limit, LoadLimit::Yielded));
+    // However far beyond: what was lowered by more has the same shape, and bears the same.
+    for far in [1.5, 20.0] {
+        let at = Motion { control: Control::Approach(far * approach), ..step };
+        let bears = run(pair(), at).passes[0].mean_load;
+        assert!((bears / most - 1.0).abs() < 1e-5, "{bears:e} N and {most:e} N");
+    }
+    for share in [0.5, 0.9, 0.99] {
+        let kept = tried(share * most).unwrap();
+        assert!((kept.passes[0].mean_load / (share * most) - 1.0).abs() <= 1e-4, "{share}");
+        assert!(kept.passes[0].approach < approach);
+    }
+    // Bodies that yield after the pass bear it.
+    let after =
+        Motion { plastic_update: PlasticUpdate::Pass, control: Control::PassLoad(0.9 * limit), ..step };
+    assert!((run(pair(), after).passes[0].mean_load / (0.9 * limit) - 1.0).abs() <= 1e-4);
+}
+
+#[test]
+fn periodic_bodies_share_a_load_up_to_full_contact() {
+    let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let tried = |load: f64| {
+        let motion = Motion { strategy: sliding, stride: 4, ..motion(Control::PassLoad(load), 1) };
+        let mut kept = Kept::default();
+        let mut simulation =
+            Simulation::new(periodic_pair(), Boundary::Periodic, motion, Params::default()).unwrap();
+        simulation.run(&(), &mut [&mut kept]).map(|()| kept)
+    };
+    let Err(Error::BeyondPass { most, approach, cause: LoadLimit::FullContact, .. }) = tried(100.0) else {
+        panic!("how the positions share it is not determined");
+    };
+    let pair = periodic_pair();
+    let mean_gap = pair.upper.mean().unwrap() - pair.lower.mean().unwrap();
+    assert!((approach - mean_gap).abs() < 1e-5 * 50e-9, "{approach:e} {mean_gap:e}");
+    let apparent = pair.lower_grid().area();
+    let mut areas = Vec::new();
+    for share in [0.3, 0.8, 0.95, 0.99] {
+        let kept = tried(share * most).unwrap_or_else(|error| panic!("{share}: {error}"));
+        assert!((kept.passes[0].mean_load / (share * most) - 1.0).abs() <= 1e-4, "{share}");
+        assert!(kept.passes[0].approach < approach);
+        areas.push(kept.passes[0].mean_contact_area / apparent);
+    }
+    assert!(areas.is_sorted() && areas[3] > 0.95 && areas[3] < 1.0, "{areas:?}");
 }
 
 // ---- what cannot be computed -----------------------------------------------------------------------------

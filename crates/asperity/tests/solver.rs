@@ -354,3 +354,155 @@ fn bodies_that_do_not_reach_each_other_do_not_press() {
         }
     }
 }
+
+#[test]
+fn a_uniform_contact_converges_by_every_method() {
+    for n in [5, 20, 150] {
+        let grid = Grid::new([n, n], [1e-6, 1e-6]).unwrap();
+        let load = Control::Load(1e8 * grid.area());
+        let wave =
+            Field::from_shape_fn([n, n], |(i, j)| 1e-15 * ((0.7 * i as f64).sin() + (1.1 * j as f64).cos()));
+        let gaps = [Field::zeros([n, n]), Field::from_elem([n, n], 2.3), wave];
+        for periodic in [false, true] {
+            let mut operator: Box<dyn Operator> = match periodic {
+                true => Box::new(PeriodicFft::new(grid, 115e9)),
+                false => Box::new(FreeFft::new(grid, 115e9)),
+            };
+            for (which, gap) in gaps.iter().enumerate() {
+                for method in METHODS.into_iter().filter(|method| n <= 20 || *method != Method::Direct) {
+                    let params = Params { method, ..Params::default() };
+                    let what = format!("{n} {periodic} {which} {method:?}");
+                    let solution = solve_normal(operator.as_mut(), gap, INF, load, None, &params)
+                        .unwrap_or_else(|error| panic!("{what}: {error}"));
+                    assert!(solution.stats.convolutions < 200.0, "{what}: {:?}", solution.stats);
+                    let mean = solution.pressure.mean().unwrap();
+                    assert!((mean / 1e8 - 1.0).abs() < 1e-10);
+                    if periodic {
+                        assert!(solution.pressure.iter().all(|p| (p / 1e8 - 1.0).abs() < 1e-5), "{what}");
+                    } else {
+                        // The punch: its corners bear most, its middle least.
+                        assert_eq!(solution.contact_cells(), n * n, "{what}");
+                        assert!(
+                            solution.pressure[[0, 0]] > 2.0 * solution.pressure[[n / 2, n / 2]],
+                            "{what}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
+    // In units of a micrometre, of nanometre heights 3 m away, under loads that press one cell down by ever less.
+    for shape in [[12, 16], [40, 32]] {
+        let grid = Grid::new(shape, [1e-6, 1e-6]).unwrap();
+        // Heights with few digits, which 3 m leave unchanged.
+        let near = rough(&grid, 3).mapv(|h| (h * 1e-2 * 2f64.powi(40)).round() * 2f64.powi(-50));
+        let far = near.mapv(|h| h + 3.0);
+        for periodic in [false, true] {
+            let mut operator: Box<dyn Operator> = match periodic {
+                true => Box::new(PeriodicFft::new(grid, 115e9)),
+                false => Box::new(FreeFft::new(grid, 115e9)),
+            };
+            for method in METHODS {
+                for load in [1e-12, 1e-9, 1e-6, 1e-4] {
+                    let params = Params { method, ..Params::default() };
+                    let [a, b] = [&near, &far].map(|gap| {
+                        solve_normal(operator.as_mut(), gap, INF, Control::Load(load), None, &params)
+                            .unwrap_or_else(|error| {
+                                panic!("{shape:?} {periodic} {method:?} {load:e}: {error}")
+                            })
+                    });
+                    let error = difference(&a.pressure, &b.pressure);
+                    assert!(error < 1e-4, "{shape:?} {periodic} {method:?} {load:e}: {error:e}");
+                    assert!((b.approach - 3.0 - a.approach).abs() < 1e-15 + 1e-3 * a.approach.abs());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_units() {
+    // Lengths by 1000^k, loads by any factor with the modulus: the same numbers.
+    let reference = grid([24, 24]);
+    let gap = rough(&reference, 8);
+    for method in METHODS {
+        for periodic in [false, true] {
+            let mut operator = operator(reference, periodic);
+            let control = Control::Load(0.01 * reference.area());
+            let expected = solve(method, operator.as_mut(), &gap, INF, control, 1e-8);
+            for (length, modulus) in [(1e-9, 1e12), (1e-9, 1e3), (1e-6, 1e11), (1e-1, 1e14), (1e-1, 1e-10)] {
+                let scaled = Grid::new([24, 24], [length, length]).unwrap();
+                let mut operator: Box<dyn Operator> = match periodic {
+                    true => Box::new(PeriodicFft::new(scaled, modulus)),
+                    false => Box::new(FreeFft::new(scaled, modulus)),
+                };
+                let control = Control::Load(0.01 * modulus * scaled.area());
+                let found = solve(method, operator.as_mut(), &(&gap * length), INF, control, 1e-8);
+                let error = difference(&(&found.pressure / modulus), &expected.pressure);
+                assert!(error < 1e-6, "{method:?} {periodic} {length:e} {modulus:e}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn numbers_near_the_ends_of_their_range_are_errors_or_answers_but_never_nan() {
+    let shape = [12, 12];
+    for n in [12, 40] {
+        let shape = shape.map(|_| n);
+        for (length, modulus) in
+            [(1.0, 1.0), (1e-6, 1e11), (1e-6, 1e-300), (1e-6, 1e300), (1e-15, 1e11), (1e6, 1.0)]
+        {
+            let grid = Grid::new(shape, [length, length]).unwrap();
+            let gap = rough(&self::grid(shape), 2) * length;
+            let controls = [1e308, 1e200, 1e20]
+                .map(Control::Approach)
+                .into_iter()
+                .chain([1e-308, 1e-200, 1e-30, 1e30, 1e200, 1e308].map(Control::Load));
+            for control in controls {
+                for (hardness, method) in
+                    [(INF, Method::Auto), (1e9, Method::Auto), (INF, Method::PolonskyKeer)]
+                {
+                    let params = Params { method, max_convolutions: 200, ..Params::default() };
+                    let mut operator = FreeFft::new(grid, modulus);
+                    if let Ok(solution) = solve_normal(&mut operator, &gap, hardness, control, None, &params)
+                    {
+                        let finite =
+                            solution.pressure.iter().chain(&solution.displacement).all(|x| x.is_finite());
+                        let energy = solution.elastic_energy(grid.cell_area());
+                        assert!(
+                            finite
+                                && solution.approach.is_finite()
+                                && energy.is_finite()
+                                && solution.residual < 1e-6,
+                            "{n} {length:e} {modulus:e} {hardness:e} {control:?} {method:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_periodic_contact_with_a_hardness_closes_by_every_method() {
+    let grid = grid([16, 16]);
+    let gap = rough(&grid, 4);
+    let mean_gap = gap.mean().unwrap();
+    let mut operator = operator(grid, true);
+    for hardness in [0.03, 0.3] {
+        for share in [0.98, 1.01, 1.5, 4.0] {
+            let control = Control::Approach(share * mean_gap);
+            let [exact, others @ ..] =
+                METHODS.map(|method| solve(method, operator.as_mut(), &gap, hardness, control, 1e-8));
+            for other in others {
+                let error = difference(&other.pressure, &exact.pressure);
+                assert!(error < 1e-4, "{hardness} {share}: {error:e}");
+            }
+        }
+    }
+}

@@ -22,6 +22,8 @@ pub(super) struct Search {
     pub(super) residual: f64,
     /// Approach at which the bodies first touch: there is no load below it.
     pub(super) touch: Metre,
+    /// Length below which approaches do not differ: the rounding of the heights.
+    pub(super) resolution: Metre,
     /// Approach from which on the load grows no more, or is not determined; infinite where there is none.
     pub(super) limit: Limit,
 }
@@ -59,17 +61,21 @@ impl Search {
         let (mut was_rough, mut rough_misled) = (false, false);
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
-        let mut excess_before = 1.0;
+        let (mut excess_before, mut below) = (1.0, 0.0f64);
         for trials in 1..=MOST_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
+            if excess < 0.0 {
+                below = below.max(load);
+            }
             let at_limit = approach >= self.limit.approach && excess < 0.0;
             let is_rough = residual > self.residual;
             if std::mem::replace(&mut was_rough, is_rough) && !is_rough && excess.abs() > LOOSEST {
                 // The rough answers before it promised that this one meets the load: from here on without them.
-                (rough_misled, low, high, before) = (true, self.touch, f64::INFINITY, None);
+                (rough_misled, low, high, before, below) = (true, self.touch, f64::INFINITY, None, 0.0);
             }
-            let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * low.abs().max(high.abs());
+            let exhausted = high.is_finite()
+                && high - low <= 4.0 * self.resolution.max(f64::EPSILON * low.abs().max(high.abs()));
             if excess.abs() <= self.tolerance || exhausted || at_limit {
                 if is_rough {
                     residual = self.residual;
@@ -77,7 +83,7 @@ impl Search {
                 }
                 if exhausted && !rough_misled && excess.abs() > self.tolerance {
                     // Rough answers may have closed the bracket on the wrong side of the load: once more without them.
-                    (rough_misled, low, high, before) = (true, self.touch, f64::INFINITY, None);
+                    (rough_misled, low, high, before, below) = (true, self.touch, f64::INFINITY, None, 0.0);
                     continue;
                 }
                 if at_limit && -excess > self.tolerance {
@@ -85,7 +91,7 @@ impl Search {
                     return Err(Error::BeyondPass { load: self.load, most: load, approach, cause });
                 }
                 if excess.abs() > self.tolerance.max(ROUNDOFF * self.residual) {
-                    return Err(Error::LoadNotReached { load: self.load, trials, approach });
+                    return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
                 return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
             }
@@ -117,7 +123,7 @@ impl Search {
             residual = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
             excess_before = excess;
         }
-        Err(Error::LoadNotReached { load: self.load, trials: MOST_TRIALS, approach })
+        Err(Error::LoadNotReached { load: self.load, below, trials: MOST_TRIALS, approach })
     }
 
     /// The residual that is enough for the trial after two that missed the load by these.
@@ -142,7 +148,7 @@ mod tests {
 
     fn limited(tolerance: f64, approach: f64) -> Search {
         let limit = Limit { approach, cause: LoadLimit::Yielded };
-        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0, limit }
+        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0, resolution: 0.0, limit }
     }
 
     #[test]

@@ -196,6 +196,7 @@ impl Simulation {
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
             touch: self.touch(),
+            resolution: self.resolution(),
             limit: self.limit(),
         };
         let found = search.run(guess, residual, |approach, residual| {
@@ -205,6 +206,15 @@ impl Simulation {
             earlier.insert(0, outcome.contacts.clone());
             earlier.truncate(2);
             Ok((outcome.mean_load(), outcome))
+        });
+        let found = found.map_err(|error| match error {
+            // A load that jumps: where a position comes into full contact with the pressure below the hardness.
+            Error::LoadNotReached { load, below: most, approach, .. }
+                if self.boundary == Boundary::Periodic =>
+            {
+                Error::BeyondPass { load, most, approach, cause: LoadLimit::FullContact }
+            }
+            other => other,
         })?;
         Ok((found.outcome, Some(found.guess), found.trials))
     }
@@ -242,11 +252,17 @@ impl Simulation {
         self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
+    /// The rounding of the heights.
+    fn resolution(&self) -> Metre {
+        let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
+        f64::EPSILON * highest(&self.pair.lower).max(highest(&self.pair.upper))
+    }
+
     /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
     /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
     /// they are in full contact at all positions.
     fn limit(&self) -> Limit {
-        let hardness = self.pair.hardness();
+        let hardness = self.pair.cap();
         let largest = |value: fn(&Field) -> f64| {
             self.positions.iter().map(|p| value(&self.pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
         };

@@ -241,12 +241,13 @@ pub fn solve_normal(
         None => solve_as_given(operator, initial_gap, terms, start, params)?,
         Some(datum) => {
             let near = initial_gap.mapv(|h| h - datum);
-            let control = match control {
+            let nearer = match control {
                 Control::Approach(approach) => Control::Approach(approach - datum),
                 load => load,
             };
-            let solution = solve_as_given(operator, &near, Terms { control, ..terms }, start, params)?;
-            Solution { approach: solution.approach + datum, ..solution }
+            let terms = Terms { control: nearer, ..terms };
+            let solution = solve_as_given(operator, &near, terms, start, params)?;
+            Solution { approach: control.approach().unwrap_or(solution.approach + datum), ..solution }
         }
     };
     finite("load", solution.load(grid.cell_area()))?;

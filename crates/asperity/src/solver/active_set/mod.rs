@@ -99,6 +99,8 @@ struct Iteration<'a> {
     caution: f64,
     best: f64,
     strikes: usize,
+    /// Steps in a row from pressures all at their bounds.
+    bound_steps: usize,
     iterations: usize,
     restarts: usize,
 }
@@ -127,6 +129,7 @@ impl<'a> Iteration<'a> {
             caution,
             best: f64::INFINITY,
             strikes: 0,
+            bound_steps: 0,
             iterations: 0,
             restarts: 0,
         };
@@ -241,9 +244,10 @@ impl<'a> Iteration<'a> {
         self.predict_sets(state.approach);
         if self.free_cells() == 0.0 {
             self.become_feasible(0.0);
-            self.step_along_gap(state.approach);
+            self.step_from_bounds(state.approach);
             return None;
         }
+        self.bound_steps = 0;
         self.lift_to_bounds(state.approach, TRUSTED * wanted * state.scale);
         let left = self.conjugate_gradients(state, wanted);
         self.restore_the_sum();
@@ -251,7 +255,28 @@ impl<'a> Iteration<'a> {
         (!restarted).then_some(left)
     }
 
-    /// Every cell at a bound and no equilibrium: one step along the gap frees some.
+    /// Every cell at a bound and no equilibrium: one step along the gap frees some; where it has only taken them to the other
+    /// bound, as much of it as lowers the energy most.
+    fn step_from_bounds(&mut self, approach: Metre) {
+        self.bound_steps += 1;
+        if self.bound_steps == 1 {
+            self.step_along_gap(approach);
+            return;
+        }
+        self.each(|block| {
+            block.keep();
+            block.recall();
+        });
+        self.step_along_gap(approach);
+        let share = self.line_search(approach);
+        self.each(|block| {
+            block.go_back(share);
+            block.keep();
+            block.forget();
+        });
+    }
+
+    /// One step along the gap.
     fn step_along_gap(&mut self, approach: Metre) {
         let compliance = 2.0 * self.terms.self_influence;
         self.each(|block| block.step_along_gap(approach, compliance));

@@ -1,0 +1,308 @@
+//! Motions of all combinations of options at random, each position solved again by an independent way.
+//!
+//! `CASES=1000 cargo test -p asperity --test random_motions` tries so many, from the seed `SEED`.
+
+use asperity::error::LoadLimit;
+use asperity::material::Material;
+use asperity::motion::{
+    Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation, StepRecord,
+    Strategy,
+};
+use asperity::operator::{Boundary, CoupledOperator, Operators};
+use asperity::solver::{
+    self, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
+};
+use asperity::surface::{Amplitude, SelfAffine, Topography};
+use asperity::{Error, Field, Grid};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const PITCH: f64 = 1e-6;
+
+#[test]
+fn every_motion_is_in_equilibrium_at_every_position() {
+    let number = |name: &str, default: u64| std::env::var(name).map_or(default, |text| text.parse().unwrap());
+    let (cases, seed) = (number("CASES", 40), number("SEED", 0));
+    let mut tally = Tally::default();
+    for case in seed..seed + cases {
+        check(&Case::random(&mut ChaCha8Rng::seed_from_u64(case)), case, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(tally.solved > cases as usize / 2, "{tally:?}");
+}
+
+#[derive(Debug, Default)]
+struct Tally {
+    solved: usize,
+    yielded: usize,
+    full: usize,
+    positions: usize,
+    largest_error: f64,
+}
+
+#[derive(Debug)]
+struct Case {
+    boundary: Boundary,
+    motion: Motion,
+    method: Method,
+    tolerance: f64,
+    young: [f64; 2],
+    hardness: [f64; 2],
+    columns: [usize; 2],
+    width: usize,
+    sq: f64,
+    seed: u64,
+}
+
+impl Case {
+    fn random(rng: &mut impl Rng) -> Self {
+        let pick = |rng: &mut dyn Rng, n: usize| rng.random_range(0..n);
+        let strategy = match pick(rng, 4) {
+            0 | 1 => Strategy::Overlap,
+            2 => Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
+            _ => Strategy::Shift { speed_lower: -0.5, speed_upper: 1.0 },
+        };
+        let overlap = strategy == Strategy::Overlap;
+        let boundary = if !overlap && pick(rng, 2) == 0 { Boundary::Periodic } else { Boundary::Free };
+        let long = rng.random_range(5..15);
+        let columns = [long, if overlap { rng.random_range(4..15) } else { long }];
+        let width = rng.random_range(1..9);
+        let young = [[210e9, 210e9], [2e9, 210e9], [210e9, 70e9]][pick(rng, 3)];
+        let hardness = [[4e9, 4e9], [1e9, 4e9], [f64::INFINITY; 2], [3e9, f64::INFINITY]][pick(rng, 4)];
+        let sq = [3e-9, 35e-9, 200e-9][pick(rng, 3)];
+        let friction = match pick(rng, 4) {
+            0 | 1 => None,
+            kind => Some(Friction {
+                junction_growth: if kind == 3 { 9.0 } else { 0.0 },
+                coupling: [Coupling::Full, Coupling::Full, Coupling::None][pick(rng, 3)],
+                ..Friction::coulomb(rng.random_range(0.05..0.5)).unwrap()
+            }),
+        };
+        let plastic_update = [PlasticUpdate::Pass, PlasticUpdate::Step][pick(rng, 2)];
+        let stride = rng.random_range(1..5);
+        let mut motion = Motion {
+            strategy,
+            passes: 2,
+            stride,
+            control: Control::Approach(0.0),
+            plastic_update,
+            load_tolerance: [1e-4, 1e-2, 1e-6][pick(rng, 3)],
+            friction,
+        };
+        let cap =
+            friction.map_or(hardness[0].min(hardness[1]), |f| f.sliding_cap(hardness[0].min(hardness[1])));
+        let facing: Vec<usize> =
+            strategy.positions(columns[0], columns[1], stride).iter().map(|p| p.columns).collect();
+        let column = width as f64 * PITCH * PITCH;
+        // From light to 95 % of the plastic limit, evenly in the logarithm.
+        let share = 0.95 * 10f64.powf(-6.0 * rng.random_range(0.0f64..1.0).powi(2));
+        let load = |control: Control| share * control.plastic_limit(&facing, column, cap.min(3e9));
+        motion.control = match pick(rng, 4) {
+            0 | 1 => Control::PassLoad(load(Control::PassLoad(0.0))),
+            2 => Control::StepLoad(load(Control::StepLoad(0.0))),
+            _ => Control::Approach(sq * rng.random_range(-2.0..1.0)),
+        };
+        let method = [Method::Auto, Method::ActiveSet, Method::Direct, Method::PolonskyKeer][pick(rng, 4)];
+        let tolerance = [1e-6, 1e-8, 1e-3][pick(rng, 3)];
+        let seed = rng.random();
+        Self { boundary, motion, method, tolerance, young, hardness, columns, width, sq, seed }
+    }
+
+    fn params(&self) -> Params {
+        Params { method: self.method, tolerance: self.tolerance, ..Params::default() }
+    }
+
+    fn pair(&self) -> Pair {
+        let surface = |columns: usize, seed: u64| -> Topography {
+            let grid = Grid::new([columns, self.width], [PITCH, PITCH]).unwrap();
+            let amplitude = Amplitude::Sq(self.sq);
+            SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude }.generate(&grid, seed).unwrap()
+        };
+        let [a, b] = [0, 1].map(|k| Material::new(self.young[k], 0.3, self.hardness[k]).unwrap());
+        let seed = self.seed % 1_000_000;
+        Pair::new(surface(self.columns[0], seed), surface(self.columns[1], seed + 1), [&a, &b]).unwrap()
+    }
+
+    fn run(&self, control: Control) -> (asperity::Result<()>, Kept) {
+        let mut kept = Kept::default();
+        let motion = Motion { control, ..self.motion };
+        let mut simulation = Simulation::new(self.pair(), self.boundary, motion, self.params()).unwrap();
+        (simulation.run(&(), &mut [&mut kept]), kept)
+    }
+}
+
+#[derive(Default)]
+struct Kept {
+    passes: Vec<PassRecord>,
+    steps: Vec<StepRecord>,
+    pairs: Vec<Pair>,
+}
+
+impl Output for Kept {
+    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+        self.passes.push(report.record.clone());
+        self.steps.extend_from_slice(report.steps);
+        self.pairs.push(report.pair.clone());
+        Ok(())
+    }
+}
+
+fn check(case: &Case, index: u64, tally: &mut Tally) {
+    let what = || format!("case {index}: {case:?}");
+    let (ended, kept) = case.run(case.motion.control);
+    match ended {
+        Ok(()) => tally.solved += 1,
+        Err(Error::BeyondPass { load, most, approach, cause }) => {
+            assert!(load > most, "{}", what());
+            match cause {
+                LoadLimit::Yielded => {
+                    tally.yielded += 1;
+                    assert_eq!(case.motion.plastic_update, PlasticUpdate::Step, "{}", what());
+                    if kept.passes.is_empty() {
+                        // No approach up to there bears more.
+                        for share in [0.1, 0.3, 1.0] {
+                            let (_, at) = case.run(Control::Approach(share * approach));
+                            let bears = at.passes[0].mean_load;
+                            assert!(bears <= most * (1.0 + 1e-2), "{bears:e} N, {most:e} N, {}", what());
+                        }
+                    }
+                }
+                LoadLimit::FullContact => {
+                    tally.full += 1;
+                    assert_eq!(case.boundary, Boundary::Periodic, "{}", what());
+                }
+            }
+        }
+        Err(Error::AtPosition { source, .. })
+            if matches!(*source, Error::PeriodicFullContact { .. })
+                && matches!(case.motion.control, Control::Approach(_)) =>
+        {
+            tally.full += 1;
+        }
+        Err(error) => panic!("{error}: {}", what()),
+    }
+    let mut before = case.pair();
+    for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
+        let steps: Vec<&StepRecord> = kept.steps.iter().filter(|step| step.pass == pass.pass).collect();
+        before = hold(case, &before, after, pass, &steps, index, tally);
+    }
+}
+
+/// Holds a pass against each position solved again at its approach, directly and to round-off, over geometry that is lowered
+/// here. Returns the bodies after the pass.
+fn hold(
+    case: &Case,
+    before: &Pair,
+    after: &Pair,
+    pass: &PassRecord,
+    steps: &[&StepRecord],
+    index: u64,
+    tally: &mut Tally,
+) -> Pair {
+    let what = || format!("case {index}, pass {}: {case:?}", pass.pass);
+    if let Control::PassLoad(load) = case.motion.control {
+        let missed = (pass.mean_load / load - 1.0).abs();
+        assert!(missed <= case.motion.load_tolerance.max(100.0 * case.tolerance), "{missed:e}, {}", what());
+        assert!(steps.iter().all(|step| step.approach == steps[0].approach), "{}", what());
+    }
+    let operators = Operators::new(before.pitch(), *before.compliances(), case.boundary);
+    let positions = case.motion.strategy.positions(case.columns[0], case.columns[1], case.motion.stride);
+    let mut now = before.clone();
+    let mut deepest = [Field::zeros(now.lower.raw_dim()), Field::zeros(now.upper.raw_dim())];
+    let share = [before.plastic_share(), 1.0 - before.plastic_share()];
+    let area = PITCH * PITCH;
+    for (step, position) in steps.iter().zip(&positions) {
+        tally.positions += 1;
+        let gap = now.initial_gap(position);
+        let (pressure, interference) = again(case, &operators, &now, position, &gap, step);
+        let load = area * pressure.sum();
+        // At one approach the load is off by some part of the residual; what it is a part of is the load at which the
+        // displacement deviates by as much as here.
+        let scale = load.max(step.load).max(area * pressure.len() as f64 * 1e-6);
+        let error = (load - step.load).abs() / scale / case.tolerance;
+        tally.largest_error = tally.largest_error.max(error);
+        assert!(error < 300.0, "load {:e} N, independently {load:e} N: {step:?} {}", step.load, what());
+        if let Control::StepLoad(wanted) = case.motion.control {
+            assert!((step.load / wanted - 1.0).abs() < 1e-9, "{step:?} {}", what());
+        }
+        let volume = area * interference.sum();
+        let size = area * pressure.len() as f64 * case.sq;
+        assert!(
+            (volume - step.plastic_volume).abs() < 30.0 * case.tolerance * size,
+            "{volume:e} {step:?} {}",
+            what()
+        );
+        for ((j, iy), &w) in interference.indexed_iter() {
+            let cells =
+                [[(position.lower + j) % case.columns[0], iy], [(position.upper + j) % case.columns[1], iy]];
+            if case.motion.plastic_update == PlasticUpdate::Step {
+                now.lower[cells[0]] -= share[0] * w;
+                now.upper[cells[1]] += share[1] * w;
+            }
+            for (deepest, cell) in deepest.iter_mut().zip(cells) {
+                deepest[cell] = f64::max(deepest[cell], w);
+            }
+        }
+    }
+    if case.motion.plastic_update == PlasticUpdate::Pass {
+        now.lower.scaled_add(-share[0], &deepest[0]);
+        now.upper.scaled_add(share[1], &deepest[1]);
+    }
+    for (found, expected, before, lost) in [
+        (&after.lower, &now.lower, &before.lower, pass.plastic_volume_lower),
+        (&after.upper, &now.upper, &before.upper, -pass.plastic_volume_upper),
+    ] {
+        let off = (found - expected).fold(0.0, |most: f64, z| most.max(z.abs()));
+        assert!(off < 100.0 * case.tolerance * case.sq + 1e-20, "heights differ by {off:e}: {}", what());
+        let fell = area * (before - found).sum();
+        let rounding = 1e-13 * area * before.len() as f64 * case.sq;
+        assert!((fell - lost).abs() <= 1e-9 * lost.abs() + rounding, "{fell:e} {lost:e} {}", what());
+    }
+    after.clone()
+}
+
+/// Pressure and plastic interference at a position, at the approach of the record.
+fn again(
+    case: &Case,
+    operators: &Operators,
+    pair: &Pair,
+    position: &Position,
+    gap: &Field,
+    step: &StepRecord,
+) -> (Field, Field) {
+    let shape = [position.columns, case.width];
+    let normal = solver::Control::Approach(step.approach);
+    let exact = Params { method: Method::Direct, tolerance: 1e-9, ..Params::default() };
+    let hardness = case.hardness[0].min(case.hardness[1]);
+    let of = |pressure: &Field, displacement: &Field, cap: f64| {
+        let mut w = Field::zeros(gap.raw_dim());
+        ndarray_zip(&mut w, pressure, displacement, gap, |p, u, h| {
+            if p >= cap { (step.approach - h - u).max(0.0) } else { 0.0 }
+        });
+        w
+    };
+    match case.motion.friction {
+        Some(friction) => {
+            let mut operator: Box<dyn CoupledOperator> = operators.coupled_on(shape);
+            let loading =
+                Loading { normal, tangential: Tangential::Sliding([case.motion.strategy.direction(), 0.0]) };
+            let found = solve_frictional(operator.as_mut(), gap, hardness, &friction, loading, None, &exact);
+            let found = found.unwrap_or_else(|error| panic!("{error}: {case:?} {step:?}")).normal;
+            let cap = friction.sliding_cap(hardness);
+            let w = of(&found.pressure, &found.displacement, cap);
+            (found.pressure, w)
+        }
+        None => {
+            let mut operator = operators.on(shape);
+            let found = solve_normal(operator.as_mut(), gap, pair.cap(), normal, None, &exact);
+            let found = found.unwrap_or_else(|error| panic!("{error}: {case:?} {step:?}"));
+            let w = of(&found.pressure, &found.displacement, hardness);
+            (found.pressure, w)
+        }
+    }
+}
+
+fn ndarray_zip(w: &mut Field, p: &Field, u: &Field, h: &Field, value: impl Fn(f64, f64, f64) -> f64) {
+    let cells = p.iter().zip(u).zip(h);
+    w.iter_mut().zip(cells).for_each(|(w, ((p, u), h))| *w = value(*p, *u, *h));
+}
