@@ -27,7 +27,6 @@ fn every_motion_is_in_equilibrium_at_every_position() {
     for case in seed..seed + cases {
         check(&Case::random(&mut ChaCha8Rng::seed_from_u64(case)), case, &mut tally);
     }
-    println!("{tally:?}");
     assert!(tally.solved > cases as usize / 2, "{tally:?}");
 }
 
