@@ -107,7 +107,9 @@ fn alike(one: ArrayView1<'_, f64>, other: ArrayView1<'_, f64>) -> bool {
 
 /// Whether positions in their order, perhaps unevenly spaced, stand beside heights in none.
 fn is_track(positions: ArrayView1<'_, f64>, heights: ArrayView1<'_, f64>) -> bool {
-    positions.len() >= MANY && is_rising(positions) && !is_rising(heights)
+    let points = positions.len();
+    let steps = positions.iter().zip(positions.iter().skip(1)).filter(|(here, next)| here != next).count();
+    points >= MANY && 2 * steps >= points && is_rising(positions) && !is_rising(heights)
 }
 
 /// Whether all steps are upwards or 0, or all downwards or 0, and some are neither.
