@@ -422,8 +422,8 @@ fn a_run_that_is_killed_at_any_moment_is_resumed_to_the_same_bits() {
     }
 }
 
-/// Where `strace` is installed, which names each call that changes a file; every call with `ASPERITY_KILLS`, of the
-/// calls some otherwise.
+/// Where `strace` is installed, which ends a process at a call: a run into a new directory, and one that replaces the
+/// results of another case. Every call that changes a file with `ASPERITY_KILLS`, some of them otherwise.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bits() {
@@ -432,39 +432,88 @@ fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bit
         assert!(std::env::var_os("CI").is_none(), "strace is not installed");
         return;
     }
-    let stride = if kills() > 2 { 1 } else { 7 };
+    let stride = if kills() > 2 { 1 } else { 61 };
+    let other = folder_with(&motion(1, ""));
+    ok(&asperity(&other, "run case.toml --out out --quiet"));
+    let other = contents(&other.path().join("out"));
+    let mut killed = 0;
     for (name, case) in computations() {
         let folder = folder_with(&case);
+        let out = folder.path().join("out");
         ok(&asperity(&folder, "run case.toml --out whole --quiet --threads 1"));
         let whole = bits(&folder.path().join("whole"));
-        let out = folder.path().join("out");
-        let mut points = 0;
-        for call in (1..).step_by(stride) {
-            let inject = format!("inject={CALLS}:signal=KILL:when={call}");
-            let status = Command::new("strace")
-                .args(["-f", "-qq", "-o", "/dev/null", "-e", &format!("trace={CALLS}"), "-e", &inject])
-                .arg(env!("CARGO_BIN_EXE_asperity"))
-                .args("run case.toml --out out --quiet --threads 1".split_whitespace())
-                .current_dir(&folder)
-                .stdout(Stdio::null())
-                .status()
-                .unwrap();
-            if status.success() {
-                break;
+        for flag in ["", " --overwrite"] {
+            let begin = || {
+                let _ = fs::remove_dir_all(&out);
+                if !flag.is_empty() {
+                    write_all(&out, &other);
+                }
+            };
+            let arguments = format!("run case.toml --out out --quiet --threads 1{flag}");
+            begin();
+            let calls = calls(&folder, &arguments);
+            assert!(calls.len() > 40, "{name}: {calls:?}");
+            assert_same(&bits(&out), &whole, name);
+            // Elsewhere for each computation.
+            for (call, count) in calls.iter().skip(killed % 7).step_by(stride) {
+                begin();
+                let inject = format!("inject={call}:signal=KILL:when={count}");
+                assert!(!traced(&folder, &["-e", &inject], &arguments), "{name}: {inject}");
+                killed += 1;
+                let output = asperity(&folder, "run case.toml --out out --quiet --resume --threads 1");
+                if !flag.is_empty() && output.status.code() == Some(2) {
+                    // Nothing is lost yet of the other case's results.
+                    assert!(
+                        stderr(&output).contains("holds the results of another case"),
+                        "{}",
+                        stderr(&output)
+                    );
+                    ok(&asperity(&folder, "run case.toml --out out --quiet --overwrite --threads 1"));
+                } else {
+                    ok(&output);
+                }
+                assert_same(&bits(&out), &whole, &format!("{name}{flag}, {call} {count}"));
             }
-            points += 1;
-            ok(&asperity(&folder, "run case.toml --out out --quiet --resume --threads 1"));
-            assert_same(&bits(&out), &whole, &format!("{name}, call {call}"));
-            fs::remove_dir_all(&out).unwrap();
         }
-        assert!(points > 2, "{name}: {points}");
     }
+    println!("killed at {killed} calls");
 }
 
-/// What changes files.
+/// The calls of a run that change files: the name of each, and the how many-th of its name it is.
 #[cfg(target_os = "linux")]
-const CALLS: &str =
-    "rename,renameat,renameat2,fsync,fdatasync,write,unlink,unlinkat,mkdir,mkdirat,flock,ftruncate";
+fn calls(folder: &TempDir, arguments: &str) -> Vec<(String, usize)> {
+    let log = folder.path().join("calls");
+    assert!(traced(folder, &["-o", log.to_str().unwrap()], arguments));
+    let mut counts = BTreeMap::new();
+    let text = fs::read_to_string(log).unwrap();
+    let name = |line: &str| Some(line.split_once(' ')?.1.trim_start().split_once('(')?.0.to_owned());
+    text.lines()
+        .filter_map(name)
+        .map(|name| {
+            let count = counts.entry(name.clone()).or_insert(0);
+            *count += 1;
+            (name, *count)
+        })
+        .collect()
+}
+
+/// Whether the run, under `strace` with these options, ended well.
+#[cfg(target_os = "linux")]
+fn traced(folder: &TempDir, options: &[&str], arguments: &str) -> bool {
+    const CALLS: &str = "trace=?rename,?renameat,?renameat2,fsync,fdatasync,write,?unlink,unlinkat,?mkdir,mkdirat,flock,\
+                         ftruncate,?link,linkat,?rmdir";
+    Command::new("strace")
+        .args(["-f", "-qq", "-e", CALLS])
+        .args(options)
+        .arg(env!("CARGO_BIN_EXE_asperity"))
+        .args(arguments.split_whitespace())
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .unwrap()
+        .success()
+}
 
 #[test]
 fn a_run_that_met_a_full_disk_is_resumed_to_the_same_bits() {
@@ -616,6 +665,14 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     visit(folder, &mut found);
     let name = |path: &PathBuf| path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned();
     found.iter().map(|path| (name(path), fs::read(path).unwrap())).collect()
+}
+
+/// Makes `folder` of such files.
+fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) {
+    for (name, bytes) in files {
+        fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();
+        fs::write(folder.join(name), bytes).unwrap();
+    }
 }
 
 fn files(folder: &Path) -> BTreeSet<String> {

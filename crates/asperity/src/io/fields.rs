@@ -484,7 +484,7 @@ mod tests {
             Ok(())
         };
         read().unwrap();
-        let found = (0..whole.len()).step_by(3).filter(|byte| {
+        let found = (0..whole.len()).step_by(11).filter(|byte| {
             let mut damaged = whole.clone();
             damaged[*byte] ^= 1 << (byte % 8);
             std::fs::write(&path, damaged).unwrap();
@@ -492,7 +492,7 @@ mod tests {
         });
         let found = found.count();
         // Most of a small file is room.
-        assert!(found > 300, "{found} of {}", whole.len());
+        assert!(found > 80, "{found} of {}", whole.len());
         for length in [0, 100, whole.len() / 2, whole.len() - 1] {
             std::fs::write(&path, &whole[..length]).unwrap();
             assert!(read().is_err(), "{length} bytes");

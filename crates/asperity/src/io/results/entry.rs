@@ -4,6 +4,8 @@ use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -35,15 +37,23 @@ pub(super) struct Lock {
 /// The file that a run locks. It stays when the run is over: only its lock says that there is one.
 const LOCK: &str = ".lock";
 
+/// How long a run waits for another one to end.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 impl Lock {
     fn acquire(directory: &Path) -> Result<Self> {
         let path = directory.join(LOCK);
         let failed = |source| Error::File { path: path.clone(), source };
         let file = File::options().write(true).create(true).truncate(false).open(&path).map_err(failed)?;
-        match file.try_lock() {
-            Ok(()) => Ok(Self { held: Some(file) }),
-            Err(TryLockError::WouldBlock) => Err(Error::InUse { path: directory.to_owned() }),
-            Err(TryLockError::Error(_)) => Ok(Self { held: None }),
+        let began = Instant::now();
+        loop {
+            match file.try_lock() {
+                Ok(()) => return Ok(Self { held: Some(file) }),
+                Err(TryLockError::Error(_)) => return Ok(Self { held: None }),
+                // A process that was just killed may take a moment to be gone.
+                Err(TryLockError::WouldBlock) if began.elapsed() < PATIENCE => thread::sleep(PATIENCE / 50),
+                Err(TryLockError::WouldBlock) => return Err(Error::InUse { path: directory.to_owned() }),
+            }
         }
     }
 
