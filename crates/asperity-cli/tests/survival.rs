@@ -366,7 +366,11 @@ fn an_error_is_some_lines_whatever_the_input() {
 fn computations() -> [(&'static str, String); 7] {
     let shift = "strategy = \"shift\", speed_lower = 0.0, speed_upper = 1.0, control = \"pass-load\", ";
     [
-        ("overlap", motion(3, "subsurface = { to = \"5 um\", layers = 5 }\n")),
+        (
+            "overlap",
+            motion(3, "subsurface = { to = \"5 um\", layers = 5 }\n")
+                .replace("pressure_every = 4", "pressure_every = 4, paraview = true"),
+        ),
         ("shift", motion(2, "").replace("motion = { ", &format!("motion = {{ {shift}"))),
         (
             "step",
@@ -374,7 +378,7 @@ fn computations() -> [(&'static str, String); 7] {
                 .replace("motion = { ", "motion = { plastic_update = \"step\", control = \"step-load\", "),
         ),
         ("sliding", motion(2, "friction = { coefficient = 0.2 }\n")),
-        ("ball", ball("[subsurface]\nto = \"5 um\"\nlayers = 5\n")),
+        ("ball", ball("[subsurface]\nto = \"5 um\"\nlayers = 5\n[output]\nparaview = true\n")),
         ("rolling", ball("[friction]\ncoefficient = 0.3\ncreepage = [2e-3, 0.0]\n")),
         (
             "loading",
