@@ -315,6 +315,17 @@ fn every_example_is_accepted_by_check_without_a_warning() {
 }
 
 #[test]
+fn the_figures_of_the_paper_replace_none_unasked() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("p")).unwrap();
+    std::fs::write(folder.path().join("p/cost.csv"), "mine").unwrap();
+    let error = refused(&run(folder.path(), "paper --out p"));
+    assert!(error.contains("`p/cost.csv` exists") && error.contains("--overwrite"), "{error}");
+    assert!(refused(&run(folder.path(), "paper --out q --largest 8")).contains("16..=2048"));
+    assert!(!folder.path().join("q").exists());
+}
+
+#[test]
 fn check_counts_the_positions_and_weighs_the_load() {
     let folder = folder();
     ok(&run(folder.path(), "example paper --out p"));

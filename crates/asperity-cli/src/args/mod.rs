@@ -127,16 +127,22 @@ pub(crate) struct Plot {
 
 /// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost
 ///
-/// Prints the size of the influence matrix over a pass, and the measured cost of sub-matrices against circular
-/// shifting: dense for 12 to 32 cells along a side, by FFT up to --largest.
+/// Prints the size of the influence matrix over a pass, and what sub-matrices cost against circular shifting: with dense
+/// matrices up to 48 cells along a side, by FFT up to --largest; each size five times, in turns. Takes some minutes.
 #[derive(Debug, Args)]
 pub(crate) struct Paper {
-    /// Folder for the figures
+    /// Folder for the figures and cost.csv
     #[arg(long, value_name = "DIR", default_value = "paper")]
     pub(crate) out: PathBuf,
     /// Most cells along a side for the cost by FFT
-    #[arg(long, value_name = "N", default_value_t = 256)]
-    pub(crate) largest: usize,
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u16).range(16..=2048))]
+    pub(crate) largest: u16,
+    /// Replace the files that are there
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+    /// No progress
+    #[arg(long)]
+    pub(crate) quiet: bool,
 }
 
 /// Validate a case and print what would be solved

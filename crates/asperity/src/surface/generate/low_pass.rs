@@ -81,6 +81,25 @@ impl LowPass {
         stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
     }
 
+    /// Coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at `[k + reach, l + reach]`; without a unit.
+    ///
+    /// They are those of the band as it is, without the margins of a finite grid: they show the filter, and are not what
+    /// [`Self::generate`] applies, which is their response. The scale of the heights is [`Self::sq`], not theirs.
+    pub fn coefficients(&self, pitch: [Metre; 2], reach: [usize; 2]) -> Field {
+        use std::f64::consts::{PI, TAU};
+        let edge: [f64; 2] = std::array::from_fn(|axis| TAU * pitch[axis] / self.cutoff[axis]);
+        let sinc = |s: f64| if s == 0.0 { 1.0 } else { s.sin() / s };
+        Field::from_shape_fn(reach.map(|reach| 2 * reach + 1), |(i, j)| {
+            let s = [i.abs_diff(reach[0]) as f64 * edge[0], j.abs_diff(reach[1]) as f64 * edge[1]];
+            let rho = s[0].hypot(s[1]);
+            match self.band {
+                Band::Elliptic if rho == 0.0 => edge[0] * edge[1] / (4.0 * PI),
+                Band::Elliptic => edge[0] * edge[1] * libm::j1(rho) / (TAU * rho),
+                Band::Rectangular => edge[0] * edge[1] / (PI * PI) * sinc(s[0]) * sinc(s[1]),
+            }
+        })
+    }
+
     /// Spectrum of the filter, `[l, k]` of a transform of `shape`: its response squared.
     fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
@@ -120,15 +139,16 @@ mod tests {
         // On n² samples the transform sums the filter over all periods: the lattice points in a circle in
         // place of its area, right to n^(−1/2) of the height at the origin.
         let n = 512;
-        let spectrum = LowPass::new(1.0, [16.0; 2]).spectrum([n, n], [1.0; 2]);
-        let h = symmetric_transform(&spectrum, [n, n]) / (n * n) as f64;
-        let cutoff = TAU / 16.0;
-        let origin = cutoff * cutoff / (4.0 * PI);
-        assert!((h[[0, 0]] / origin - 1.0).abs() < 0.01);
-        for (k, l) in [(1, 0), (0, 3), (5, 5), (10, 2), (0, 20), (17, 30)] {
-            let rho = ((k * k + l * l) as f64).sqrt();
-            let expected = cutoff * libm::j1(cutoff * rho) / (TAU * rho);
-            assert!((h[[k, l]] - expected).abs() < 0.01 * origin, "({k}, {l}): {} {expected}", h[[k, l]]);
+        for band in [Band::Elliptic, Band::Rectangular] {
+            let filter = LowPass { band, ..LowPass::new(1.0, [16.0, 12.0]) };
+            let h = symmetric_transform(&filter.spectrum([n, n], [1.0; 2]), [n, n]) / (n * n) as f64;
+            let coefficients = filter.coefficients([1.0; 2], [40, 30]);
+            let origin = coefficients[[40, 30]];
+            assert!(coefficients.iter().all(|coefficient| *coefficient <= origin));
+            for ((i, j), expected) in coefficients.indexed_iter() {
+                let (k, l) = (i.abs_diff(40), j.abs_diff(30));
+                assert!((h[[k, l]] - expected).abs() < 0.01 * origin, "({k}, {l}): {} {expected}", h[[k, l]]);
+            }
         }
     }
 

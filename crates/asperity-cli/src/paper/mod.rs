@@ -1,0 +1,79 @@
+//! `asperity paper`: the figures of the paper whose method this is, and its claim on cost.
+//!
+//! Ghanbarzadeh, Wilson, Morina, Dowson, Neville, *A new strategy for the relative movement of rough surfaces in
+//! contact using a boundary element method*. Figures 3 to 7 are sketches.
+
+mod cost;
+mod figures;
+
+use std::path::Path;
+
+use asperity::io::atomic;
+use asperity::material::Material;
+use asperity::motion::Pair;
+use asperity::surface::{LowPass, Topography};
+use asperity::units::{Metre, Pascal};
+use asperity::{Grid, Result};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::args::Paper;
+use crate::report::{Failure, Outcome, note, print};
+use cost::Costs;
+
+/// The paper's cells: squares of 1 µm.
+const PITCH: Metre = 1e-6;
+/// What the paper leaves open: rms height and cut-off wavelength of the surfaces, and their material.
+const SQ: Metre = 50e-9;
+const CUTOFF: Metre = 12e-6;
+const YOUNG: Pascal = 210e9;
+const POISSON: f64 = 0.3;
+const HARDNESS: Pascal = 3e9;
+
+/// Draws the paper's figures, and measures what its strategy costs.
+pub(crate) fn paper(arguments: &Paper) -> Outcome {
+    let folder = &arguments.out;
+    refuse_existing(folder, arguments.overwrite)?;
+    std::fs::create_dir_all(folder)
+        .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
+    atomic::sweep(folder);
+    let bar = progress(arguments.quiet);
+    figures::draw(folder, &bar)?;
+    let costs = Costs::measure(arguments.largest.into(), &bar)?;
+    bar.finish_and_clear();
+    costs.draw(&folder.join("cost.png"))?;
+    atomic::write(&folder.join("cost.csv"), costs.csv().as_bytes())?;
+    print(&format!("{}\n{}\n{}", figures::matrix_sizes(), costs.table(), costs.verdict()))?;
+    note(&format!("figures and cost.csv in {}", folder.display()));
+    Ok(())
+}
+
+/// An error if files that would be written are there.
+fn refuse_existing(folder: &Path, overwrite: bool) -> Outcome {
+    let files = figures::NAMES.iter().map(|name| format!("{name}.png"));
+    let mut files = files.chain(["cost.png".to_owned(), "cost.csv".to_owned()]).map(|file| folder.join(file));
+    match files.find(|path| path.exists()).filter(|_| !overwrite) {
+        Some(path) => {
+            let hint = "--overwrite replaces the figures, --out names another folder";
+            Err(Failure::usage(format!("`{}` exists", path.display()), Some(hint)))
+        }
+        None => Ok(()),
+    }
+}
+
+/// How far the command is, on stderr.
+fn progress(quiet: bool) -> ProgressBar {
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let style = ProgressStyle::with_template("{spinner} {msg}").expect("a valid template");
+    ProgressBar::with_draw_target(None, target).with_style(style)
+}
+
+/// A low-pass surface of `side` × `side` cells.
+fn surface(side: usize, seed: u64) -> Result<Topography> {
+    LowPass::new(SQ, [CUTOFF; 2]).generate(&Grid::new([side; 2], [PITCH; 2])?, seed)
+}
+
+/// Two surfaces of `side` × `side` cells that face each other.
+fn pair(side: usize) -> Result<Pair> {
+    let steel = Material::new(YOUNG, POISSON, HARDNESS)?;
+    Pair::new(surface(side, 11)?, surface(side, 12)?.underside(), [&steel, &steel])
+}
