@@ -6,8 +6,8 @@ use asperity::io::case::{Boundary, Case, Course, Method, Side};
 use asperity::io::outlook::{Demand, Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
-use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
-use asperity::solver::{Coupling, Friction, Rolling, Tangential};
+use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
+use asperity::solver::{self, Coupling, Friction, Rolling, Tangential};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -114,7 +114,10 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
         Method::PolonskyKeer => "polonsky-keer",
         Method::ActiveSet => "active-set",
     };
-    let mut text = control;
+    let mut text = match &outlook.course {
+        Some(Course::Sweep(points)) => swept(points),
+        _ => control,
+    };
     if let (Control::PassLoad(load) | Control::StepLoad(load), true) =
         (outlook.control, outlook.plastic_limit.is_finite())
     {
@@ -123,14 +126,37 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
     }
     if let Control::PassLoad(load) | Control::StepLoad(load) = outlook.control {
         let mean = units::format(load / outlook.mean_facing_area, Dimension::Pressure);
-        let _ = write!(text, ", mean pressure {mean} on what faces");
+        let at_most = if case.contact.sweep.is_some() { " at most" } else { "" };
+        let _ = write!(text, ", mean pressure {mean} on what faces{at_most}");
     }
     let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);
     text
 }
 
+/// The loads or approaches of a sweep.
+fn swept(points: &[Point]) -> String {
+    let value = |point: &Point| match point.control {
+        solver::Control::Load(value) | solver::Control::Approach(value) => value,
+    };
+    let [least, most] =
+        [f64::min, f64::max].map(|pick| points.iter().map(value).reduce(pick).unwrap_or_default());
+    let (kind, dimension) = match points[0].control {
+        solver::Control::Load(_) => ("load", Dimension::Force),
+        solver::Control::Approach(_) => ("approach", Dimension::Length),
+    };
+    let [least, most] = [least, most].map(|end| units::format(end, dimension));
+    format!("{}, {kind} {least} to {most}", plural(points.len(), "point", "points"))
+}
+
 fn motion(case: &Case, outlook: &Outlook) -> String {
-    let Some(motion) = case.motion else { return "none: one static contact".to_owned() };
+    let Some(motion) = case.motion else {
+        return match &outlook.course {
+            Some(Course::Sweep(points)) => {
+                format!("none: {}", plural(points.len(), "static contact", "static contacts"))
+            }
+            _ => "none: one static contact".to_owned(),
+        };
+    };
     let strategy = match motion.strategy {
         Strategy::Overlap => "overlap",
         Strategy::Shift { .. } => "shift",
@@ -166,14 +192,19 @@ fn friction(friction: &Friction, outlook: &Outlook) -> String {
         Coupling::None => "none",
     };
     let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", outlook.dundurs);
-    let force = |[x, y]: [f64; 2]| {
-        format!("{}, {}", units::format(x, Dimension::Force), units::format(y, Dimension::Force))
-    };
     text + &match &outlook.course {
         None => "sliding at each position".to_owned(),
-        Some(Course::Rolling(Rolling::Creepage([x, y]))) => format!("rolling at the creepage {x}, {y}"),
-        Some(Course::Rolling(Rolling::Force(f))) => format!("rolling under the force {}", force(*f)),
+        Some(Course::Rolling(at)) => rolling(*at),
         Some(Course::Stages(stages)) => course(stages),
+        Some(Course::Sweep(points)) => points[0].rolling.map_or_else(String::new, rolling),
+    }
+}
+
+fn rolling(rolling: Rolling) -> String {
+    let force = |value| units::format(value, Dimension::Force);
+    match rolling {
+        Rolling::Creepage([x, y]) => format!("rolling at the creepage {x}, {y}"),
+        Rolling::Force([x, y]) => format!("rolling under the force {}, {}", force(x), force(y)),
     }
 }
 

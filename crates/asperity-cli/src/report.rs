@@ -100,7 +100,7 @@ fn code(error: &Error) -> u8 {
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. } => 1,
-        Error::AtPosition { source, .. } => code(source),
+        Error::AtPosition { source, .. } | Error::AtPoint { source, .. } => code(source),
         Error::Interrupted => 130,
         Error::File { source, .. } => code_of_io(source),
         _ => 2,
@@ -252,7 +252,7 @@ fn hint(error: &Error) -> Option<String> {
                 LoadLimit::FullContact => "`control = \"step-load\"` in [motion], the load at every position",
             }
         )),
-        Error::AtPosition { source, .. } => hint(source),
+        Error::AtPosition { source, .. } | Error::AtPoint { source, .. } => hint(source),
         Error::ResultsExist { results: true, .. } => Some(
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),

@@ -2,6 +2,7 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use asperity::io::case::{Case, Course};
@@ -9,7 +10,7 @@ use asperity::io::engine;
 use asperity::io::results::Existing;
 use asperity::io::subsurface::SubsurfaceRecord;
 use asperity::io::summary::{Outcome, Summary};
-use asperity::motion::{PassRecord, Progress, StaticRecord, Watch};
+use asperity::motion::{PassRecord, Progress, StaticRecord, SweepRecord, Watch};
 use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -37,16 +38,16 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         _ => Existing::Keep,
     };
     // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
-    let stop = Stop::at_ctrl_c(case.motion.is_some() || in_increments(&case));
-    let display = Display::new(arguments.quiet, case.motion.is_some(), stop.clone());
+    let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
+    let display = Display::new(arguments.quiet, &case, stop.clone());
     let outcome = engine::run(&case, &directory, existing, &display);
-    display.clear();
+    let printed = display.clear();
     // The directory stays this run's until the figures are there.
     let (summary, writer) = outcome?;
     for warning in &summary.warnings {
         note(&format!("warning: {}", clipped(warning)));
     }
-    let printed = print(&table(&summary));
+    let printed = printed.and_then(|()| print(&table(&summary)));
     figures::draw(writer.results(), &figures::Wanted::default(), &|| stop.asked()).map_err(|failure| {
         match failure {
             Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
@@ -59,11 +60,12 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     printed
 }
 
-/// Whether a static contact is loaded in increments, which are kept one by one.
-fn in_increments(case: &Case) -> bool {
+/// Whether a static contact is computed in increments or points, which are kept one by one.
+fn in_steps(case: &Case) -> bool {
     match case.course(1.0) {
         Some(Course::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
-        _ => false,
+        Some(Course::Sweep(points)) => points.len() > 1,
+        Some(Course::Rolling(_)) | None => false,
     }
 }
 
@@ -74,27 +76,38 @@ fn beside(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// The progress bar on stderr.
+/// The progress bar on stderr, and the table of a sweep on stdout, which grows with each point.
 struct Display {
     bar: ProgressBar,
     began: Instant,
     passes: bool,
+    /// What is solved one after the other.
+    step: &'static str,
+    /// Whether the points of a sweep roll.
+    rolls: bool,
     stop: Stop,
+    /// What became of the table so far.
+    printed: Mutex<report::Outcome>,
 }
 
 impl Display {
-    fn new(quiet: bool, passes: bool, stop: Stop) -> Self {
+    fn new(quiet: bool, case: &Case, stop: Stop) -> Self {
         let bar = ProgressBar::with_draw_target(
             None,
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() },
         );
         let style = ProgressStyle::with_template("{bar:32.cyan/dim} {msg}").expect("a valid template");
         bar.set_style(style);
-        Self { bar, began: Instant::now(), passes, stop }
+        let passes = case.motion.is_some();
+        let step = if case.contact.sweep.is_some() { "point" } else { "increment" };
+        let (rolls, printed) = (case.friction.is_some(), Mutex::new(Ok(())));
+        Self { bar, began: Instant::now(), passes, step, rolls, stop, printed }
     }
 
-    fn clear(&self) {
+    /// Takes the bar away, and says what became of the table.
+    fn clear(self) -> report::Outcome {
         self.bar.finish_and_clear();
+        self.printed.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Time left, by the passes done so far; a first pass is taken to need four approaches, a loading has one.
@@ -115,10 +128,17 @@ impl Watch for Display {
         let seconds = self.time_left(progress).as_secs();
         let place = match self.passes {
             true => format!("pass {pass}/{passes}, approach {trial}, position {solved}/{positions}"),
-            false => format!("increment {solved}/{positions}"),
+            false => format!("{} {solved}/{positions}", self.step),
         };
         let load = format(load, Dimension::Force);
         self.bar.set_message(format!("{place}, load {load}, {}:{:02} left", seconds / 60, seconds % 60));
+    }
+
+    fn point(&self, record: &SweepRecord) {
+        let mut printed = self.printed.lock().unwrap_or_else(PoisonError::into_inner);
+        if printed.is_ok() {
+            *printed = self.bar.suspend(|| print(&sweep_row(record, self.rolls)));
+        }
     }
 
     fn stop(&self) -> bool {
@@ -129,6 +149,8 @@ impl Watch for Display {
 fn table(summary: &Summary) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(record),
+        // Each row has been printed as it came.
+        Outcome::Sweep(_) => String::new(),
         Outcome::Passes(passes) => passes_table(passes, rim(&summary.case)),
     };
     contact + &summary.subsurface.iter().map(stress_line).collect::<String>()
@@ -181,6 +203,29 @@ fn static_table(record: &StaticRecord) -> String {
         }
     }
     rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
+}
+
+/// A line for a point of a sweep, the first under the names of its columns.
+fn sweep_row(point: &SweepRecord, rolls: bool) -> String {
+    let columns = [
+        ("load", format(point.load, Dimension::Force)),
+        ("mean pressure", format(point.mean_pressure, Dimension::Pressure)),
+        ("approach", format(point.approach, Dimension::Length)),
+        ("mean gap", format(point.mean_gap, Dimension::Length)),
+        ("area", format!("{:.3} %", 100.0 * point.contact_fraction)),
+        ("max pressure", format(point.max_pressure, Dimension::Pressure)),
+        ("plastic volume", format(point.plastic_volume, Dimension::Volume)),
+        ("stiffness", point.stiffness.map_or("–".to_owned(), |k| format(k, Dimension::Stiffness))),
+    ];
+    let of_rolling = [
+        ("creepage", format!("{:.4e}", point.creepage_x)),
+        ("force along x", format(point.tangential_force_x, Dimension::Force)),
+    ];
+    let columns = || columns.iter().chain(of_rolling.iter().filter(|_| rolls));
+    let heads = columns().map(|(head, _)| format!("{head:>15}")).collect::<String>();
+    let cells = columns().map(|(_, cell)| format!("{cell:>15}")).collect::<String>();
+    let row = format!("{:>5}{cells}\n", point.point);
+    if point.point == 1 { format!("point{heads}\n{row}") } else { row }
 }
 
 /// The part of the bodies' length that is their rim at free ends; 0 where they have none.

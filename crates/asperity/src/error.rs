@@ -187,6 +187,16 @@ pub enum Error {
         /// What is wrong there.
         source: Box<Error>,
     },
+    /// A point of a sweep could not be solved.
+    #[error("point {point} of {points}: {source}")]
+    AtPoint {
+        /// The point, from 1.
+        point: usize,
+        /// Points of the sweep.
+        points: usize,
+        /// What is wrong there.
+        source: Box<Error>,
+    },
     /// A computation takes more memory than there is.
     #[error("about {} of memory are needed, {} are free", bytes(*needed), bytes(*available))]
     Memory {

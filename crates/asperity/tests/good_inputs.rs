@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::io::case::{
-    Boundary, Case, ControlKind, Course, InPlane, Layer, Method, Mount, Prescribed, Side, Source,
+    Boundary, Case, ControlKind, Course, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
 };
 use asperity::io::prepare::bodies;
-use asperity::motion::{Control, PlasticUpdate, Stage, Strategy};
+use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
@@ -74,7 +74,7 @@ fn what_is_left_out_takes_its_default() {
     assert_eq!(case.title, "smallest");
     assert_eq!(case.lower.material.young, f64::INFINITY);
     assert_eq!(case.lower.topography.preparation, Preparation::default());
-    let contact = case.contact;
+    let contact = &case.contact;
     assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
     assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));
     assert!(case.motion.is_none() && case.motion(1.0).is_none());
@@ -208,6 +208,31 @@ fn what_rolls_has_a_creepage_or_a_force() {
     let rolling = |name| load(name).course(1.0).unwrap();
     assert_eq!(rolling("rolled"), Course::Rolling(Rolling::Creepage([1e-3, -5e-4])));
     assert_eq!(rolling("driven"), Course::Rolling(Rolling::Force([0.2, 0.0])));
+}
+
+#[test]
+fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
+    let case = load("swept");
+    let Some(Sweep::Loads(loads)) = &case.contact.sweep else { panic!() };
+    assert_eq!((loads[0], loads[8], loads.len()), (0.1, 10.0, 9));
+    assert!(loads.windows(2).all(|pair| (pair[1] / pair[0] / 10f64.powf(0.25) - 1.0).abs() < 1e-12));
+    assert_eq!(case.contact.prescribed, Prescribed::Load(10.0));
+
+    let case = load("swept_pressures");
+    assert_eq!(case.contact.sweep, Some(Sweep::MeanPressures(vec![10e6, 1e6, 2e6])));
+    let Some(Course::Sweep(points)) = case.course(1e-6) else { panic!() };
+    let controls: Vec<_> = points.iter().map(|point| point.control).collect();
+    assert_eq!(controls, [10e6, 1e6, 2e6].map(|pressure| solver::Control::Load(pressure * 1e-6)));
+    assert_eq!(case.contact.prescribed, Prescribed::MeanPressure(10e6));
+
+    let Some(Sweep::Approaches(approaches)) = load("swept_approaches").contact.sweep else { panic!() };
+    let expected = [-10e-9, 0.0, 10e-9, 20e-9, 30e-9, 40e-9];
+    assert!(approaches.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-22), "{approaches:?}");
+
+    let Some(Course::Sweep(points)) = load("swept_rolling").course(1.0) else { panic!() };
+    let rolling = Some(Rolling::Creepage([1e-3, 0.0]));
+    let point = |load| Point { control: solver::Control::Load(load), rolling };
+    assert_eq!(points, [point(2.0), point(4.0)]);
 }
 
 #[test]

@@ -15,6 +15,8 @@ pub(crate) enum Unit {
     Pressure,
     /// Newtons.
     Force,
+    /// Newtons per metre.
+    Stiffness,
     /// Seconds.
     Time,
     /// Radians per metre.
@@ -54,6 +56,9 @@ impl Unit {
             Self::Volume => (&[(1e-27, "nm³"), (1e-18, "µm³"), (1e-9, "mm³"), (1.0, "m³")], 1e-4),
             Self::Pressure => (&[(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")], 1.0),
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
+            Self::Stiffness => {
+                (&[(1e-3, "mN/m"), (1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")], 1.0)
+            }
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
             Self::Wavenumber => (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0),
             Self::Number | Self::Count | Self::Of(_) => (&[(1.0, "")], 1.0),

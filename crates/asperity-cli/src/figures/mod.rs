@@ -9,6 +9,7 @@ mod rest;
 mod sheet;
 mod stored;
 mod subsurface;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -43,6 +44,10 @@ pub(crate) fn draw(
         true => rest::draw(results, &mut sheet)?,
         false => motion::draw(results, &passes, &mut sheet)?,
     };
+    let points = results.sweep()?;
+    if !points.is_empty() {
+        sweep::draw(&points, &results.case()?, &mut sheet)?;
+    }
     if results.case()?.get("subsurface").is_some() {
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;

@@ -13,7 +13,7 @@ use crate::io::results::{Existing, Writer};
 use crate::io::review;
 use crate::io::summary::{Outcome, Summary};
 use crate::motion::{
-    Equilibrium, LoadedContact, Motion, Pair, Simulation, StaticRecord, Watch, load_in_stages, press, roll,
+    Equilibrium, LoadedContact, Motion, Pair, Simulation, Watch, load_in_stages, press, roll, sweep,
 };
 use crate::solver::Params;
 use crate::subsurface::Tractions;
@@ -56,10 +56,12 @@ pub fn run(
         Work::Rest(pair) => {
             let rest = rest(case, &writer, &pair, area, &params, watch)?;
             warnings.extend(rest.warnings);
-            warnings.extend(review::static_contact(&pair, boundary, &rest.tractions.pressure));
+            if let Outcome::Static(_) = rest.outcome {
+                warnings.extend(review::static_contact(&pair, boundary, &rest.tractions.pressure));
+            }
             let stress = outlook.subsurface.map(|plan| writer.write_subsurface(&plan, rest.tractions));
             under_way = rest.under_way;
-            (Outcome::Static(rest.record), stress.transpose()?.into_iter().collect())
+            (rest.outcome, stress.transpose()?.into_iter().collect())
         }
         Work::Motion(motion, mut simulation) => {
             writer.begin()?;
@@ -110,8 +112,8 @@ fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
 
 /// A static contact.
 struct Rest {
-    record: StaticRecord,
-    /// What acts on the lower body.
+    outcome: Outcome,
+    /// What acts on the lower body, at the last point of a sweep.
     tractions: Tractions,
     warnings: Vec<String>,
     /// What has kept its increments.
@@ -130,35 +132,47 @@ fn rest(
     let boundary = case.contact.boundary;
     let control = case.contact.prescribed.control(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    let (contact, under_way) = match (case.course(apparent_area), law) {
+    let (contact, points, under_way) = match (case.course(apparent_area), law) {
+        (Some(Course::Sweep(points)), law) => {
+            writer.begin()?;
+            let mut output = writer.sweep(pair, case.output.pressure_every);
+            let done = writer.results().sweep()?;
+            let (points, contact) = sweep(pair, boundary, law, &points, params, done, watch, &mut output)?;
+            (contact, Some(points), None)
+        }
         (Some(Course::Rolling(rolling)), Some(law)) => {
             let contact = roll(pair, boundary, law, control, rolling, params)?;
             writer.begin()?;
-            (contact, None)
+            (contact, None, None)
         }
         (Some(Course::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
             writer.begin()?;
             let mut loading = writer.loading(pair, stages.iter().map(|stage| stage.increments).sum());
             let done = loading.under_way()?;
             let contact = load_in_stages(pair, boundary, law, &stages, params, done, watch, &mut loading)?;
-            (contact, Some(loading))
+            (contact, None, Some(loading))
         }
         _ => {
             let (record, solution) = press(pair, boundary, control, params)?;
             writer.begin()?;
             writer.write_static(pair, &solution)?;
             let tractions = Tractions::frictionless(solution.pressure);
-            return Ok(Rest { record, tractions, warnings: Vec::new(), under_way: None });
+            let outcome = Outcome::Static(record);
+            return Ok(Rest { outcome, tractions, warnings: Vec::new(), under_way: None });
         }
     };
     writer.write_loaded(pair, &contact)?;
-    let warnings = review::loaded(&contact);
+    let warnings = match &points {
+        Some(points) => review::sweep(points, &contact),
+        None => review::loaded(&contact),
+    };
     let LoadedContact { record, solution, .. } = contact;
+    let outcome = points.map_or(Outcome::Static(record), Outcome::Sweep);
     let tractions = match solution {
         Equilibrium::Frictionless(solution) => Tractions::frictionless(solution.pressure),
         Equilibrium::Frictional(solution) => {
             Tractions { pressure: solution.normal.pressure, shear: solution.shear.map(Some) }
         }
     };
-    Ok(Rest { record, tractions, warnings, under_way })
+    Ok(Rest { outcome, tractions, warnings, under_way })
 }

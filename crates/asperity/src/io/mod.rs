@@ -13,6 +13,7 @@ pub mod results; // the results directory
 mod review; // what to be wary of in a result
 pub mod subsurface; // the stress under the surface: where it is wanted, its file
 pub mod summary; // summary.json
+pub mod sweep; // points of a sweep, kept one by one
 pub mod tables; // steps.csv, passes.csv, increments.csv
 pub mod topography; // x3p, npy, sur, text in; x3p, npy, vtk out
 mod warm_start; // where the next pass begins

@@ -4,7 +4,7 @@ mod contact;
 mod demand;
 mod plausible;
 
-pub(super) use contact::{cut_off, spot, too_few_cells};
+pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
 use super::case::{Body, Boundary, Case, Course, Layer, Source, TopographySpec};
@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Position, Stage, Strategy, initial_gap};
+use crate::motion::{Control, Point, Position, Stage, Strategy, initial_gap};
 use crate::reference::HertzSphere;
 use crate::solver::{self, Coupling, Friction, Rolling, Tangential};
 use crate::surface::{Form, Level};
@@ -180,6 +180,7 @@ fn holds(
         }
         Course::Rolling(Rolling::Force(force)) => vec![(control, Tangential::Force(*force))],
         Course::Rolling(Rolling::Creepage(_)) => Vec::new(),
+        Course::Sweep(points) => points.iter().filter_map(pushed).collect(),
     };
     for end in ends {
         if let (solver::Control::Load(load), Tangential::Force([x, y])) = end {
@@ -191,6 +192,14 @@ fn holds(
         }
     }
     Ok(())
+}
+
+/// What is prescribed at a point that rolls under a force.
+fn pushed(point: &Point) -> Option<(solver::Control, Tangential)> {
+    match point.rolling {
+        Some(Rolling::Force(force)) => Some((point.control, Tangential::Force(force))),
+        _ => None,
+    }
 }
 
 fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
@@ -283,8 +292,9 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], outlook: &mut 
     let gap = initial_gap(surfaces, position);
     let pitch = bodies.lower.topography.grid().pitch;
     let foreseen = contact::foreseen(&gap, pitch, outlook.modulus, case.contact.boundary, control);
-    // Of a motion only its tables are left, which do not tell where in a contact the pressure is.
-    let warnings = if case.motion.is_some() { &mut outlook.warnings } else { &mut outlook.foreseen };
+    // Of a motion and of a sweep only tables are left, which do not tell where in a contact the pressure is.
+    let tabled = case.motion.is_some() || case.contact.sweep.is_some();
+    let warnings = if tabled { &mut outlook.warnings } else { &mut outlook.foreseen };
     warnings.extend(foreseen.rim);
     outlook.foreseen.extend(foreseen.coarse);
 }
@@ -303,7 +313,7 @@ fn frictional(case: &Case, friction: &Friction, outlook: &Outlook, warnings: &mu
     }
     let stages = match &outlook.course {
         Some(Course::Stages(stages)) => stages,
-        Some(Course::Rolling(_)) => {
+        Some(Course::Rolling(_) | Course::Sweep(_)) => {
             if ![&case.lower, &case.upper].into_iter().all(rolls_alike) {
                 warnings.push(
                     "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
@@ -350,7 +360,7 @@ fn frictional(case: &Case, friction: &Friction, outlook: &Outlook, warnings: &mu
 
 /// Steady rolling over what yields.
 fn rolls_plastically(case: &Case, outlook: &Outlook) -> Option<String> {
-    let Some(Course::Rolling(_)) = outlook.course else { return None };
+    outlook.course.as_ref()?.rolling().next()?;
     let pressure = rolling_pressure(case, outlook).filter(|pressure| *pressure > outlook.hardness)?;
     let [pressure, hardness] = [pressure, outlook.hardness].map(|p| units::format(p, Dimension::Pressure));
     Some(format!(

@@ -1,9 +1,9 @@
 //! What to be wary of in a result, told once it is there.
 
 use super::case::Case;
-use super::outlook::{NOT_FLATTENED, cut_off, spot, too_few_cells};
+use super::outlook::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Interior, LoadedContact, Pair, PassRecord};
+use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
 use crate::operator::Boundary;
 
 /// Of a static contact, by its pressure.
@@ -11,6 +11,18 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     let gap = || &pair.upper - &pair.lower;
     let rim = (boundary == Boundary::Free).then(|| cut_off(pressure, gap, pair.pitch())).flatten();
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
+}
+
+/// Of a sweep, by its points, of which the `last` is known as a whole.
+pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String> {
+    let coarse =
+        || points.iter().map(|p| p.largest_spot_cells).filter(|cells| (1..CELLS_ACROSS).contains(cells));
+    let at = |count: usize, warning: &str| format!("at {count} of {} points {warning}", points.len());
+    let too_few = coarse().min().and_then(too_few_cells).map(|warning| at(coarse().count(), &warning));
+    let rolls = last.record.shear.as_ref().is_some_and(|shear| shear.creepage.is_some());
+    let plastic = points.iter().filter(|point| rolls && point.plastic_area > 0.0).count();
+    let ploughed = (plastic > 0).then(|| at(plastic, &format!("cells yield {NOT_FLATTENED}")));
+    too_few.into_iter().chain(ploughed).collect()
 }
 
 /// What to be wary of in a static contact that was loaded in stages, or rolls.

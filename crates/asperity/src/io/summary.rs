@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::atomic;
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
-use crate::motion::{PassRecord, StaticRecord};
+use crate::motion::{PassRecord, StaticRecord, SweepRecord};
 use crate::units::Second;
 
 /// The content of `summary.json`.
@@ -17,7 +17,7 @@ pub struct Summary {
     pub version: String,
     /// The case as resolved: defaults filled in, SI.
     pub case: serde_json::Value,
-    /// Under the key `static` or `passes`.
+    /// Under the key `static`, `sweep` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Of a static contact one, of a motion one for each pass; none where the stress was not wanted.
@@ -35,6 +35,8 @@ pub struct Summary {
 pub enum Outcome {
     /// One static contact.
     Static(StaticRecord),
+    /// Static contacts under one load after another: one record each.
+    Sweep(Vec<SweepRecord>),
     /// A motion: one record per pass.
     Passes(Vec<PassRecord>),
 }

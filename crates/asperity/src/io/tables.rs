@@ -1,4 +1,5 @@
-//! `steps.csv`, `passes.csv` and `increments.csv`: a row per position, per pass, per increment of a loading.
+//! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: a row per position, per pass, per increment of a loading, per
+//! point of a sweep.
 //!
 //! A table is always written whole and atomically, after each pass: a killed run leaves the tables of the last
 //! finished pass, never half a row. Numbers are written so that they read back to the same bits.
@@ -11,7 +12,7 @@ use serde::de::DeserializeOwned;
 
 use super::atomic;
 use crate::error::{Error, Result};
-use crate::motion::{IncrementRecord, PassRecord, StepRecord};
+use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord};
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -82,6 +83,49 @@ pub const INCREMENT_COLUMNS: [&str; 18] = [
     "convolutions",
     "residual",
 ];
+
+/// Columns of `sweep.csv`.
+pub const SWEEP_COLUMNS: [&str; 23] = [
+    "point",
+    "load",
+    "mean_pressure",
+    "approach",
+    "mean_gap",
+    "contact_area",
+    "contact_fraction",
+    "largest_spot_cells",
+    "max_pressure",
+    "plastic_area",
+    "plastic_volume",
+    "elastic_energy",
+    "stiffness",
+    "creepage_x",
+    "creepage_y",
+    "tangential_force_x",
+    "tangential_force_y",
+    "stick_area",
+    "max_shear",
+    "dissipation",
+    "iterations",
+    "convolutions",
+    "residual",
+];
+
+/// Writes `sweep.csv`. A stiffness that there is not is an empty cell.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn write_sweep(path: &Path, points: &[SweepRecord]) -> Result<()> {
+    write(path, &SWEEP_COLUMNS, points)
+}
+
+/// Reads `sweep.csv`.
+///
+/// # Errors
+/// [`Error::File`], with the line where a row is damaged.
+pub fn read_sweep(path: &Path) -> Result<Vec<SweepRecord>> {
+    read(path)
+}
 
 /// Writes `increments.csv`.
 ///
@@ -205,6 +249,34 @@ mod tests {
         }
     }
 
+    fn point(stiffness: Option<f64>) -> SweepRecord {
+        SweepRecord {
+            point: 2,
+            load: 0.1 + 0.2,
+            mean_pressure: 1e6,
+            approach: -1.0 / 3.0 * 1e-7,
+            mean_gap: 1e-7,
+            contact_area: 1e-10,
+            contact_fraction: 1.0 / 7.0,
+            largest_spot_cells: 7,
+            max_pressure: 4e9,
+            plastic_area: 0.0,
+            plastic_volume: 0.0,
+            elastic_energy: 1e-9,
+            stiffness,
+            creepage_x: 1e-3,
+            creepage_y: 0.0,
+            tangential_force_x: 0.1,
+            tangential_force_y: -0.0,
+            stick_area: 1e-11,
+            max_shear: 1e9,
+            dissipation: 1e-12,
+            iterations: 12,
+            convolutions: 21.25,
+            residual: 1e-7,
+        }
+    }
+
     #[test]
     fn the_columns_are_those_promised() {
         let directory = tempfile::tempdir().unwrap();
@@ -212,6 +284,7 @@ mod tests {
         for (columns, row) in [
             (&STEP_COLUMNS[..], serde_json::to_value(step(1)).unwrap()),
             (&PASS_COLUMNS[..], serde_json::to_value(pass()).unwrap()),
+            (&SWEEP_COLUMNS[..], serde_json::to_value(point(None)).unwrap()),
         ] {
             let mut names: Vec<_> = row.as_object().unwrap().keys().map(String::as_str).collect();
             let mut sorted = columns.to_vec();
@@ -237,6 +310,9 @@ mod tests {
         assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
         write_passes(&path, &[pass()]).unwrap();
         assert_eq!(read_passes(&path).unwrap(), [pass()]);
+        let points = [point(None), point(Some(1.0 / 3.0 * 1e7))];
+        write_sweep(&path, &points).unwrap();
+        assert_eq!(read_sweep(&path).unwrap(), points);
     }
 
     #[test]

@@ -167,16 +167,46 @@ pub fn roll(
 ) -> Result<LoadedContact> {
     let (operators, gap) = facing(pair, boundary);
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
-    let area = pair.cell_area();
-    let (solution, creepage) =
-        solve_rolling(operator.as_mut(), &gap, pair.hardness(), friction, control, rolling, params)?;
-    let plastic = solution.plastic_interference(&gap);
-    let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
-    let shear = shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area);
-    let slip = Some(solution.slip.clone());
-    let solution = Equilibrium::Frictional(Box::new(solution));
-    let record = StaticRecord { shear: Some(shear), ..static_record(pair, &solution, &plastic) };
-    Ok(LoadedContact { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
+    LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params)
+}
+
+impl LoadedContact {
+    /// Pressed together in one step, without friction, over the initial `gap`.
+    pub(super) fn pressed(
+        pair: &Pair,
+        operator: &mut dyn Operator,
+        gap: &Field,
+        control: Control,
+        params: &Params,
+    ) -> Result<Self> {
+        let solution = solve_normal(operator, gap, pair.hardness(), control, None, params)?;
+        let plastic = solution.plastic_interference(gap, pair.hardness());
+        let record = StaticRecord::new(pair, &solution);
+        let solution = Equilibrium::Frictionless(solution);
+        Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
+    }
+
+    /// In steady rolling along x, over the initial `gap`.
+    pub(super) fn rolling(
+        pair: &Pair,
+        operator: &mut dyn CoupledOperator,
+        gap: &Field,
+        friction: &Friction,
+        control: Control,
+        rolling: Rolling,
+        params: &Params,
+    ) -> Result<Self> {
+        let area = pair.cell_area();
+        let (solution, creepage) =
+            solve_rolling(operator, gap, pair.hardness(), friction, control, rolling, params)?;
+        let plastic = solution.plastic_interference(gap);
+        let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
+        let shear = shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area);
+        let slip = Some(solution.slip.clone());
+        let solution = Equilibrium::Frictional(Box::new(solution));
+        let record = StaticRecord { shear: Some(shear), ..static_record(pair, &solution, &plastic) };
+        Ok(Self { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
+    }
 }
 
 impl Equilibrium {
@@ -398,7 +428,8 @@ impl Flattening {
     }
 }
 
-fn facing(pair: &Pair, boundary: Boundary) -> (Operators, Field) {
+/// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
+pub(super) fn facing(pair: &Pair, boundary: Boundary) -> (Operators, Field) {
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
     (Operators::new(pair.pitch(), *pair.compliances(), boundary), &pair.upper - &pair.lower)
 }

@@ -12,6 +12,7 @@ mod record;
 mod rim;
 mod simulation;
 mod spot;
+mod sweep;
 mod warm_start;
 mod watch;
 
@@ -22,10 +23,11 @@ pub use loading::{
 pub use pair::Pair;
 pub(crate) use pair::initial_gap;
 pub use path::{Position, overlap_positions, shift_positions};
-pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord};
+pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord};
 pub use rim::Interior;
 pub use simulation::Simulation;
 pub(crate) use spot::largest_spot;
+pub use sweep::{Point, SweepOutput, sweep};
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Output, PassReport, Progress, Watch};

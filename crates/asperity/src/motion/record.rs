@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, Second, SquareMetre};
+use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre};
 
 /// A static contact in numbers: `static` in `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -98,6 +98,58 @@ pub struct IncrementRecord {
     /// Convolutions.
     pub convolutions: f64,
     /// Scale-free residual η, normal and tangential.
+    pub residual: f64,
+}
+
+/// One point of a sweep: a row of `sweep.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepRecord {
+    /// Point, from 1, in the order given.
+    pub point: usize,
+    /// Normal force.
+    pub load: Newton,
+    /// Load over the area of the whole grid.
+    pub mean_pressure: Pascal,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Mean deformed gap.
+    pub mean_gap: Metre,
+    /// Area of the cells with p > 0.
+    pub contact_area: SquareMetre,
+    /// The same over the area of the whole grid.
+    pub contact_fraction: f64,
+    /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
+    pub largest_spot_cells: usize,
+    /// Largest pressure.
+    pub max_pressure: Pascal,
+    /// Area of the cells at the hardness, under shear at their caps.
+    pub plastic_area: SquareMetre,
+    /// ΔA Σ w, w the plastic interference of the cells.
+    pub plastic_volume: CubicMetre,
+    /// ½ ΔA Σ p u, in rolling that of both tractions.
+    pub elastic_energy: Joule,
+    /// Normal stiffness dW/dδ, see [`crate::solver::normal_stiffness`]; none where a whole period bears elastically.
+    pub stiffness: Option<NewtonPerMetre>,
+    /// Velocity of the upper body against the lower one over the rolling velocity, along x; here and below 0 unless the
+    /// bodies roll.
+    pub creepage_x: f64,
+    /// The same along y.
+    pub creepage_y: f64,
+    /// Force of the upper body on the lower one along x.
+    pub tangential_force_x: Newton,
+    /// The same along y.
+    pub tangential_force_y: Newton,
+    /// Area of the cells that stick.
+    pub stick_area: SquareMetre,
+    /// Largest shear traction.
+    pub max_shear: Pascal,
+    /// Energy that friction took while the contact moved on by a cell.
+    pub dissipation: Joule,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Convolutions, with those of the stiffness.
+    pub convolutions: f64,
+    /// Scale-free residual η.
     pub residual: f64,
 }
 

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
-use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::record::{PassRecord, StepRecord, SweepRecord};
 use crate::motion::warm_start::{Guess, WarmStart};
 use crate::solver::Sliding;
 use crate::units::Newton;
@@ -30,6 +30,9 @@ pub struct Progress {
 pub trait Watch: Sync {
     /// A position has been solved.
     fn at(&self, progress: &Progress);
+
+    /// A point of a sweep has been solved: each in its turn, those too from which an interrupted sweep goes on.
+    fn point(&self, _: &SweepRecord) {}
 
     /// Whether to stop: the motion then ends with [`crate::Error::Interrupted`] at the next position.
     fn stop(&self) -> bool;

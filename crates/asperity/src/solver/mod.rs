@@ -12,6 +12,7 @@ mod residual;
 mod sets;
 mod site;
 mod sparse_inverse;
+mod stiffness;
 mod together;
 
 pub(crate) use friction::solve_sliding;
@@ -21,6 +22,7 @@ pub use friction::{
 };
 pub use residual::{Residual, residual};
 pub(crate) use site::{Kept, Site, coarse_gap};
+pub use stiffness::normal_stiffness;
 pub(crate) use together::solve_together;
 
 use std::borrow::Cow;

@@ -18,6 +18,8 @@ pub type RadianPerMetre = f64;
 pub type Pascal = f64;
 /// Force in newtons.
 pub type Newton = f64;
+/// Stiffness in newtons per metre.
+pub type NewtonPerMetre = f64;
 /// Energy in joules.
 pub type Joule = f64;
 /// Speed in metres per second.

@@ -21,6 +21,8 @@ pub enum Dimension {
     Angle,
     /// Seconds.
     Time,
+    /// Newtons per metre.
+    Stiffness,
 }
 
 /// Why a text is no quantity of the dimension wanted.
@@ -181,6 +183,7 @@ impl Dimension {
             Self::Speed => "a speed",
             Self::Angle => "an angle",
             Self::Time => "a time",
+            Self::Stiffness => "a stiffness",
         }
     }
 
@@ -196,6 +199,7 @@ impl Dimension {
             Self::Speed => "10 mm/s",
             Self::Angle => "5 deg",
             Self::Time => "1 ms",
+            Self::Stiffness => "4 MN/m",
         }
     }
 
@@ -203,7 +207,7 @@ impl Dimension {
         format!("{} such as \"{}\"", self.noun(), self.example())
     }
 
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -213,6 +217,7 @@ impl Dimension {
         Self::Speed,
         Self::Angle,
         Self::Time,
+        Self::Stiffness,
     ];
 
     fn scale(self) -> Scale {
@@ -227,6 +232,7 @@ impl Dimension {
             Self::Speed => scale(Base::PerSecond, 1, 0),
             Self::Angle => scale(Base::Of("rad"), 1, 0),
             Self::Time => scale(Base::Of("s"), 1, 0),
+            Self::Stiffness => scale(Base::Of("N/m"), 1, 12),
         }
     }
 

@@ -35,6 +35,7 @@ impl Dimension {
             Self::Speed => (1e-15, 1e9, "m/s"),
             Self::Angle => (1e-15, 1e6, "rad"),
             Self::Time => (1e-15, 1e15, "s"),
+            Self::Stiffness => (1e-21, 1e21, "N/m"),
         };
         Range { least, most, unit }
     }

@@ -133,7 +133,7 @@ impl<'a> Entry<'a> {
         self.path.rsplit('.').next().unwrap_or_default()
     }
 
-    fn table(self) -> Result<Table<'a>> {
+    pub(super) fn table(self) -> Result<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
                 Ok(Table { document: self.document, path: self.path, span: self.span, entries })
@@ -160,6 +160,10 @@ impl<'a> Entry<'a> {
 
     pub(super) fn is_array(&self) -> bool {
         matches!(self.value, DeValue::Array(_))
+    }
+
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
     }
 
     pub(super) fn text(&self) -> Result<&'a str> {

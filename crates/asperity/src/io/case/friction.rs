@@ -6,7 +6,7 @@ use super::cursor::{Entry, Table};
 use super::parse::{belongs, choice_or, known_in, prescribed};
 use super::{Case, Number, Prescribed};
 use crate::error::Result;
-use crate::motion::Stage;
+use crate::motion::{Point, Stage};
 use crate::solver::{Coupling, Friction, Loading, Rolling, Tangential};
 use crate::units::{Dimension, SquareMetre};
 
@@ -60,6 +60,20 @@ pub enum Course {
     Stages(Vec<Stage>),
     /// In steady rolling.
     Rolling(Rolling),
+    /// One load after another, each on virgin bodies.
+    Sweep(Vec<Point>),
+}
+
+impl Course {
+    /// What rolls steadily.
+    pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
+        let (one, points) = match self {
+            Self::Stages(_) => (None, &[][..]),
+            Self::Rolling(rolling) => (Some(*rolling), &[][..]),
+            Self::Sweep(points) => (None, points.as_slice()),
+        };
+        one.into_iter().chain(points.iter().filter_map(|point| point.rolling))
+    }
 }
 
 impl Case {
@@ -72,11 +86,17 @@ impl Case {
         if self.motion.is_some() {
             return None;
         }
-        let tangential = match self.friction.and_then(|friction| friction.prescribed) {
-            Some(InPlane::Creepage(creepage)) => return Some(Course::Rolling(Rolling::Creepage(creepage))),
-            Some(InPlane::RollingForce(force)) => return Some(Course::Rolling(Rolling::Force(force))),
-            other => other.and_then(|in_plane| in_plane.tangential()),
-        };
+        let in_plane = self.friction.and_then(|friction| friction.prescribed);
+        let rolling = in_plane.and_then(InPlane::rolling);
+        if let Some(sweep) = &self.contact.sweep {
+            let point =
+                |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
+            return Some(Course::Sweep(sweep.prescribed().map(point).collect()));
+        }
+        if let Some(rolling) = rolling {
+            return Some(Course::Rolling(rolling));
+        }
+        let tangential = in_plane.and_then(InPlane::tangential);
         let normal = self.contact.prescribed.control(apparent_area);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
         let increments = self.friction.map_or(1, |friction| friction.increments);
@@ -85,7 +105,7 @@ impl Case {
             if let Some(normal) = stage.normal {
                 loading.normal = normal.control(apparent_area);
             }
-            if let Some(tangential) = stage.in_plane.and_then(|in_plane| in_plane.tangential()) {
+            if let Some(tangential) = stage.in_plane.and_then(InPlane::tangential) {
                 loading.tangential = tangential;
             }
             stages.push(Stage { loading, increments: stage.increments });
@@ -102,6 +122,15 @@ impl InPlane {
             Self::Displacement(shift) => Some(Tangential::Displacement(shift)),
             Self::Sliding(direction) => Some(Tangential::Sliding(direction)),
             Self::Creepage(_) | Self::RollingForce(_) => None,
+        }
+    }
+
+    /// What is prescribed to bodies that roll.
+    fn rolling(self) -> Option<Rolling> {
+        match self {
+            Self::Creepage(creepage) => Some(Rolling::Creepage(creepage)),
+            Self::RollingForce(force) => Some(Rolling::Force(force)),
+            Self::Force(_) | Self::Displacement(_) | Self::Sliding(_) => None,
         }
     }
 }
@@ -161,8 +190,8 @@ fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
     Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
 }
 
-fn rolls(prescribed: Option<InPlane>) -> bool {
-    matches!(prescribed, Some(InPlane::Creepage(_) | InPlane::RollingForce(_)))
+pub(super) fn rolls(prescribed: Option<InPlane>) -> bool {
+    prescribed.and_then(InPlane::rolling).is_some()
 }
 
 /// The stages after the first, in the plane only where there is friction.

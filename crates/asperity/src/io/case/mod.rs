@@ -9,6 +9,7 @@ mod friction;
 mod parse;
 mod source;
 mod subsurface;
+mod sweep;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ use self::document::Document;
 pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
+pub use self::sweep::Sweep;
 use super::regular;
 use crate::error::{Error, Result};
 use crate::material::Material;
@@ -82,11 +84,12 @@ pub enum Mount {
 }
 
 /// Load, boundary and solver.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// Exactly one of the three.
-    #[serde(flatten)]
+    /// Exactly one of the three; of a sweep the largest.
     pub prescribed: Prescribed,
+    /// What takes its place, one after the other; none of a contact that is no sweep.
+    pub sweep: Option<Sweep>,
     /// At the rim of the grid.
     pub boundary: Boundary,
     /// The solver.
@@ -115,6 +118,24 @@ impl Prescribed {
             Self::MeanPressure(pressure) => solver::Control::Load(pressure * apparent_area),
             Self::Approach(approach) => solver::Control::Approach(approach),
         }
+    }
+}
+
+impl Serialize for Contact {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            #[serde(flatten)]
+            prescribed: Option<Prescribed>,
+            #[serde(flatten)]
+            sweep: &'a Option<Sweep>,
+            boundary: Boundary,
+            method: Method,
+            tolerance: f64,
+        }
+        let Self { prescribed, ref sweep, boundary, method, tolerance } = *self;
+        let prescribed = sweep.is_none().then_some(prescribed);
+        Keys { prescribed, sweep, boundary, method, tolerance }.serialize(serializer)
     }
 }
 

@@ -6,6 +6,7 @@ use super::cursor::{Entry, Table};
 use super::document::{Document, join};
 use super::friction::friction;
 use super::subsurface::subsurface;
+use super::sweep::{self, sweep};
 use super::{
     Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
     Prescribed, Source, StageSpec, TopographySpec,
@@ -24,7 +25,20 @@ use crate::units::Dimension;
 const TABLES: [(&str, &[&str]); 7] = [
     ("lower", &["young", "poisson", "hardness", "topography"]),
     ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
-    ("contact", &["load", "mean_pressure", "approach", "boundary", "method", "tolerance"]),
+    (
+        "contact",
+        &[
+            "load",
+            "mean_pressure",
+            "approach",
+            "loads",
+            "mean_pressures",
+            "approaches",
+            "boundary",
+            "method",
+            "tolerance",
+        ],
+    ),
     (
         "motion",
         &[
@@ -123,7 +137,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let yields = material::composite_hardness(&lower.material, &upper.material).is_finite();
     let friction =
         root.table("friction")?.map(|table| friction(&table, yields, motion.is_some())).transpose()?;
-    let history = history(root.get("history").as_ref(), motion.is_some(), friction.as_ref())?;
+    let stages = root.get("history");
+    sweep::stands_alone(&contact_table, friction.as_ref(), motion.is_some(), stages.is_some())?;
+    let history = history(stages.as_ref(), motion.is_some(), friction.as_ref())?;
     if let (Some(_), Some(motion)) = (friction, motion)
         && motion.strategy.direction() == 0.0
     {
@@ -448,8 +464,13 @@ fn contact(table: &Table<'_>) -> Result<Contact> {
         ("polonsky-keer", Method::PolonskyKeer),
         ("active-set", Method::ActiveSet),
     ];
+    const PRESCRIBED: [&str; 6] =
+        ["load", "mean_pressure", "approach", "loads", "mean_pressures", "approaches"];
+    table.exactly_one(&PRESCRIBED, "for example `load = \"2 N\"` and no other of them")?;
+    let sweep = sweep(table)?;
     Ok(Contact {
-        prescribed: prescribed(table)?,
+        prescribed: sweep.as_ref().map_or_else(|| prescribed(table), |sweep| Ok(sweep.largest()))?,
+        sweep,
         boundary: choice_or(table, "boundary", &boundaries, Boundary::Free)?,
         method: choice_or(table, "method", &methods, Method::Auto)?,
         tolerance: fraction_or(table, "tolerance", 1e-6)?,

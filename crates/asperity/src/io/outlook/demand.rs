@@ -8,7 +8,7 @@ use crate::io::case::{Body, Boundary, Case, Course, Layer, Source};
 use crate::io::prepare::grids;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness};
-use crate::motion::{Control, PlasticUpdate, memory_together};
+use crate::motion::{Control, PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Coupling, Friction, Method, Sliding};
 use crate::units::Second;
@@ -211,6 +211,14 @@ impl Sizes<'_> {
                         });
                         increments as f64 * (normal + shear * boundary * digits) * all
                     }
+                    Some(Course::Sweep(points)) => {
+                        let point = |point: &Point| match point.rolling {
+                            Some(_) => ROLLING * boundary * digits,
+                            None => normal,
+                        };
+                        let stiffness = STIFFNESS * boundary * digits * points.len() as f64;
+                        (points.iter().map(point).sum::<f64>() + stiffness) * all
+                    }
                     None => normal * all,
                 }
             }
@@ -236,6 +244,8 @@ const SHEAR: f64 = 450.0;
 const SHEAR_ALIKE: f64 = 150.0;
 /// Steady rolling.
 const ROLLING: f64 = 25_000.0;
+/// The stiffness of a contact.
+const STIFFNESS: f64 = 12.0;
 /// The stress on a plane.
 const STRESS: f64 = 35.0;
 /// A surface: read or made, prepared, its figures for the outlook.

@@ -14,7 +14,8 @@ use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::identity;
-use crate::motion::StepRecord;
+use crate::io::sweep::is_kept;
+use crate::motion::{StepRecord, SweepRecord};
 
 /// What to do about results that are there already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +74,8 @@ pub(super) enum Kept {
     Passes(usize),
     /// A loading under way.
     Increments,
+    /// Points of a sweep.
+    Points,
 }
 
 /// Locks `directory`, made where it is missing, for the results of `case`; what is kept of what is there. Nothing is
@@ -134,6 +137,10 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
         whole(&state, &identity, None)?;
         return Ok(Kept::Increments);
     }
+    let points = results.sweep()?;
+    if !points.is_empty() {
+        return kept_points(results, case, &identity, &points);
+    }
     let passes = results.passes()?;
     if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
         let path = results.passes_path();
@@ -162,6 +169,19 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
         whole(&results.warm_start_path(passes.len()), &identity, Some(passes.len()))?;
     }
     Ok(Kept::Passes(passes.len()))
+}
+
+/// The points of a sweep, if the fields kept of each are whole.
+fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepRecord]) -> Result<Kept> {
+    if !points.iter().map(|point| point.point).eq(1..=points.len()) {
+        let path = results.sweep_path();
+        return Err(Error::NotResumable { path, reason: "does not number its points 1, 2, 3 …" });
+    }
+    let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
+    for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
+        whole(&results.point_path(point), identity, None)?;
+    }
+    Ok(Kept::Points)
 }
 
 /// Whether each pass has the same positions.
@@ -196,7 +216,7 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
     match kept {
         Kept::Nothing => {
             // First what says that something is done, never the file by which the directory is known as ours.
-            for name in ["passes.csv", "steps.csv", "increments.csv"].iter().chain(&AT_REST) {
+            for name in ["passes.csv", "steps.csv", "increments.csv", "sweep.csv"].iter().chain(&AT_REST) {
                 results.remove(&at(name))?;
             }
             let folders = [results.fields_folder(), results.figures_folder()];
@@ -206,7 +226,7 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
             Ok(())
         }
         Kept::Passes(passes) => clear_later(results, passes),
-        Kept::Increments => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
+        Kept::Increments | Kept::Points => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
     }
 }
 

@@ -9,6 +9,8 @@
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
+//!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
+//!     fields/point-0001.h5 the pressure and the gap of the points kept
 //!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
 //!     *.vti                beside the fields, for ParaView, where they are wanted
@@ -35,7 +37,7 @@ use super::{summary, tables, warm_start};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::summary::Summary;
-use crate::motion::{IncrementRecord, PassRecord, StepRecord, WarmStart};
+use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, WarmStart};
 use crate::surface::Topography;
 
 /// A results directory, to be read.
@@ -126,6 +128,23 @@ impl Results {
         if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
     }
 
+    /// The points of a sweep that are done; none of other contacts.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn sweep(&self) -> Result<Vec<SweepRecord>> {
+        let path = self.sweep_path();
+        if path.exists() { tables::read_sweep(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The fields kept of a point, from 1, of a sweep.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn point_fields(&self, point: usize) -> Result<Fields> {
+        Fields::open(&self.point_path(point))
+    }
+
     /// The stress under the surface: of a static contact, or in the pass, from 1, of a motion.
     ///
     /// # Errors
@@ -175,6 +194,14 @@ impl Results {
 
     pub(super) fn increments_path(&self) -> PathBuf {
         self.directory.join("increments.csv")
+    }
+
+    pub(super) fn sweep_path(&self) -> PathBuf {
+        self.directory.join("sweep.csv")
+    }
+
+    pub(super) fn point_path(&self, point: usize) -> PathBuf {
+        self.fields_folder().join(format!("point-{point:04}.h5"))
     }
 
     fn static_path(&self) -> PathBuf {

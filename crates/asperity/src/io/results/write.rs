@@ -13,6 +13,7 @@ use crate::io::fields::FieldFile;
 use crate::io::loading::LoadingWriter;
 use crate::io::subsurface::{Plan, SubsurfaceRecord};
 use crate::io::summary::Summary;
+use crate::io::sweep::SweepWriter;
 use crate::io::{atomic, identity, summary, tables, vti, warm_start};
 use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
 use crate::solver::Solution;
@@ -124,6 +125,11 @@ impl Writer {
         LoadingWriter::new(&self.results, &self.identity, pair.lower_grid(), increments)
     }
 
+    /// The output that keeps each point of a sweep here, with the fields of every `fields_every`-th (0: of none).
+    pub fn sweep(&self, pair: &Pair, fields_every: usize) -> SweepWriter {
+        SweepWriter::new(&self.results, &self.identity, pair, fields_every)
+    }
+
     /// Computes and writes the stress under the surface of a static contact, whose lower body bears
     /// `tractions`.
     ///
@@ -172,7 +178,8 @@ impl Writer {
     pub fn write_for_paraview(&self) -> Result<()> {
         let finished = self.results.passes()?.len();
         let passes = (0..=finished).filter(|_| finished > 0).map(|pass| self.results.fields_path(pass));
-        let all = passes.chain([self.results.static_path()]).filter(|path| path.exists());
+        let points = self.results.sweep()?.into_iter().map(|point| self.results.point_path(point.point));
+        let all = passes.chain(points).chain([self.results.static_path()]).filter(|path| path.exists());
         for path in all.filter(|path| !path.with_extension("vti").exists()) {
             vti::write_fields(&path)?;
         }

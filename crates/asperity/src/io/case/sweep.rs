@@ -1,0 +1,135 @@
+//! A load in `[contact]` that takes one value after another.
+
+use serde::Serialize;
+
+use super::Prescribed;
+use super::cursor::{Entry, Table};
+use super::friction::{FrictionSpec, rolls};
+use super::parse::choice_or;
+use crate::error::Result;
+use crate::units::{Dimension, Metre, Newton, Pascal};
+
+/// What a static contact is prescribed, one after the other, each on virgin bodies; at least one of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sweep {
+    /// Total normal forces, > 0.
+    Loads(Vec<Newton>),
+    /// Loads over the apparent area, > 0.
+    MeanPressures(Vec<Pascal>),
+    /// From the heights as prepared; of any sign.
+    Approaches(Vec<Metre>),
+}
+
+impl Sweep {
+    /// The points in their order.
+    pub fn prescribed(&self) -> impl Iterator<Item = Prescribed> + '_ {
+        let (values, point): (_, fn(f64) -> Prescribed) = match self {
+            Self::Loads(loads) => (loads, Prescribed::Load),
+            Self::MeanPressures(pressures) => (pressures, Prescribed::MeanPressure),
+            Self::Approaches(approaches) => (approaches, Prescribed::Approach),
+        };
+        values.iter().copied().map(point)
+    }
+
+    /// The largest of them.
+    pub fn largest(&self) -> Prescribed {
+        let value = |prescribed: &Prescribed| match *prescribed {
+            Prescribed::Load(value) | Prescribed::MeanPressure(value) | Prescribed::Approach(value) => value,
+        };
+        self.prescribed().max_by(|a, b| value(a).total_cmp(&value(b))).expect("a sweep has a point")
+    }
+}
+
+/// Keys of a sweep in `[contact]`.
+pub(super) const KEYS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
+
+/// The sweep of a table, if it has one.
+pub(super) fn sweep(table: &Table<'_>) -> Result<Option<Sweep>> {
+    let Some((key, entry)) = KEYS.iter().find_map(|key| Some((*key, table.get(key)?))) else {
+        return Ok(None);
+    };
+    let positive = |dimension| move |entry: &Entry<'_>| entry.positive(dimension);
+    Ok(Some(match key {
+        "loads" => Sweep::Loads(values(entry, "\"0.1 N\"", true, positive(Dimension::Force))?),
+        "mean_pressures" => {
+            Sweep::MeanPressures(values(entry, "\"1 MPa\"", true, positive(Dimension::Pressure))?)
+        }
+        _ => {
+            let length = |entry: &Entry<'_>| entry.quantity(Dimension::Length);
+            Sweep::Approaches(values(entry, "\"10 nm\"", false, length)?)
+        }
+    }))
+}
+
+/// An error if the bodies of a sweep have a past, or a future.
+pub(super) fn stands_alone(
+    contact: &Table<'_>,
+    friction: Option<&FrictionSpec>,
+    moves: bool,
+    has_history: bool,
+) -> Result<()> {
+    let Some(entry) = KEYS.iter().find_map(|key| contact.get(key)) else { return Ok(()) };
+    let refused = |message: &str, hint: &str| {
+        Err(entry.error(message.replace("{}", entry.key()), Some(hint.to_owned())))
+    };
+    if moves {
+        return refused("a [motion] has no '{}'", "it has one `load`, `mean_pressure` or `approach`");
+    }
+    if has_history {
+        let hint = "each of its values presses virgin bodies, in a history what is flattened stays flat";
+        return refused("'{}' and [[history]] are both given, expected one of them", hint);
+    }
+    if friction.is_some_and(|friction| !rolls(friction.prescribed)) {
+        let message = "with [friction] only what rolls has '{}'";
+        let hint = "what sticks and slips depends on how a load came about: give a `creepage`, a `rolling_force`, or \
+                    stages in a [[history]]";
+        return refused(message, hint);
+    }
+    Ok(())
+}
+
+/// The most points of a sweep.
+const MOST_POINTS: usize = 10_000;
+
+/// A list of values, or a table of `from`, `to`, `points` and `spacing`; `by_ratio`: by default in equal ratios.
+fn values<'a>(
+    entry: Entry<'a>,
+    example: &str,
+    by_ratio: bool,
+    read: impl Fn(&Entry<'a>) -> Result<f64>,
+) -> Result<Vec<f64>> {
+    let expected = format!(
+        "a list of at least one value such as [{example}], or a table with `from`, `to` and `points`"
+    );
+    if !entry.is_table() {
+        let values = if entry.is_array() { entry.list(&expected, read)? } else { Vec::new() };
+        return match values.len() {
+            1..=MOST_POINTS => Ok(values),
+            0 => Err(entry.unexpected(&expected, None)),
+            _ => Err(entry.unexpected("at most 10000 values", None)),
+        };
+    }
+    let table = entry.table()?;
+    table.known(&["from", "to", "points", "spacing"], |_| None)?;
+    let [from, to] = [table.required("from", example)?, table.required("to", example)?];
+    let points = table.required("points", "9")?;
+    let (first, last, count) = (read(&from)?, read(&to)?, points.count(2)?);
+    if count > MOST_POINTS {
+        return Err(points.unexpected("a whole number of at most 10000", None));
+    }
+    let by_ratio = choice_or(&table, "spacing", &[("log", true), ("linear", false)], by_ratio)?;
+    if by_ratio
+        && let Some((entry, _)) = [(from, first), (to, last)].into_iter().find(|(_, value)| *value <= 0.0)
+    {
+        let hint = "or `spacing = \"linear\"`".to_owned();
+        return Err(entry.unexpected("a value above 0, as equal ratios need", Some(hint)));
+    }
+    let value = |k: usize| match k as f64 / (count - 1) as f64 {
+        0.0 => first,
+        1.0 => last,
+        share if by_ratio => first * (last / first).powf(share),
+        share => first + share * (last - first),
+    };
+    Ok((0..count).map(value).collect())
+}

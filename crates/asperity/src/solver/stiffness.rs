@@ -1,0 +1,160 @@
+//! The normal stiffness of a contact: a flat punch on the cells that bear elastically.
+
+use ndarray::{Array2, Zip};
+
+use crate::error::{Error, Result, check};
+use crate::grid::SingleField;
+use crate::operator::Operator;
+use crate::solver::preconditioner::Preconditioner;
+use crate::solver::sets::Sets;
+use crate::solver::{Params, Stats};
+use crate::units::NewtonPerMetre;
+
+/// Normal stiffness K = dW/dδ of a contact whose cells `elastic` close their gap, while all others bear what they bear:
+///
+/// ```text
+/// C_EE p' = 1   on the elastic cells E,   K = ΔA Σ p'
+/// ```
+///
+/// These are the cells with 0 < p < H: a cell at the hardness bears no more, one that is open none. Under a periodic
+/// boundary δ is the approach of the mean planes of the surfaces, the mean displacement being 0; where all of a period is
+/// elastic nothing gives, and there is no stiffness. K comes to within about a tenth of the tolerance of `params`.
+///
+/// Sneddon, Int. J. Eng. Sci. 3, 47 (1965): K = 2 E* a for any axisymmetric contact of radius a.
+///
+/// # Errors
+/// [`Error::NotConverged`].
+///
+/// # Panics
+/// If `elastic` has another shape than the operator's grid.
+pub fn normal_stiffness(
+    operator: &mut dyn Operator,
+    elastic: &Array2<bool>,
+    params: &Params,
+) -> Result<(Option<NewtonPerMetre>, Stats)> {
+    let grid = *operator.grid();
+    assert_eq!(elastic.dim(), (grid.shape[0], grid.shape[1]), "shape of the elastic cells");
+    let mut stats = Stats::default();
+    if operator.periodic() && elastic.iter().all(|is_elastic| *is_elastic) {
+        return Ok((None, stats));
+    }
+    let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
+    let mut sets = Sets::new(grid.shape);
+    sets.assign(mask.iter().copied(), f64::INFINITY);
+    let mut preconditioner = Preconditioner::new(operator);
+    preconditioner.adapt(&sets);
+    let (mut rate, mut left) = (grid.zeros(), mask.clone());
+    let (mut direction, mut response) = (grid.zeros(), grid.zeros());
+    let [mut equations, mut step] = [SingleField::zeros(grid.shape), SingleField::zeros(grid.shape)];
+    let mut product_before = f64::INFINITY;
+    // Conjugate gradients from 0: Σ p' lacks what the steps to come will add, and none of them takes from it.
+    let mut added = [f64::INFINITY; LAST];
+    while left.iter().any(|r| *r != 0.0)
+        && added.iter().sum::<f64>() > ACCURACY * params.tolerance * rate.sum()
+    {
+        if stats.iterations >= params.max_convolutions {
+            let Stats { iterations, .. } = stats;
+            let residual = added.iter().sum::<f64>() / rate.sum();
+            return Err(Error::NotConverged { iterations, residual, tolerance: ACCURACY * params.tolerance });
+        }
+        equations.zip_mut_with(&left, |single, r| *single = *r as f32);
+        let [r, z] = [&mut equations, &mut step].map(|f| f.as_slice_mut().expect("standard layout"));
+        preconditioner.apply(&sets, r, z);
+        let product = Zip::from(&left).and(&step).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
+        let conjugate = product / product_before;
+        product_before = product;
+        direction.zip_mut_with(&step, |d, z| *d = f64::from(*z) + conjugate * *d);
+        operator.apply(&direction, &mut response);
+        let length = product / (&direction * &response).sum();
+        check("stiffness", length, length.is_finite(), "a number in double precision")?;
+        rate.scaled_add(length, &direction);
+        Zip::from(&mut left).and(&response).and(&mask).for_each(|r, u, inside| *r -= length * u * inside);
+        added.rotate_left(1);
+        added[LAST - 1] = length * product;
+        stats.iterations += 1;
+        stats.convolutions += 1.0;
+    }
+    // 2 Σ p' − p'ᵀC p', which is off by the square of what is left only.
+    let sum = Zip::from(&rate).and(&left).fold(0.0, |sum, p, r| sum + p * (1.0 + r));
+    Ok((Some(grid.cell_area() * sum), stats))
+}
+
+/// Steps whose contributions must be small together.
+const LAST: usize = 2;
+/// Share of the tolerance that they may be of the stiffness.
+const ACCURACY: f64 = 0.1;
+
+#[cfg(test)]
+mod tests {
+    use faer::linalg::solvers::Solve;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::grid::Grid;
+    use crate::operator::{DirectSum, PeriodicFft};
+
+    const FINE: Params =
+        Params { method: crate::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 1000 };
+
+    /// ΔA 1ᵀ C_EE⁻¹ 1 by a dense factorisation.
+    fn dense(operator: &dyn Operator, elastic: &Array2<bool>) -> f64 {
+        let cells: Vec<_> = elastic.indexed_iter().filter(|(_, e)| **e).map(|(cell, _)| cell).collect();
+        let influence = |i: usize, j: usize| {
+            let ((a, b), (c, d)) = (cells[i], cells[j]);
+            operator.influence(a.abs_diff(c), b.abs_diff(d))
+        };
+        let matrix = faer::Mat::from_fn(cells.len(), cells.len(), influence);
+        let ones = faer::Mat::from_fn(cells.len(), 1, |_, _| 1.0);
+        let rates = matrix.partial_piv_lu().solve(&ones);
+        operator.grid().cell_area() * (0..cells.len()).map(|i| rates[(i, 0)]).sum::<f64>()
+    }
+
+    #[test]
+    fn it_is_that_of_a_dense_factorisation_on_random_cells() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        for n in 0..200 {
+            let shape = [random.random_range(1..22), random.random_range(1..22)];
+            let grid = Grid::new(shape, [1.0, random.random_range(0.5..2.0)]).unwrap();
+            let (share, patch) = (random.random_range(0.0..1.0), random.random_range(1..5));
+            let patches = Array2::from_shape_fn([22, 22], |_| random.random_bool(share));
+            let mut elastic = Array2::from_shape_fn(shape, |(i, j)| patches[[i / patch, j / patch]]);
+            let mut operator: Box<dyn Operator> = match n % 2 {
+                0 => Box::new(DirectSum::new(grid, 1.7)),
+                _ => Box::new(PeriodicFft::new(grid, 1.7)),
+            };
+            if operator.periodic() {
+                elastic[[0, 0]] = false;
+            }
+            let (found, _) = normal_stiffness(operator.as_mut(), &elastic, &FINE).unwrap();
+            let (found, expected) = (found.unwrap(), dense(operator.as_ref(), &elastic));
+            assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{n}: {shape:?} {found} {expected}");
+        }
+    }
+
+    /// 2 E* a, the edge of the disc of cells known to half a cell.
+    #[test]
+    fn a_disc_has_that_of_a_round_punch() {
+        let grid = Grid::new([96, 96], [1.0, 1.0]).unwrap();
+        let radius = 40.0;
+        let elastic =
+            Array2::from_shape_fn(grid.shape, |(i, j)| (i as f64 - 47.5).hypot(j as f64 - 47.5) < radius);
+        let mut operator = crate::operator::FreeFft::new(grid, 3.0);
+        let (found, stats) = normal_stiffness(&mut operator, &elastic, &Params::default()).unwrap();
+        let ratio = found.unwrap() / (2.0 * 3.0 * radius);
+        assert!((ratio - 1.0).abs() < 0.25 / radius, "{ratio}");
+        assert!(stats.iterations <= 12, "{stats:?}");
+    }
+
+    #[test]
+    fn nothing_gives_where_a_whole_period_is_elastic_and_nothing_resists_where_no_cell_is() {
+        let grid = Grid::new([8, 9], [1.0, 1.0]).unwrap();
+        let all = Array2::from_elem(grid.shape, true);
+        let mut periodic = PeriodicFft::new(grid, 1.0);
+        assert_eq!(normal_stiffness(&mut periodic, &all, &FINE).unwrap().0, None);
+        let none = !all.clone();
+        assert_eq!(normal_stiffness(&mut periodic, &none, &FINE).unwrap().0, Some(0.0));
+        let mut free = DirectSum::new(grid, 1.0);
+        assert!(normal_stiffness(&mut free, &all, &FINE).unwrap().0.unwrap() > 0.0);
+    }
+}
