@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use asperity::io::fields::{Fields, StoredField};
 use asperity::io::results::{Results, pressure_name, traction_name};
-use asperity::io::tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS};
+use asperity::io::tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
 use asperity::material::{Material, composite_modulus};
 use asperity::motion::PassRecord;
 use asperity::reference::cattaneo::tangential_modulus;
@@ -412,6 +412,66 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     ok(&run(&folder, "ball.toml --out out --overwrite"));
     let left = files(&out);
     assert!(!left.contains("increments.csv") && !left.contains("figures/shear.png"), "{left:?}");
+}
+
+#[test]
+fn a_sweep_leaves_a_row_and_figures_of_its_points_and_prints_them() {
+    let swept = BALL.replace("load = \"20 mN\"", "loads = { from = \"1 mN\", to = \"40 mN\", points = 4 }");
+    let folder = folder_with("ball.toml", &format!("{swept}[output]\npressure_every = 3\nparaview = true\n"));
+    let checked = ok(&asperity(&folder, "check ball.toml"));
+    assert!(
+        checked.contains("4 points, load 1 mN to 40 mN") && checked.contains("none: 4 static contacts"),
+        "{checked}"
+    );
+    let printed = ok(&run(&folder, "ball.toml --out out"));
+    let lines: Vec<&str> = printed.lines().collect();
+    assert_eq!(lines.len(), 5, "{printed}");
+    assert!(
+        lines[0].starts_with("point           load  mean pressure") && lines[4].contains("40 mN"),
+        "{printed}"
+    );
+    let out = folder.path().join("out");
+    let figures = [
+        "contact",
+        "contact_area",
+        "gap",
+        "max_pressure",
+        "mean_gap",
+        "plastic",
+        "pressure",
+        "pressure_histogram",
+        "profile",
+        "relief_upper",
+        "stiffness",
+        "topographies",
+    ];
+    let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
+    expected.extend([".lock", "case.json", "summary.json", "sweep.csv"].map(str::to_owned));
+    for name in ["fields", "fields/point-0001", "fields/point-0004"] {
+        expected.extend([format!("{name}.h5"), format!("{name}.vti")]);
+    }
+    assert_eq!(files(&out), expected);
+
+    let rows = table_of(&out.join("sweep.csv"), &SWEEP_COLUMNS);
+    let summary = summary(&out);
+    for (row, record) in rows.iter().zip(summary["sweep"].as_array().unwrap()) {
+        for (key, value) in row {
+            assert_eq!(number(&record[key]), *value, "{key}");
+        }
+    }
+    assert_eq!(keys(&summary["case"]["contact"]), set(["boundary", "loads", "method", "tolerance"]));
+    assert!(rows[3]["plastic_volume"] > 0.0 && rows[0]["plastic_volume"] == 0.0, "{rows:?}");
+
+    // Rows that are there are printed again, and the last point is solved.
+    assert_eq!(ok(&run(&folder, "ball.toml --out out --resume")), printed);
+    assert_eq!(files(&out), expected);
+    fs::remove_dir_all(out.join("figures")).unwrap();
+    ok(&asperity(&folder, "plot out --only stiffness"));
+    assert!(out.join("figures/stiffness.png").exists());
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    ok(&run(&folder, "ball.toml --out out --overwrite"));
+    let left = files(&out);
+    assert!(!left.contains("sweep.csv") && !left.contains("fields/point-0001.h5"), "{left:?}");
 }
 
 #[test]

@@ -363,7 +363,7 @@ fn an_error_is_some_lines_whatever_the_input() {
 // ---- kills -----------------------------------------------------------------------------------------------
 
 /// Every kind of computation, small.
-fn computations() -> [(&'static str, String); 7] {
+fn computations() -> [(&'static str, String); 8] {
     let shift = "strategy = \"shift\", speed_lower = 0.0, speed_upper = 1.0, control = \"pass-load\", ";
     [
         (
@@ -380,6 +380,12 @@ fn computations() -> [(&'static str, String); 7] {
         ("sliding", motion(2, "friction = { coefficient = 0.2 }\n")),
         ("ball", ball("[subsurface]\nto = \"5 um\"\nlayers = 5\n[output]\nparaview = true\n")),
         ("rolling", ball("[friction]\ncoefficient = 0.3\ncreepage = [2e-3, 0.0]\n")),
+        (
+            "sweep",
+            ball("[output]\npressure_every = 2\n")
+                .replace("load = ", "loads = [\"5 mN\", \"40 mN\", \"9 mN\", ")
+                .replace("\"20 mN\"\n", "\"20 mN\"]\n"),
+        ),
         (
             "loading",
             ball(
