@@ -6,14 +6,26 @@ use std::path::PathBuf;
 
 pub use case::CaseError;
 
-use crate::units::{Metre, Newton, bytes};
+use crate::units::{Dimension, Metre, Newton, bytes, format, format_distinct, format_number};
 
 /// `Result` with this library's [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// [`Error::OutOfRange`] unless `good`.
+/// [`Error::OutOfRange`] of a pure number unless `good`.
 pub(crate) fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
-    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, expected }) }
+    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension: None, expected }) }
+}
+
+/// [`Error::OutOfRange`] of a value of `dimension`, SI, unless `good`.
+pub(crate) fn check_in(
+    dimension: Dimension,
+    quantity: &'static str,
+    value: f64,
+    good: bool,
+    expected: &'static str,
+) -> Result<()> {
+    let dimension = Some(dimension);
+    if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension, expected }) }
 }
 
 /// Everything that can go wrong, by cause.
@@ -21,12 +33,14 @@ pub(crate) fn check(quantity: &'static str, value: f64, good: bool, expected: &'
 pub enum Error {
     // ---- input of any kind -------------------------------------------------------------------------------
     /// A quantity lies outside the range in which it has a meaning.
-    #[error("{quantity} is {value:e}, expected {expected}")]
+    #[error("{quantity} is {}, expected {expected}", dimension.map_or_else(|| format_number(*value), |d| format(*value, d)))]
     OutOfRange {
         /// The quantity's name, as the user knows it.
         quantity: &'static str,
         /// The value given, SI.
         value: f64,
+        /// What it measures; none for a pure number.
+        dimension: Option<Dimension>,
         /// What would have been accepted.
         expected: &'static str,
     },
@@ -110,7 +124,11 @@ pub enum Error {
 
     // ---- contact -----------------------------------------------------------------------------------------
     /// The load is more than the bodies can carry when every cell is at the hardness.
-    #[error("load {load:.6e} N exceeds the plastic limit {limit:.6e} N (every facing cell at the hardness)")]
+    #[error(
+        "load {} exceeds the plastic limit {} (every facing cell at the hardness)",
+        forces(*load, *limit)[0],
+        forces(*load, *limit)[1]
+    )]
     BeyondPlasticLimit {
         /// The load asked for.
         load: Newton,
@@ -119,7 +137,9 @@ pub enum Error {
     },
     /// The tangential force is more than friction can hold: the bodies slide.
     #[error(
-        "tangential force {force:.6e} N is not below what friction holds, {limit:.6e} N: the bodies slide"
+        "tangential force {} is not below what friction holds, {}: the bodies slide",
+        forces(*force, *limit)[0],
+        forces(*force, *limit)[1]
     )]
     BeyondFriction {
         /// The force asked for.
@@ -140,7 +160,11 @@ pub enum Error {
         tolerance: f64,
     },
     /// An approach at which a periodic contact has no solution: the mean displacement is free there.
-    #[error("approach {approach:.6e} m closes the whole periodic gap (mean gap {mean_gap:.6e} m)")]
+    #[error(
+        "approach {} closes the whole periodic gap (mean gap {})",
+        format_distinct([*approach, *mean_gap], Dimension::Length)[0],
+        format_distinct([*approach, *mean_gap], Dimension::Length)[1]
+    )]
     PeriodicFullContact {
         /// The approach asked for.
         approach: Metre,
@@ -149,7 +173,9 @@ pub enum Error {
     },
     /// No approach gives the load wanted as the mean over a pass.
     #[error(
-        "no approach found for the pass-mean load {load:.6e} N in {trials} trials (last approach {approach:.9e} m)"
+        "no approach found for the pass-mean load {} in {trials} trials (last approach {})",
+        format(*load, Dimension::Force),
+        format(*approach, Dimension::Length)
     )]
     LoadNotReached {
         /// The pass-mean load asked for.
@@ -163,7 +189,10 @@ pub enum Error {
     },
     /// One approach for a whole pass bears no such load up to one at which there is no more to be had.
     #[error(
-        "one approach for the whole pass bears {most:.6e} N in the mean up to {approach:.6e} m, not {load:.6e} N: there {cause}"
+        "one approach for the whole pass bears {} in the mean up to {}, not {}: there {cause}",
+        forces(*most, *load)[0],
+        format(*approach, Dimension::Length),
+        forces(*most, *load)[1]
     )]
     BeyondPass {
         /// The pass-mean load asked for.
@@ -315,6 +344,11 @@ impl Error {
             _ => None,
         }
     }
+}
+
+/// Two forces that can be told apart.
+fn forces(one: Newton, other: Newton) -> [String; 2] {
+    format_distinct([one, other], Dimension::Force)
 }
 
 fn quoted(names: &[String]) -> String {

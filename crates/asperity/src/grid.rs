@@ -30,6 +30,7 @@ impl Grid {
         if shape.contains(&0) {
             return Err(Error::OutOfRange {
                 quantity: "shape",
+                dimension: None,
                 value: 0.0,
                 expected: "at least one cell along x and y",
             });
@@ -37,11 +38,21 @@ impl Grid {
         let cells = shape[0].checked_mul(shape[1]).filter(|cells| *cells <= MOST_CELLS);
         if cells.is_none() {
             let value = shape[0] as f64 * shape[1] as f64;
-            return Err(Error::OutOfRange { quantity: "shape", value, expected: "at most 2³² cells" });
+            return Err(Error::OutOfRange {
+                quantity: "shape",
+                dimension: None,
+                value,
+                expected: "at most 2³² cells",
+            });
         }
         if let Some(&value) = pitch.iter().find(|p| !Dimension::Length.range().holds(**p)) {
             let expected = "a positive length of 1e-15 … 1e6 m";
-            return Err(Error::OutOfRange { quantity: "pitch", value, expected });
+            return Err(Error::OutOfRange {
+                quantity: "pitch",
+                dimension: Some(Dimension::Length),
+                value,
+                expected,
+            });
         }
         Ok(Self { shape, pitch })
     }

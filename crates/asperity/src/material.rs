@@ -1,7 +1,7 @@
 //! Elastic constants of the bodies and of the pair.
 
-use crate::error::{Error, Result, check};
-use crate::units::Pascal;
+use crate::error::{Error, Result, check, check_in};
+use crate::units::{Dimension, Pascal};
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -28,9 +28,15 @@ impl Material {
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
     pub fn new(young: Pascal, poisson: f64, hardness: Pascal) -> Result<Self> {
-        check("young", young, young > 0.0, "a modulus above 0, or inf for a rigid body")?;
+        check_in(
+            Dimension::Pressure,
+            "young",
+            young,
+            young > 0.0,
+            "a modulus above 0, or inf for a rigid body",
+        )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
-        check("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
+        check_in(Dimension::Pressure, "hardness", hardness, hardness > 0.0, "a hardness above 0")?;
         Ok(Self { young, poisson, hardness })
     }
 }
@@ -73,6 +79,7 @@ impl Compliances {
         } else {
             Err(Error::OutOfRange {
                 quantity: "young of both bodies",
+                dimension: None,
                 value: Pascal::INFINITY,
                 expected: "at least one deformable body",
             })

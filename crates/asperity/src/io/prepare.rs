@@ -219,7 +219,8 @@ impl Place<'_> {
         if highest <= range.most {
             return Ok(());
         }
-        let message = format!("heights reach {highest:e} m, expected magnitudes up to {:e} m", range.most);
+        let [highest, most] = [highest, range.most].map(|z| units::format(z, Dimension::Length));
+        let message = format!("heights reach {highest}, expected magnitudes up to {most}");
         Err(self.error("file", message, Some("check the units".to_owned())))
     }
 
@@ -251,11 +252,9 @@ impl Place<'_> {
     /// The same of a `table` within the topography's, `"plus.0."`.
     fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
-            Error::OutOfRange { quantity, value, expected } => {
-                let value = match quantity {
-                    "hurst" | "sdq" | "ssk" | "sku" | "shape" | "resample" | "despike" => value.to_string(),
-                    _ => units::format(value, Dimension::Length),
-                };
+            Error::OutOfRange { quantity, value, dimension, expected } => {
+                let value =
+                    dimension.map_or_else(|| value.to_string(), |dimension| units::format(value, dimension));
                 let message = format!("'{quantity}' is {value}, expected {expected}");
                 self.error(&format!("{table}{quantity}"), message, None)
             }

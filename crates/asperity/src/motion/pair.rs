@@ -5,7 +5,7 @@ use crate::grid::{Field, Grid};
 use crate::material::{Compliances, Material, composite_hardness, plastic_share};
 use crate::motion::path::Position;
 use crate::surface::Topography;
-use crate::units::{Metre, Pascal, SquareMetre};
+use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 
 /// The two surfaces, and what the materials make of them together.
 #[derive(Debug, Clone)]
@@ -30,12 +30,10 @@ impl Pair {
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
-            let text = |g: Grid| format!("{:e} m × {:e} m", g.pitch[0], g.pitch[1]);
-            return Err(Error::GridMismatch {
-                what: "pitch of the two bodies",
-                left: text(a),
-                right: text(b),
-            });
+            let axis = usize::from((a.pitch[0] - b.pitch[0]).abs() <= 1e-9 * a.pitch[0]);
+            let [left, right] = format_distinct([a.pitch[axis], b.pitch[axis]], Dimension::Length);
+            let what = ["pitch of the two bodies along x", "pitch of the two bodies along y"][axis];
+            return Err(Error::GridMismatch { what, left, right });
         }
         if a.shape[1] != b.shape[1] {
             let text = |g: Grid| format!("{} cells across", g.shape[1]);

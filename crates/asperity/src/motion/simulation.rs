@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::error::{Error, LoadLimit, Result, check};
+use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;
 use crate::kernel::normal_displacement;
 use crate::motion::approach::{LOOSEST, Limit, Search};
@@ -18,7 +18,7 @@ use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{self, Params};
-use crate::units::{Metre, Newton};
+use crate::units::{Dimension, Metre, Newton};
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -303,7 +303,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     let tolerance = motion.load_tolerance;
     check("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
     if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
-        check("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+        check_in(Dimension::Force, "load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
     }
     if let Some(friction) = motion.friction {
         friction.checked()?;
@@ -312,7 +312,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
         }
     }
     if let Control::Approach(approach) = motion.control {
-        check("approach", approach, approach.is_finite(), "a finite length")?;
+        check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite length")?;
     }
     let (lower, upper) = (pair.lower.nrows(), pair.upper.nrows());
     match motion.strategy {

@@ -27,11 +27,11 @@ pub(crate) use together::solve_together;
 
 use std::borrow::Cow;
 
-use crate::error::{Error, Result, check};
+use crate::error::{Error, Result, check, check_in};
 use crate::grid::Field;
 use crate::kernel::normal_displacement;
 use crate::operator::Operator;
-use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
+use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
 /// What is prescribed in the normal direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -205,7 +205,13 @@ impl Terms {
             return Ok(());
         }
         let borne = self.cell_area * solution.pressure.sum();
-        check("load borne", borne, false, "the load prescribed, to 10 digits in double precision")
+        check_in(
+            Dimension::Force,
+            "load borne",
+            borne,
+            false,
+            "the load prescribed, to 10 digits in double precision",
+        )
     }
 }
 
@@ -339,19 +345,31 @@ fn validate(
     control: Control,
     params: &Params,
 ) -> Result<()> {
-    check("hardness", hardness, hardness > 0.0, "a hardness above 0")?;
+    check_in(Dimension::Pressure, "hardness", hardness, hardness > 0.0, "a hardness above 0")?;
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
     if let Some(&value) = initial_gap.iter().find(|h| !h.is_finite()) {
-        check("initial gap", value, false, "finite heights at every cell: fill missing data first")?;
+        check_in(
+            Dimension::Length,
+            "initial gap",
+            value,
+            false,
+            "finite heights at every cell: fill missing data first",
+        )?;
     }
     match control {
         Control::Load(load) => {
-            check("load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+            check_in(
+                Dimension::Force,
+                "load",
+                load,
+                load > 0.0 && load.is_finite(),
+                "a finite load above 0",
+            )?;
             let limit = hardness * operator.grid().area();
             if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
         }
         Control::Approach(approach) => {
-            check("approach", approach, approach.is_finite(), "a finite approach")?;
+            check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite approach")?;
             let mean_gap = initial_gap.mean().unwrap_or(0.0);
             if operator.periodic() && hardness.is_infinite() && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::Grid;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// An ideal form, material's side up, its apex in the centre of the grid's extent at height 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -129,24 +129,42 @@ impl Form {
         match *self {
             Self::Flat => Ok(()),
             Self::Sphere { radius } | Self::Cylinder { radius, .. } => {
-                check("radius", radius, positive(radius), "a radius above 0")
+                check_in(Dimension::Length, "radius", radius, positive(radius), "a radius above 0")
             }
             Self::Cone { angle } => {
                 let good = angle > 0.0 && angle < std::f64::consts::FRAC_PI_2;
-                check("angle", angle, good, "a slope against the plane between 0 and π/2 rad")
+                check_in(
+                    Dimension::Angle,
+                    "angle",
+                    angle,
+                    good,
+                    "a slope against the plane between 0° and 90°",
+                )
             }
             Self::Sinusoid { amplitude, wavelength } => {
-                check("amplitude", amplitude, positive(amplitude), "an amplitude above 0")?;
+                check_in(
+                    Dimension::Length,
+                    "amplitude",
+                    amplitude,
+                    positive(amplitude),
+                    "an amplitude above 0",
+                )?;
                 wavelength.iter().zip(grid.pitch).try_for_each(|(&length, pitch)| {
                     let good = length >= 2.0 * pitch;
-                    check("wavelength", length, good, "at least two pitches, or inf for no variation")
+                    check_in(
+                        Dimension::Length,
+                        "wavelength",
+                        length,
+                        good,
+                        "at least two pitches, or inf for no variation",
+                    )
                 })
             }
             Self::Grooves { period, depth, lay, .. } => {
                 let good = period >= 2.0 * grid.pitch[0].max(grid.pitch[1]) && period.is_finite();
-                check("period", period, good, "a length of at least two pitches")?;
-                check("depth", depth, positive(depth), "a depth above 0")?;
-                check("lay", lay, lay.is_finite(), "an angle")
+                check_in(Dimension::Length, "period", period, good, "a length of at least two pitches")?;
+                check_in(Dimension::Length, "depth", depth, positive(depth), "a depth above 0")?;
+                check_in(Dimension::Angle, "lay", lay, lay.is_finite(), "an angle")
             }
         }
     }
@@ -231,13 +249,13 @@ mod tests {
     fn parameters_without_meaning_are_refused() {
         let grooves = |period, depth, lay| Form::Grooves { period, depth, profile: Groove::Parabolic, lay };
         let bad = [
-            (Form::Sphere { radius: 0.0 }, "radius is 0e0"),
-            (Form::Cylinder { radius: -1.0, axis: Axis::Y }, "radius is -1e0"),
-            (Form::Cone { angle: 2.0 }, "angle is 2e0"),
+            (Form::Sphere { radius: 0.0 }, "radius is 0 m"),
+            (Form::Cylinder { radius: -1.0, axis: Axis::Y }, "radius is -1 m"),
+            (Form::Cone { angle: 2.0 }, "angle is 114.6°"),
             (Form::Sinusoid { amplitude: f64::NAN, wavelength: [3.0, 3.0] }, "amplitude is NaN"),
-            (Form::Sinusoid { amplitude: 1.0, wavelength: [3.0, 1.5] }, "wavelength is 1.5e0"),
-            (grooves(1.9, 1.0, 0.0), "period is 1.9e0"),
-            (grooves(2.0, -1.0, 0.0), "depth is -1e0"),
+            (Form::Sinusoid { amplitude: 1.0, wavelength: [3.0, 1.5] }, "wavelength is 1.5 m"),
+            (grooves(1.9, 1.0, 0.0), "period is 1.9 m"),
+            (grooves(2.0, -1.0, 0.0), "depth is -1 m"),
             (grooves(2.0, 1.0, f64::NAN), "lay is NaN"),
         ];
         for (form, message) in bad {

@@ -261,7 +261,7 @@ mod tests {
         assert_relative_eq!(fit.hurst, 0.7, max_relative = 1e-12);
         assert!(fit.hurst_error < 1e-12 && fit.points == 15, "{fit:?}");
         let message = SelfAffinity::of_spectrum(&points, [1.0, 1.3]).unwrap_err().to_string();
-        assert!(message.starts_with("points in the range is 2e0"), "{message}");
+        assert!(message.starts_with("points in the range is 2,"), "{message}");
         assert!(SelfAffinity::of_longest_range(&points[..2]).is_err());
     }
 

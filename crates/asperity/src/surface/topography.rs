@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::units::Dimension;
 
 /// Heights of one body on a grid, in metres; an undefined sample is NaN.
 #[derive(Debug, Clone)]
@@ -27,6 +28,7 @@ impl Topography {
         match heights.iter().find(|z| z.is_infinite()) {
             Some(&value) => Err(Error::OutOfRange {
                 quantity: "height",
+                dimension: Some(Dimension::Length),
                 value,
                 expected: "a finite height, or NaN where the sample is undefined",
             }),

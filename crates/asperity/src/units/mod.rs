@@ -3,7 +3,7 @@
 mod quantity;
 mod range;
 
-pub use quantity::{Dimension, UnitError, format, format_digits, parse};
+pub use quantity::{Dimension, UnitError, format, format_digits, format_distinct, format_number, parse};
 pub use range::{MOST_OF_ANY, NUMBERS, Range};
 
 /// Length in metres.

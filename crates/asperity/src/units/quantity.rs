@@ -97,7 +97,24 @@ pub fn format(value: f64, dimension: Dimension) -> String {
     format_digits(value, dimension, 4)
 }
 
-/// [`format()`] with another number of significant digits: where two values differ by little.
+/// Two values with a unit, with so many digits (four at least, twelve at most) that they differ if the values do.
+pub fn format_distinct(values: [f64; 2], dimension: Dimension) -> [String; 2] {
+    let shown = |digits| values.map(|value| format_digits(value, dimension, digits));
+    (4..12).map(shown).find(|[one, other]| one != other).unwrap_or_else(|| shown(12))
+}
+
+/// Writes a pure number with four digits: `0.7`, `1.2e-9`.
+pub fn format_number(value: f64) -> String {
+    match value.abs() {
+        size if size != 0.0 && size.is_finite() && !(1e-4..1e6).contains(&size) => {
+            format!("{:e}", round(value, 4))
+        }
+        size if size.is_finite() => decimal(value, 4),
+        _ => format!("{value}"),
+    }
+}
+
+/// [`format()`] with another number of significant digits.
 pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String {
     if dimension == Dimension::Angle {
         return format!("{}°", decimal(value.to_degrees(), digits));
@@ -528,5 +545,21 @@ mod tests {
             let _ = parse(&text, dimension);
             Ok(())
         });
+    }
+
+    #[test]
+    fn values_that_differ_are_written_with_the_digits_that_show_it() {
+        assert_eq!(format_distinct([5.78, 20.0], Force), ["5.78 N", "20 N"]);
+        assert_eq!(format_distinct([5.780_001, 5.78], Force), ["5.780001 N", "5.78 N"]);
+        assert_eq!(format_distinct([1e-6, 1e-6], Length), ["1 µm", "1 µm"]);
+    }
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, text) in [(0.7, "0.7"), (-1.0 / 3.0, "-0.3333"), (1.23456e-9, "1.235e-9"), (0.0, "0")] {
+            assert_eq!(format_number(value), text);
+        }
+        assert_eq!(format_number(f64::NAN), "NaN");
+        assert_eq!(format_number(1e300), "1e300");
     }
 }

@@ -59,7 +59,8 @@ impl<'a> Table<'a> {
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         let name = key.get_ref();
         let (message, hint) = elsewhere(name).unwrap_or_else(|| {
-            (format!("unknown key '{name}' in {}", self.name()), did_you_mean(name, known.iter().copied()))
+            let hint = known_by_symbol(name, known).or_else(|| did_you_mean(name, known.iter().copied()));
+            (format!("unknown key '{name}' in {}", self.name()), hint)
         });
         Err(self.document.error(&join(&self.path, name), key.span(), message, hint))
     }
@@ -335,6 +336,29 @@ impl<'a> Entry<'a> {
             .map(|(_, choice)| *choice)
             .ok_or_else(|| self.unexpected(&expected, did_you_mean(text, words())))
     }
+}
+
+/// What a quantity is called here that textbooks write as `symbol`, if the table knows it.
+fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
+    const KEYS: [(&[&str], &str); 12] = [
+        (&["E", "Y", "youngs_modulus", "modulus"], "young"),
+        (&["nu", "ν"], "poisson"),
+        (&["H", "HV", "HB"], "hardness"),
+        (&["mu", "µ", "μ", "cof"], "coefficient"),
+        (&["tau", "τ", "tau_max"], "shear_strength"),
+        (&["R", "r"], "radius"),
+        (&["W", "P", "F", "Fn", "F_n"], "load"),
+        (&["p", "p_mean", "pm"], "mean_pressure"),
+        (&["delta", "δ"], "approach"),
+        (&["dx", "Δx"], "pitch"),
+        (&["Sq", "Rq", "rms", "sigma", "σ"], "sq"),
+        (&["lambda", "λ"], "wavelength"),
+    ];
+    if ["G", "shear_modulus"].contains(&symbol) && known.contains(&"young") {
+        return Some("give `young` = 2 G (1 + poisson) for a shear modulus G".to_owned());
+    }
+    let named = |(symbols, key): &&(&[&str], &str)| symbols.contains(&symbol) && known.contains(key);
+    KEYS.iter().find(named).map(|(_, key)| format!("did you mean `{key}`?"))
 }
 
 /// The nearest of `words`, if it is near.

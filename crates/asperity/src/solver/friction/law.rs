@@ -1,8 +1,8 @@
 //! How much shear a cell bears.
 
-use crate::error::{Result, check};
+use crate::error::{Result, check, check_in};
 use crate::material::Compliances;
-use crate::units::Pascal;
+use crate::units::{Dimension, Pascal};
 
 /// How normal and tangential displacements are coupled where the bodies are dissimilar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -60,7 +60,13 @@ impl Friction {
     /// The same, if its numbers have a meaning.
     pub(crate) fn checked(self) -> Result<Self> {
         check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
-        check("shear strength", self.shear_strength, self.shear_strength > 0.0, "a stress above 0")?;
+        check_in(
+            Dimension::Pressure,
+            "shear strength",
+            self.shear_strength,
+            self.shear_strength > 0.0,
+            "a stress above 0",
+        )?;
         let alpha = self.junction_growth;
         check(
             "junction growth",

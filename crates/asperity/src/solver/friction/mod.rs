@@ -11,12 +11,12 @@ mod yielding;
 pub use law::{Coupling, Friction};
 pub use rolling::{Rolling, solve_rolling};
 
-use crate::error::{Result, check};
+use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::material::Compliances;
 use crate::operator::CoupledOperator;
 use crate::solver::{Control, Params, Solution};
-use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
+use crate::units::{Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
 use alternate::{Start, alternate};
 
@@ -218,12 +218,12 @@ pub(crate) fn solve_sliding(
 
 fn validate(tangential: &Tangential) -> Result<()> {
     match *tangential {
-        Tangential::Displacement(shift) => shift
-            .into_iter()
-            .try_for_each(|d| check("tangential displacement", d, d.is_finite(), "a finite length")),
-        Tangential::Force(force) => {
-            force.into_iter().try_for_each(|f| check("tangential force", f, f.is_finite(), "a finite force"))
-        }
+        Tangential::Displacement(shift) => shift.into_iter().try_for_each(|d| {
+            check_in(Dimension::Length, "tangential displacement", d, d.is_finite(), "a finite length")
+        }),
+        Tangential::Force(force) => force.into_iter().try_for_each(|f| {
+            check_in(Dimension::Force, "tangential force", f, f.is_finite(), "a finite force")
+        }),
         Tangential::Sliding([x, y]) => {
             let length = x.hypot(y);
             check("length of the sliding direction", length, (length - 1.0).abs() < 1e-9, "a unit vector")

@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::noise::{shape_with_margin, stationary};
 use super::{HeightDistribution, check_sq, one_or_two};
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::fft::symmetric_transform;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// Heights of a prescribed autocorrelation, Sq² R(s), which falls to 10 % at the correlation lengths:
 ///
@@ -80,19 +80,25 @@ impl Autocorrelation {
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         check_sq(self.sq)?;
-        check("lay", self.lay, self.lay.is_finite(), "an angle")?;
+        check_in(Dimension::Angle, "lay", self.lay, self.lay.is_finite(), "an angle")?;
         let (distance, reach) = (self.distance(), self.reach());
         let neighbours = [[grid.pitch[0], 0.0], [0.0, grid.pitch[1]]];
         for length in self.correlation_length {
             let good = length > 0.0 && length.is_finite();
-            check("correlation_length", length, good, "a length above 0")?;
+            check_in(Dimension::Length, "correlation_length", length, good, "a length above 0")?;
         }
         for axis in 0..2 {
             // Lengths that differ from a limit by round-off alone are meant to equal it.
             let good =
                 distance(neighbours[axis]) <= 1.0 + 1e-9 && reach[axis] <= grid.extent()[axis] * (1.0 + 1e-9);
             let length = self.correlation_length[axis];
-            check("correlation_length", length, good, "a length from one pitch to that of the surface")?;
+            check_in(
+                Dimension::Length,
+                "correlation_length",
+                length,
+                good,
+                "a length from one pitch to that of the surface",
+            )?;
         }
         let shape = shape_with_margin(grid, reach.map(|length| 3.0 * length));
         stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))

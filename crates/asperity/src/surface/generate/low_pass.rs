@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::noise::{shape_with_margin, stationary};
 use super::{HeightDistribution, check_sq, one_or_two};
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// White noise without the waves shorter than a cut-off: a flat spectrum inside, nothing outside.
 ///
@@ -75,7 +75,13 @@ impl LowPass {
             // Lengths that differ from a limit by round-off alone are meant to equal it.
             let good = length >= 2.0 * grid.pitch[axis] * (1.0 - 1e-9)
                 && length <= grid.extent()[axis] * (1.0 + 1e-9);
-            check("cutoff", length, good, "a wavelength from two pitches to the length of the surface")?;
+            check_in(
+                Dimension::Length,
+                "cutoff",
+                length,
+                good,
+                "a wavelength from two pitches to the length of the surface",
+            )?;
         }
         let shape = shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length));
         stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))

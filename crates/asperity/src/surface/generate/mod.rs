@@ -16,10 +16,10 @@ pub use self_affine::{Amplitude, SelfAffine};
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::Grid;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// A method with its parameters; a case file names it by `generate = "low-pass"` and so on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl Generator {
 }
 
 fn check_sq(sq: Metre) -> Result<()> {
-    check("sq", sq, sq > 0.0 && sq.is_finite(), "an rms height above 0")
+    check_in(Dimension::Length, "sq", sq, sq > 0.0 && sq.is_finite(), "an rms height above 0")
 }
 
 /// Reads two lengths, along x and y, or one for both.
@@ -157,18 +157,18 @@ mod tests {
         };
         let sq = Amplitude::Sq(1e-7);
         let bad = [
-            (low_pass(0.0, [8e-6; 2]), "sq is 0e0"),
+            (low_pass(0.0, [8e-6; 2]), "sq is 0 m"),
             (low_pass(f64::NAN, [8e-6; 2]), "sq is NaN"),
-            (low_pass(1e-7, [8e-6, 1.9e-6]), "cutoff is 1.9e-6"),
-            (low_pass(1e-7, [8e-6, 33e-6]), "cutoff is 3.3e-5"),
-            (exponential([0.5e-6, 8e-6]), "correlation_length is 5e-7"),
+            (low_pass(1e-7, [8e-6, 1.9e-6]), "cutoff is 1.9 µm"),
+            (low_pass(1e-7, [8e-6, 33e-6]), "cutoff is 33 µm"),
+            (exponential([0.5e-6, 8e-6]), "correlation_length is 0.5 µm"),
             (exponential([8e-6, f64::INFINITY]), "correlation_length is inf"),
-            (self_affine(1.1, None, None, sq), "hurst is 1.1e0"),
-            (self_affine(0.8, None, Some(1e-6), sq), "shortest is 1e-6"),
-            (self_affine(0.8, None, Some(70e-6), sq), "shortest is 7e-5"),
-            (self_affine(0.8, Some(3e-6), Some(4e-6), sq), "rolloff is 3e-6"),
-            (self_affine(0.8, None, None, Amplitude::Sdq(-0.1)), "sdq is -1e-1"),
-            (self_affine(0.8, None, None, Amplitude::Sq(-0.1)), "sq is -1e-1"),
+            (self_affine(1.1, None, None, sq), "hurst is 1.1"),
+            (self_affine(0.8, None, Some(1e-6), sq), "shortest is 1 µm"),
+            (self_affine(0.8, None, Some(70e-6), sq), "shortest is 70 µm"),
+            (self_affine(0.8, Some(3e-6), Some(4e-6), sq), "rolloff is 3 µm"),
+            (self_affine(0.8, None, None, Amplitude::Sdq(-0.1)), "sdq is -0.1"),
+            (self_affine(0.8, None, None, Amplitude::Sq(-0.1)), "sq is -100 mm"),
         ];
         for (generator, message) in bad {
             let error = generator.generate(&grid, 0).unwrap_err().to_string();

@@ -9,12 +9,12 @@ use rustfft::num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::check_sq;
-use crate::error::{Error, Result, check};
+use crate::error::{Error, Result, check, check_in};
 use crate::grid::Grid;
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// Periodic heights whose spectrum is |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant
 /// for longer waves and nothing for shorter ones; the phases are random, the magnitudes are not.
@@ -114,6 +114,7 @@ impl SelfAffine {
         if height == 0.0 {
             return Err(Error::OutOfRange {
                 quantity: "shortest",
+                dimension: Some(Dimension::Length),
                 value: shortest,
                 expected: "a wavelength that fits into the surface",
             });
@@ -143,9 +144,15 @@ impl SelfAffine {
         let limit = 2.0 * grid.pitch[0].max(grid.pitch[1]);
         let shortest = self.shortest.unwrap_or(limit);
         let good = shortest >= limit * (1.0 - 1e-9) && shortest.is_finite();
-        check("shortest", shortest, good, "a wavelength of at least two pitches")?;
+        check_in(Dimension::Length, "shortest", shortest, good, "a wavelength of at least two pitches")?;
         if let Some(rolloff) = self.rolloff {
-            check("rolloff", rolloff, rolloff >= shortest, "a wavelength not below the shortest")?;
+            check_in(
+                Dimension::Length,
+                "rolloff",
+                rolloff,
+                rolloff >= shortest,
+                "a wavelength not below the shortest",
+            )?;
         }
         Ok(shortest)
     }

@@ -8,11 +8,11 @@ use rustfft::{Fft, FftPlanner};
 use serde::{Deserialize, Serialize};
 
 use super::median::median;
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::good_size;
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// How the smooth surface of a filter is found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,7 +59,7 @@ impl Topography {
 fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Filter) -> Result<Field> {
     let grid = topography.grid();
     let good = length.is_finite() && grid.pitch.iter().all(|pitch| length >= 2.0 * pitch);
-    check(name, length, good, "a wavelength of at least two pitches")?;
+    check_in(Dimension::Length, name, length, good, "a wavelength of at least two pitches")?;
     let mut z = topography.heights().clone();
     if topography.defined() == 0 {
         return Ok(z);

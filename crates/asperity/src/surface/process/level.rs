@@ -229,7 +229,7 @@ mod tests {
             assert_eq!(word.parse::<Level>(), Err(LevelError));
         }
         let message = with_heights(|x, _| x).level(Level::Polynomial(17)).unwrap_err().to_string();
-        assert_eq!(message, "level is 1.7e1, expected a polynomial of an order from 0 to 16");
+        assert_eq!(message, "level is 17, expected a polynomial of an order from 0 to 16");
     }
 
     #[test]

@@ -6,10 +6,10 @@ use super::resample::{grid_of_pitch, grid_of_shape};
 use super::turn::rotated;
 use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::Grid;
 use crate::surface::{Axis, Topography};
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// What is done with a topography; by default nothing.
 ///
@@ -100,7 +100,13 @@ impl Preparation {
     /// Those of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
     pub fn apply(&self, mut topography: Topography) -> Result<(Topography, Findings)> {
         if let (Some(shortest), Some(longest)) = (self.s_filter, self.l_filter) {
-            check("s_filter", shortest, shortest < longest, "a wavelength below that of l_filter")?;
+            check_in(
+                Dimension::Length,
+                "s_filter",
+                shortest,
+                shortest < longest,
+                "a wavelength below that of l_filter",
+            )?;
         }
         if let Some(window) = self.window {
             topography = topography.window(window)?;
@@ -208,7 +214,7 @@ mod tests {
     fn filters_that_leave_nothing_between_them_are_refused() {
         let crossed = Preparation { s_filter: Some(9e-6), l_filter: Some(8e-6), ..Preparation::default() };
         let message = crossed.apply(rough()).unwrap_err().to_string();
-        assert_eq!(message, "s_filter is 9e-6, expected a wavelength below that of l_filter");
+        assert_eq!(message, "s_filter is 9 µm, expected a wavelength below that of l_filter");
     }
 
     #[test]

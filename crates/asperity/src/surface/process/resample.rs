@@ -7,7 +7,7 @@ use super::{Fill, spline};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// What stands between samples where cells become smaller.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,7 +72,7 @@ impl Topography {
 pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
     if shape.contains(&0) {
         let expected = "at least one cell along x and y";
-        return Err(Error::OutOfRange { quantity: "resample", value: 0.0, expected });
+        return Err(Error::OutOfRange { quantity: "resample", dimension: None, value: 0.0, expected });
     }
     let extent = old.extent();
     Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])
@@ -88,6 +88,7 @@ pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
         if !(pitch[axis] > 0.0 && pitch[axis].is_finite() && shape[axis] > 0) {
             return Err(Error::OutOfRange {
                 quantity: "pitch",
+                dimension: Some(Dimension::Length),
                 value: pitch[axis],
                 expected: "a positive length, at most that of the topography",
             });

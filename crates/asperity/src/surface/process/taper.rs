@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::surface::Topography;
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 impl Topography {
     /// Brought down to its mean height over `width` along each rim, so that it can be repeated, or ends without a step:
@@ -18,7 +18,13 @@ impl Topography {
         let grid = *self.grid();
         let good = |axis: usize| grid.shape[axis] == 1 || width <= 0.5 * grid.extent()[axis];
         let expected = "a length above 0, at most half of the topography";
-        check("taper", width, width > 0.0 && width.is_finite() && (0..2).all(good), expected)?;
+        check_in(
+            Dimension::Length,
+            "taper",
+            width,
+            width > 0.0 && width.is_finite() && (0..2).all(good),
+            expected,
+        )?;
         let weight = |axis: usize, index: usize| {
             let last = grid.shape[axis] - 1;
             let distance = index.min(last - index) as f64 * grid.pitch[axis];

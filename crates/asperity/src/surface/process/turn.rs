@@ -6,9 +6,10 @@ use ndarray::Axis as Dimension;
 use rayon::prelude::*;
 
 use super::spline::{hermite, slopes};
-use crate::error::{Result, check};
+use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::surface::{Axis, Fill, Topography};
+use crate::units;
 
 impl Topography {
     /// Mirrored: along `axis` the first sample becomes the last.
@@ -103,7 +104,7 @@ fn dimension(axis: Axis) -> Dimension {
 fn quarters(angle: f64) -> Result<(usize, f64)> {
     /// Part of a quarter turn that counts as round-off.
     const CRUMB: f64 = 1e-9;
-    check("rotate", angle, angle.is_finite(), "a finite angle")?;
+    check_in(units::Dimension::Angle, "rotate", angle, angle.is_finite(), "a finite angle")?;
     let quarters = (angle / FRAC_PI_2).round();
     let left = angle - quarters * FRAC_PI_2;
     Ok((quarters.rem_euclid(4.0) as usize, if left.abs() <= CRUMB { 0.0 } else { left }))

@@ -6,9 +6,9 @@ mod parameters;
 
 pub use parameters::ProfileParameters;
 
-use crate::error::{Error, Result, check};
+use crate::error::{Error, Result, check, check_in};
 use crate::surface::{Axis, BearingCurve, Topography};
-use crate::units::Metre;
+use crate::units::{Dimension, Metre};
 
 /// Heights along a line at one spacing, in metres; an undefined sample is NaN.
 ///
@@ -27,11 +27,12 @@ impl Profile {
     /// # Errors
     /// [`Error::OutOfRange`] if there are no heights, one is infinite, or the pitch is not a positive length.
     pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
-        check("pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
+        check_in(Dimension::Length, "pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
         check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
         match heights.iter().find(|z| z.is_infinite()) {
             Some(&value) => Err(Error::OutOfRange {
                 quantity: "height",
+                dimension: Some(Dimension::Length),
                 value,
                 expected: "a finite height, or NaN where the sample is undefined",
             }),
@@ -96,7 +97,13 @@ impl Profile {
 
     fn smoothed(&self, cutoff: Metre) -> Result<Vec<Metre>> {
         let pitches = cutoff / self.pitch;
-        check("cutoff", cutoff, pitches >= 2.0 && pitches.is_finite(), "a length of at least two pitches")?;
+        check_in(
+            Dimension::Length,
+            "cutoff",
+            cutoff,
+            pitches >= 2.0 && pitches.is_finite(),
+            "a length of at least two pitches",
+        )?;
         Ok(gaussian::smooth(&self.heights, pitches))
     }
 }
@@ -150,9 +157,9 @@ mod tests {
     #[test]
     fn what_is_no_profile_is_refused() {
         let message = |profile: Result<Profile>| profile.unwrap_err().to_string();
-        assert!(message(numbered().profile(Axis::X, 3)).starts_with("index of the profile is 3e0"));
-        assert!(message(Profile::new(0.0, vec![1.0])).starts_with("pitch is 0e0"));
-        assert!(message(Profile::new(1.0, vec![])).starts_with("number of heights is 0e0"));
+        assert!(message(numbered().profile(Axis::X, 3)).starts_with("index of the profile is 3"));
+        assert!(message(Profile::new(0.0, vec![1.0])).starts_with("pitch is 0 m"));
+        assert!(message(Profile::new(1.0, vec![])).starts_with("number of heights is 0"));
         assert!(message(Profile::new(1.0, vec![f64::INFINITY])).starts_with("height is inf"));
         let profile = Profile::new(1.0, vec![0.0; 9]).unwrap();
         for cutoff in [1.9, f64::NAN, f64::INFINITY] {
