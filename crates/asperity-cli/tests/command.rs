@@ -51,7 +51,7 @@ fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
     let error = refused(&at("surface info ball.npy --s-filter 20um"));
     assert!(error.contains("--s-filter needs a pitch"), "{error}");
     let error = refused(&at("surface info ball.x3p --s-filter 2um"));
-    assert!(error.contains("s_filter is 2e-6, expected a wavelength of at least two pitches"), "{error}");
+    assert!(error.contains("s_filter is 2 µm, expected a wavelength of at least two pitches"), "{error}");
     let error = refused(&at("surface info ball.x3p --level polynomial-99"));
     assert!(error.contains("from 0 to 16"), "{error}");
 }
@@ -173,8 +173,7 @@ fn a_surface_survives_every_format_that_holds_it() {
     assert!((info["parameters"]["Sq"].as_f64().unwrap() / 0.2e-6 - 1.0).abs() < 1e-9);
 
     let text = ok(&at("surface info z.x3p"));
-    for part in
-        ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "Sq         0.2 µm", "Sdq", "Sdr", "Smrk1", "Vvv"]
+    for part in ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "0.2000   µm", "Sdq", "Sdr", "Smrk1", "Vvv"]
     {
         assert!(text.contains(part), "{part}: {text}");
     }
@@ -207,6 +206,40 @@ fn conversion_prepares_in_its_order() {
 }
 
 #[test]
+fn tilt_form_and_flatness_are_told() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    let heights = |tilt: f64, bend: f64| -> String {
+        let z = |i: usize, j: usize| {
+            1e-9 * f64::from(((7 * i + 5 * j) % 11) as u8) + tilt * i as f64 + bend * (i * i) as f64
+        };
+        (0..32).map(|j| (0..32).map(|i| format!("{:e} ", z(i, j))).collect::<String>() + "\n").collect()
+    };
+    for (tilt, bend, note) in [
+        (0.0, 0.0, ""),
+        (1e-8, 0.0, "note: tilt makes 99."),
+        (-31.0 * 1e-9, 1e-9, "note: tilt and form make 99."),
+    ] {
+        std::fs::write(folder.path().join("z.txt"), heights(tilt, bend)).unwrap();
+        let info = at("surface info z.txt --pitch 1um");
+        assert!(
+            stderr(&info).starts_with(note) && stderr(&info).is_empty() == note.is_empty(),
+            "{}",
+            stderr(&info)
+        );
+        assert!(note.is_empty() || stderr(&info).contains("`--level "), "{}", stderr(&info));
+    }
+    std::fs::write(folder.path().join("z.txt"), heights(1e-8, 0.0)).unwrap();
+    let info = at("surface info z.txt --pitch 1um --level plane");
+    assert_eq!(stderr(&info), "");
+    let mean = ok(&info).lines().find(|line| line.starts_with("mean")).unwrap().to_owned();
+    assert_eq!(mean.split_whitespace().nth(1), Some("0"), "{mean}");
+    std::fs::write(folder.path().join("plane.txt"), "1 2 3 4\n2 3 4 5\n3 4 5 6\n4 5 6 7\n").unwrap();
+    let flat = at("surface info plane.txt --pitch 1um --unit 1nm --level sphere");
+    assert!(stderr(&flat).contains("the surface is flat"), "{}", stderr(&flat));
+}
+
+#[test]
 fn a_topography_is_described_by_its_families_of_parameters() {
     let folder = folder();
     let at = |arguments: &str| run(folder.path(), arguments);
@@ -215,7 +248,7 @@ fn a_topography_is_described_by_its_families_of_parameters() {
     for title in ["height", "spatial", "hybrid", "functional", "feature"] {
         assert!(text.contains(&format!("\n{title} parameters, ISO 25178-2\n")), "{text}");
     }
-    for row in ["Sq         50 nm", "Nayak's bandwidth", "Hurst exponent", "Rsm ", "along x | along y"] {
+    for row in ["50.00 ", "Nayak's bandwidth", "Hurst exponent", "Rsm ", "along x | along y"] {
         assert!(text.contains(row), "{row}: {text}");
     }
     let json = |arguments: &str| -> Value { serde_json::from_str(&ok(&at(arguments))).unwrap() };
@@ -232,7 +265,7 @@ fn a_topography_is_described_by_its_families_of_parameters() {
     let error = refused(&at("surface info z.npy --cutoff 20um"));
     assert!(error.contains("--pitch 0.5um"), "{error}");
     let error = refused(&at("surface info z.x3p --cutoff 1um"));
-    assert!(error.contains("cutoff is 1e-6, expected a length of at least two pitches"), "{error}");
+    assert!(error.contains("cutoff is 1 µm, expected a length of at least two pitches"), "{error}");
 }
 
 #[test]
@@ -387,7 +420,7 @@ fn check_tells_what_friction_will_take_and_what_it_cannot_hold() {
     let beyond = check("force = [\"-0.18 N\", 0]", "force = [\"-0.18 N\", \"0.25 N\"]");
     assert_eq!(beyond.status.code(), Some(1));
     assert!(
-        stderr(&beyond).starts_with("error: tangential force 3.080584e-1 N is not below"),
+        stderr(&beyond).starts_with("error: tangential force 308.1 mN is not below"),
         "{}",
         stderr(&beyond)
     );

@@ -1,14 +1,13 @@
 //! `asperity surface info`.
 
-use std::fmt::Write as _;
-
 use asperity::io::topography;
-use asperity::surface::{Parameter, Unit};
-use asperity::units::{self, Dimension};
+use asperity::surface::{GreenwoodWilliamson, Parameter, Unit};
+use asperity::units::Multiple;
 use serde_json::{Value, json};
 
 use super::description::{Description, Law, Profiles, Statistics};
-use super::{Read, read_prepared, without_pitch};
+use super::table::Table;
+use super::{Read, read_prepared, suggest_level, without_pitch};
 use crate::args::Info;
 use crate::report::{Outcome, print};
 
@@ -18,6 +17,7 @@ pub(super) fn info(arguments: &Info) -> Outcome {
         let message = "a cut-off needs a pitch, which the heights have not";
         return Err(without_pitch(message));
     }
+    suggest_level(&file.topography);
     let description = Description::of(&file, arguments.cutoff)?;
     if arguments.json {
         print(&format!("{:#}\n", json(&file, &description)))
@@ -46,58 +46,17 @@ fn json(file: &Read, description: &Description) -> Value {
     json
 }
 
-/// A table in sections.
-struct Table {
-    rows: Vec<Row>,
-}
-
-enum Row {
-    Title(String),
-    Value { name: String, value: String, remark: String },
-}
-
-impl Table {
-    fn title(&mut self, title: impl Into<String>) {
-        self.rows.push(Row::Title(title.into()));
-    }
-
-    fn row(&mut self, name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) {
-        self.rows.push(Row::Value { name: name.into(), value: value.into(), remark: remark.into() });
-    }
-
-    fn parameters(&mut self, parameters: &[Parameter]) {
-        for row in parameters {
-            self.row(row.symbol, row.unit.format(row.value), row.meaning);
-        }
-    }
-
-    /// In columns, the sections divided by an empty line.
-    fn text(&self) -> String {
-        let width = |pick: fn(&Row) -> &str| self.rows.iter().map(|row| pick(row).chars().count()).max();
-        let names = width(|row| if let Row::Value { name, .. } = row { name } else { "" }).unwrap_or(0);
-        let values = width(|row| match row {
-            Row::Value { value, remark, .. } if !remark.is_empty() => value,
-            _ => "",
-        });
-        let values = values.unwrap_or(0);
-        self.rows.iter().fold(String::new(), |mut text, row| {
-            let line = match row {
-                Row::Title(title) => format!("\n{title}"),
-                Row::Value { name, value, remark } => format!("{name:<names$}  {value:<values$}  {remark}"),
-            };
-            let _ = writeln!(text, "{}", line.trim_end());
-            text
-        })
-    }
-}
-
 fn text(file: &Read, description: &Description) -> String {
-    let mut table = Table { rows: Vec::new() };
+    let mut table = Table::default();
     about_file(&mut table, file);
     let parameters = description.parameters.rows();
     for family in parameters.chunk_by(|a, b| a.family == b.family) {
         table.title(format!("{} parameters, ISO 25178-2", family[0].family));
-        table.parameters(family);
+        for row in family {
+            let alike = parameters.iter().filter(|other| is_of_one_column(row, other));
+            let multiple = row.unit.multiple(alike.map(|other| other.value));
+            table.numbers(row.symbol, [row.value], &multiple, row.meaning);
+        }
     }
     if let Some(statistics) = &description.statistics {
         about_statistics(&mut table, statistics);
@@ -108,57 +67,69 @@ fn text(file: &Read, description: &Description) -> String {
     table.text()
 }
 
+/// Whether two parameters are told in one unit: heights with heights, lengths along the surface with such.
+fn is_of_one_column(one: &Parameter, other: &Parameter) -> bool {
+    let along = |row: &Parameter| row.family == "spatial";
+    one.unit == other.unit && along(one) == along(other)
+}
+
 fn about_file(table: &mut Table, file: &Read) {
-    let length = |value: f64| Unit::Length.format(value);
-    let both = |[x, y]: [f64; 2]| format!("{} × {}", length(x), length(y));
+    let both = |[x, y]: [f64; 2]| format!("{} × {}", Unit::Length.format(x), Unit::Length.format(y));
     let grid = file.topography.grid();
     let [low, high] = extremes(file);
     let undefined = file.topography.undefined();
     let share = 100.0 * undefined as f64 / grid.cells() as f64;
-    table.row("format", file.scan.format, "");
-    table.row("channel", &file.scan.channel, "");
+    table.words("format", file.scan.format, "");
+    table.words("channel", &file.scan.channel, "");
     if file.scan.channels.len() > 1 {
-        table.row("channels", file.scan.channels.join(", "), "");
+        table.words("channels", file.scan.channels.join(", "), "");
     }
-    table.row("shape", format!("{} × {}", grid.shape[0], grid.shape[1]), "samples along x and y");
+    table.words("shape", format!("{} × {}", grid.shape[0], grid.shape[1]), "samples along x and y");
     let none = || "– (the file has none: --pitch)".to_owned();
-    table.row("pitch", file.pitch.map_or_else(none, both), "");
-    table.row("extent", file.pitch.map_or_else(|| "–".to_owned(), |_| both(grid.extent())), "");
+    table.words("pitch", file.pitch.map_or_else(none, both), "");
+    table.words("extent", file.pitch.map_or_else(|| "–".to_owned(), |_| both(grid.extent())), "");
     if file.scan.unit != topography::Unit::Known {
-        table.row("unit", "m (the file has none: --unit)", "");
+        table.words("unit", "m (the file has none: --unit)", "");
     }
-    table.row("undefined", format!("{undefined} ({share:.2} %)"), "");
-    table.row("min", length(low), "");
-    table.row("max", length(high), "");
-    table.row("mean", length(file.topography.mean()), "");
+    table.words("undefined", format!("{undefined} ({share:.2} %)"), "");
+    let mean = file.topography.mean();
+    // What rounding leaves of a mean that was subtracted.
+    let mean = if mean.abs() < 1e-9 * (high - low) { 0.0 } else { mean };
+    let heights = Unit::Length.multiple([low, high]);
+    for (name, value) in [("min", low), ("max", high), ("mean", mean)] {
+        table.numbers(name, [value], &heights, "");
+    }
 }
 
 fn about_statistics(table: &mut Table, statistics: &Statistics) {
     let Statistics { moments, bandwidth, asperities, self_affine } = statistics;
-    table.title("spectral moments, along x and y");
-    table.row("m0", units::format(moments.m0, Dimension::Area), "mean square height");
-    let both = |[x, y]: [f64; 2], unit: &str| format!("{x:.4e}, {y:.4e}{unit}");
-    table.row("m2", both(moments.m2, ""), "mean square slope");
-    table.row("m4", both(moments.m4, " 1/m²"), "mean square second derivative");
-    table.row("α", format!("{bandwidth:.4}"), "Nayak's bandwidth, m0 m4/m2²");
-    table.title("asperities of Greenwood and Williamson: counted as summits | from the moments");
-    let mut row = |name, unit: Unit, value: fn(&asperity::surface::GreenwoodWilliamson) -> f64, remark| {
-        let [counted, by_moments] =
-            [&asperities.counted, &asperities.by_moments].map(|found| unit.format(value(found)));
-        table.row(name, format!("{counted} | {by_moments}"), remark);
+    let in_units = |factor: f64, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
+    let pure = in_units(1.0, "");
+    table.title("spectral moments, along x | along y");
+    table.numbers("m0", [moments.m0], &Unit::Area.multiple([moments.m0]), "mean square height");
+    table.numbers("m2", moments.m2, &pure, "mean square slope");
+    table.numbers("m4", moments.m4, &in_units(1e12, "/µm²"), "mean square second derivative");
+    table.numbers("α", [*bandwidth], &pure, "Nayak's bandwidth, m0 m4/m2²");
+    table.title("asperities of Greenwood and Williamson, counted as summits | from the moments");
+    let heights = [&asperities.counted, &asperities.by_moments].map(|found| found.height_deviation);
+    let heights = Unit::Length.multiple(heights);
+    let mut row = |name, unit: Option<Unit>, value: fn(&GreenwoodWilliamson) -> f64, remark| {
+        let values = [&asperities.counted, &asperities.by_moments].map(value);
+        let multiple = unit.map_or_else(|| heights.clone(), |unit| unit.multiple(values));
+        table.numbers(name, values, &multiple, remark);
     };
-    row("η", Unit::PerArea, |found| found.density, "density");
-    row("R", Unit::Length, |found| found.radius, "radius of the tips");
-    row("σs", Unit::Length, |found| found.height_deviation, "standard deviation of their heights");
-    row("zs", Unit::Length, |found| found.mean_height, "mean height above that of the surface");
+    row("η", Some(Unit::PerArea), |found| found.density, "density");
+    row("R", Some(Unit::Length), |found| found.radius, "radius of the tips");
+    row("σs", None, |found| found.height_deviation, "standard deviation of their heights");
+    row("zs", None, |found| found.mean_height, "mean height above that of the surface");
     if let Some(Law { fit: law, doubt, .. }) = self_affine {
         table.title("self-affine law, on the longest range of the spectrum that follows one");
-        table.row("H", format!("{:.3} ± {:.3}", law.hurst, law.hurst_error), "Hurst exponent");
+        table.words("H", format!("{:.3} ± {:.3}", law.hurst, law.hurst_error), "Hurst exponent");
         let wavelength = |q: f64| Unit::Length.format(std::f64::consts::TAU / q);
         let range = format!("{} … {}", wavelength(law.range[1]), wavelength(law.range[0]));
-        table.row("range", range, "wavelengths");
+        table.words("range", range, "wavelengths");
         if let Some(doubt) = doubt {
-            table.row("H", doubt, "");
+            table.words("H", doubt, "");
         }
     }
 }
@@ -166,9 +137,13 @@ fn about_statistics(table: &mut Table, statistics: &Statistics) {
 fn about_profiles(table: &mut Table, profiles: &Profiles) {
     let cutoff = Unit::Length.format(profiles.cutoff);
     table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: along x | along y"));
-    for (x, y) in profiles.x.rows().iter().zip(profiles.y.rows()) {
-        let value = format!("{} | {}", x.unit.format(x.value), y.unit.format(y.value));
-        table.row(x.symbol, value, x.meaning);
+    let rows: Vec<_> = profiles.x.rows().into_iter().zip(profiles.y.rows()).collect();
+    // These lengths lie along the surface, the others are heights.
+    let along = |row: &Parameter| ["Rsm", "Rdl"].contains(&row.symbol);
+    for (x, y) in &rows {
+        let alike = rows.iter().filter(|(other, _)| x.unit == other.unit && along(x) == along(other));
+        let multiple = x.unit.multiple(alike.flat_map(|(x, y)| [x.value, y.value]));
+        table.numbers(x.symbol, [x.value, y.value], &multiple, x.meaning);
     }
 }
 

@@ -6,12 +6,13 @@ mod generate;
 mod info;
 mod output;
 mod plot;
+mod table;
 
 use std::path::Path;
 
 use asperity::grid::Grid;
 use asperity::io::topography::{self, Scan};
-use asperity::surface::{Findings, Topography};
+use asperity::surface::{Findings, Level, Topography};
 use asperity::units::{self, Dimension, Metre};
 
 use crate::args::{Input, Reading, Surface};
@@ -50,7 +51,7 @@ fn read_prepared(input: &Input) -> Outcome<Read> {
         return Err(without_pitch(message));
     }
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
-    report(&findings);
+    report(&findings, &topography);
     Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }
 
@@ -59,11 +60,32 @@ fn without_pitch(message: impl Into<String>) -> Failure {
     Failure::usage(message, Some("give it: --pitch 0.5um"))
 }
 
-fn report(findings: &Findings) {
+/// Notes where most of the variance of the heights is tilt or form.
+fn suggest_level(topography: &Topography) {
+    let left = |level| topography.clone().level(level).map_or(f64::NAN, |left| left.sq().powi(2));
+    let all = left(Level::Mean);
+    for (what, level) in [("tilt makes", Level::Plane), ("tilt and form make", Level::Quadratic)] {
+        let share = 1.0 - left(level) / all;
+        if share > 0.5 {
+            note(&format!("note: {what} {:.1} % of Sq²; `--level {level}` removes it", 100.0 * share));
+            return;
+        }
+    }
+}
+
+fn report(findings: &Findings, topography: &Topography) {
     if findings.spikes > 0 {
         note(&format!("{} samples removed as spikes", findings.spikes));
     }
     if let Some(form) = &findings.form {
+        let [x, y] = topography.grid().extent();
+        let diagonal = x.hypot(y);
+        // Its rise over the field is less than a thousandth of the roughness, or no more than round-off.
+        let rise = diagonal * diagonal / (8.0 * form.radius.abs());
+        if rise <= (1e-3 * topography.sq()).max(1e-9 * diagonal) {
+            note("the surface is flat: it has no curvature to subtract");
+            return;
+        }
         let radius = units::format(form.radius.abs(), Dimension::Length);
         let side = if form.radius > 0.0 { "convex" } else { "concave" };
         note(&match form.axis {

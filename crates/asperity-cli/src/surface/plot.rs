@@ -13,7 +13,7 @@ use asperity::units::Metre;
 use serde_json::{Value, json};
 
 use super::description::{Law, RINGS};
-use super::{read_prepared, without_pitch};
+use super::{read_prepared, suggest_level, without_pitch};
 use crate::args::PlotSurface;
 use crate::draw::{
     self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper, Quantity, Relief, Series,
@@ -40,6 +40,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     if file.topography.defined() == 0 {
         return Err(asperity::Error::NothingDefined { samples: file.topography.grid().cells() }.into());
     }
+    suggest_level(&file.topography);
     let folder = |source| asperity::Error::File { path: out.clone(), source };
     std::fs::create_dir_all(out).map_err(folder)?;
     atomic::sweep(out);

@@ -3,7 +3,9 @@
 mod quantity;
 mod range;
 
-pub use quantity::{Dimension, UnitError, format, format_digits, format_distinct, format_number, parse};
+pub use quantity::{
+    Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number, parse,
+};
 pub use range::{MOST_OF_ANY, NUMBERS, Range};
 
 /// Length in metres.

@@ -119,7 +119,7 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     if dimension == Dimension::Angle {
         return format!("{}°", decimal(value.to_degrees(), digits));
     }
-    let Scale { base, power, largest } = dimension.scale();
+    let Scale { base, power, .. } = dimension.scale();
     let suffix = base.suffix();
     if value == 0.0 {
         return format!("0 {}{suffix}", base.symbol());
@@ -129,17 +129,22 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     }
     // Rounded first: 999.96 Pa is 1 kPa.
     let rounded = round(value, digits);
-    let prefix =
-        PREFIXES.iter().filter(|(_, exponent)| *exponent <= largest && exponent % 3 == 0).rev().find(
-            |(_, exponent)| rounded.abs() >= 10f64.powi(power * exponent) * dimension.smallest(*exponent),
-        );
-    match prefix {
+    match dimension.prefix(rounded) {
         Some((prefix, exponent)) => {
             let number = decimal(rounded / 10f64.powi(power * exponent), digits);
             format!("{number} {prefix}{}{suffix}", base.symbol())
         }
         None => format!("{rounded:e} {}{suffix}", base.symbol()),
     }
+}
+
+/// A multiple of a unit, in which all numbers of a column are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Multiple {
+    /// One of it in SI.
+    pub factor: f64,
+    /// Its symbol: `µm`.
+    pub symbol: String,
 }
 
 impl UnitError {
@@ -251,6 +256,26 @@ impl Dimension {
             Self::Time => scale(Base::Of("s"), 1, 0),
             Self::Stiffness => scale(Base::Of("N/m"), 1, 12),
         }
+    }
+
+    /// The multiple that suits `value`, SI, as [`format()`] has it; the SI unit for 0.
+    pub fn multiple(self, value: f64) -> Multiple {
+        if self == Self::Angle {
+            return Multiple { factor: std::f64::consts::PI / 180.0, symbol: "°".to_owned() };
+        }
+        let Scale { base, power, .. } = self.scale();
+        let (prefix, exponent) = self.prefix(round(value, 4)).unwrap_or(("", 0));
+        let symbol = format!("{prefix}{}{}", base.symbol(), base.suffix());
+        Multiple { factor: 10f64.powi(power * exponent), symbol }
+    }
+
+    /// The prefix that suits a value, and its exponent; none for what is below the least.
+    fn prefix(self, value: f64) -> Option<(&'static str, i32)> {
+        let Scale { power, largest, .. } = self.scale();
+        let suits = |exponent: i32| value.abs() >= 10f64.powi(power * exponent) * self.smallest(exponent);
+        let prefixes =
+            PREFIXES.iter().rev().filter(|(_, exponent)| *exponent <= largest && exponent % 3 == 0);
+        prefixes.copied().find(|(_, exponent)| suits(*exponent))
     }
 
     /// The smallest number written with the prefix 10^`exponent`.
@@ -545,6 +570,21 @@ mod tests {
             let _ = parse(&text, dimension);
             Ok(())
         });
+    }
+
+    #[test]
+    fn a_multiple_is_that_of_the_value_as_it_is_written() {
+        for (value, dimension) in
+            [(3e-6, Length), (1.2e9, Pressure), (3.1e-18, Volume), (0.18, Force), (0.5, Time)]
+        {
+            let Multiple { factor, symbol } = dimension.multiple(value);
+            let written = format(value, dimension);
+            let (number, unit) = written.split_once(' ').unwrap();
+            assert_eq!(unit, symbol);
+            assert!((number.parse::<f64>().unwrap() * factor / value - 1.0).abs() < 1e-3, "{written}");
+        }
+        assert_eq!(Length.multiple(0.0).symbol, "m");
+        assert_eq!(Angle.multiple(1.0).symbol, "°");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A parameter as a row of a table, and the families that the rows come from.
 
-use crate::units::{self, Dimension};
+use crate::units::{Dimension, Multiple, format_number};
 
 /// A roughness parameter with what is needed to print it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,31 +55,42 @@ impl Unit {
         }
     }
 
-    /// Writes a value with four digits, or four decimals, and a unit that suits it: `0.2 µm`, `9.3100 %`; `–` for NaN.
-    pub fn format(self, value: f64) -> String {
-        let length = || units::format(value, Dimension::Length);
+    /// The multiple in which `values`, SI, are written side by side: the one that suits the smaller of them,
+    /// a third of the way up.
+    pub fn multiple(self, values: impl IntoIterator<Item = f64>) -> Multiple {
+        let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite() && *size > 0.0);
+        let mut sizes: Vec<f64> = sizes.collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let typical = sizes.get(sizes.len() / 3).copied().unwrap_or(0.0);
+        let of = |factor: f64, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
+        let length = || Dimension::Length.multiple(typical);
         match self {
-            _ if value.is_nan() => "–".to_owned(),
-            Self::Number => four_digits(value),
-            Self::Share => format!("{} %", four_digits(100.0 * value)),
+            Self::Number => of(1.0, ""),
+            Self::Share => of(0.01, "%"),
             Self::Length => length(),
-            Self::VolumePerArea => match length().split_once(' ') {
-                Some((number, unit)) => format!("{number} {unit}³/{unit}²"),
-                None => length(),
-            },
-            Self::Area => units::format(value, Dimension::Area),
-            Self::Volume => units::format(value, Dimension::Volume),
-            Self::PerLength => format!("{} /mm", four_digits(1e-3 * value)),
-            Self::PerArea => format!("{} /mm²", four_digits(1e-6 * value)),
-            Self::Angle => format!("{:.1}°", value.to_degrees()),
+            Self::VolumePerArea => {
+                let Multiple { factor, symbol } = length();
+                Multiple { factor, symbol: format!("{symbol}³/{symbol}²") }
+            }
+            Self::Area => Dimension::Area.multiple(typical),
+            Self::Volume => Dimension::Volume.multiple(typical),
+            Self::PerLength => of(1e3, "/mm"),
+            Self::PerArea => of(1e6, "/mm²"),
+            Self::Angle => Dimension::Angle.multiple(typical),
         }
     }
-}
 
-/// The number with four significant digits, all before the point at the least.
-fn four_digits(value: f64) -> String {
-    let exponent = if value == 0.0 { 3.0 } else { value.abs().log10().floor() };
-    format!("{value:.*}", (3.0 - exponent).clamp(0.0, 12.0) as usize)
+    /// Writes a value with four digits and a unit that suits it: `0.2 µm`, `9.31 %`; `–` for NaN.
+    pub fn format(self, value: f64) -> String {
+        let Multiple { factor, symbol } = self.multiple([value]);
+        let number = format_number(value / factor);
+        match self {
+            _ if value.is_nan() => "–".to_owned(),
+            Self::Number => number,
+            Self::Angle => number + &symbol,
+            _ => format!("{number} {symbol}"),
+        }
+    }
 }
 
 /// A family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a struct of public
@@ -139,14 +150,22 @@ mod tests {
     fn a_value_is_written_in_the_unit_of_its_kind() {
         for (unit, value, text) in [
             (Unit::Number, 0.123_46, "0.1235"),
-            (Unit::Share, 0.0931, "9.310 %"),
+            (Unit::Share, 0.0931, "9.31 %"),
             (Unit::Length, 2e-7, "0.2 µm"),
             (Unit::VolumePerArea, 3e-8, "30 nm³/nm²"),
-            (Unit::PerLength, 12_500.0, "12.50 /mm"),
-            (Unit::Angle, std::f64::consts::FRAC_PI_4, "45.0°"),
+            (Unit::PerLength, 12_500.0, "12.5 /mm"),
+            (Unit::Angle, std::f64::consts::FRAC_PI_4, "45°"),
             (Unit::Length, f64::NAN, "–"),
         ] {
             assert_eq!(unit.format(value), text);
         }
+    }
+
+    #[test]
+    fn values_side_by_side_have_the_unit_of_the_smaller() {
+        let multiple = |unit: Unit, values: &[f64]| unit.multiple(values.iter().copied()).symbol;
+        assert_eq!(multiple(Unit::Length, &[f64::NAN, -1.2e-6, 3e-9, 8e-9, 0.0]), "nm");
+        assert_eq!(multiple(Unit::VolumePerArea, &[3e-9, 4e-9]), "nm³/nm²");
+        assert_eq!(multiple(Unit::Length, &[0.0]), "m");
     }
 }

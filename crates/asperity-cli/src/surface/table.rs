@@ -1,0 +1,165 @@
+//! The table of `asperity surface info`.
+
+use std::fmt::Write as _;
+
+use asperity::units::Multiple;
+
+/// Rows in sections: a name, one or two numbers aligned at their points, the unit, a remark.
+#[derive(Default)]
+pub(super) struct Table {
+    rows: Vec<Row>,
+}
+
+enum Row {
+    Title(String),
+    Words { name: String, value: String, remark: String },
+    Numbers { name: String, numbers: Vec<String>, unit: String, remark: String },
+}
+
+impl Table {
+    /// The head of a section.
+    pub(super) fn title(&mut self, title: impl Into<String>) {
+        self.rows.push(Row::Title(title.into()));
+    }
+
+    pub(super) fn words(
+        &mut self,
+        name: impl Into<String>,
+        value: impl Into<String>,
+        remark: impl Into<String>,
+    ) {
+        self.rows.push(Row::Words { name: name.into(), value: value.into(), remark: remark.into() });
+    }
+
+    /// Values in SI, told in `unit`.
+    pub(super) fn numbers(
+        &mut self,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = f64>,
+        unit: &Multiple,
+        remark: impl Into<String>,
+    ) {
+        let numbers = values.into_iter().map(|value| number(value / unit.factor)).collect();
+        let (name, unit, remark) = (name.into(), unit.symbol.clone(), remark.into());
+        self.rows.push(Row::Numbers { name, numbers, unit, remark });
+    }
+
+    /// In columns, the sections divided by an empty line.
+    pub(super) fn text(&self) -> String {
+        let width = |pick: fn(&Row) -> usize| self.rows.iter().map(pick).max().unwrap_or(0);
+        let names = width(|row| match row {
+            Row::Title(_) => 0,
+            Row::Words { name, .. } | Row::Numbers { name, .. } => length(name),
+        });
+        let before = width(|row| row.first().map_or(0, |number| length(point(number).0)));
+        let after = width(|row| row.first().map_or(0, |number| length(point(number).1)));
+        let units = width(|row| if let Row::Numbers { unit, .. } = row { length(unit) } else { 0 });
+        let remarked = width(|row| match row {
+            Row::Words { value, remark, .. } if !remark.is_empty() => length(value),
+            _ => 0,
+        });
+        // Two numbers stand side by side, each aligned for itself.
+        let pair = 2 * (before + after) + 3;
+        let values = |two: bool| if two { pair } else { before + after };
+        let mut text = String::new();
+        let mut two = false;
+        for (i, row) in self.rows.iter().enumerate() {
+            let line = match row {
+                Row::Title(title) => {
+                    two = self.rows[i + 1..].iter().map_while(Row::count).any(|count| count > 1);
+                    format!("\n{title}")
+                }
+                Row::Words { name, value, remark } => {
+                    format!("{name:<names$}  {value:<remarked$}  {remark}")
+                }
+                Row::Numbers { name, numbers, unit, remark } => {
+                    let aligned: Vec<_> = numbers
+                        .iter()
+                        .map(|number| {
+                            let (whole, part) = point(number);
+                            format!("{whole:>before$}{part:<after$}")
+                        })
+                        .collect();
+                    let width = values(two);
+                    format!("{name:<names$}  {:<width$} {unit:<units$}  {remark}", aligned.join(" | "))
+                }
+            };
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        text
+    }
+}
+
+impl Row {
+    fn first(&self) -> Option<&str> {
+        if let Self::Numbers { numbers, .. } = self { numbers.first().map(String::as_str) } else { None }
+    }
+
+    /// How many numbers a row of a section has; none for the head of the next.
+    fn count(&self) -> Option<usize> {
+        match self {
+            Self::Title(_) => None,
+            Self::Words { .. } => Some(0),
+            Self::Numbers { numbers, .. } => Some(numbers.len()),
+        }
+    }
+}
+
+fn length(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// What stands before the decimal point, and the point with what follows.
+fn point(number: &str) -> (&str, &str) {
+    number.split_at(number.find(['.', 'e']).unwrap_or(number.len()))
+}
+
+/// Four significant digits; `–` for NaN.
+fn number(value: f64) -> String {
+    match value.abs() {
+        size if size.is_nan() => "–".to_owned(),
+        0.0 => "0".to_owned(),
+        size if (1e-4..1e7).contains(&size) => {
+            let exponent =
+                format!("{size:.3e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+            format!("{value:.*}", usize::try_from(3i32 - exponent).unwrap_or(0))
+        }
+        _ => format!("{value:.3e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1.000"),
+            (-14.67, "-14.67"),
+            (9.9996, "10.00"),
+            (65_795.0, "65795"),
+            (0.002_356, "0.002356"),
+            (2.758e-6, "2.758e-6"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn points_stand_below_each_other_and_units_too() {
+        let mut table = Table::default();
+        let nm = Multiple { factor: 1e-9, symbol: "nm".to_owned() };
+        table.words("format", "x3p", "");
+        table.title("heights");
+        table.numbers("Sq", [8.356e-9], &nm, "rms");
+        table.numbers("Sz", [129.2e-9], &nm, "largest");
+        table.title("both");
+        table.numbers("Rq", [8.356e-9, 1e-9], &nm, "rms");
+        let text = "format  x3p\n\nheights\nSq        8.356 nm  rms\nSz      129.2   nm  largest\n\nboth\n\
+                    Rq        8.356 |   1.000 nm  rms\n";
+        assert_eq!(table.text(), text);
+    }
+}
