@@ -101,7 +101,7 @@ pub(crate) struct Run {
     /// Threads over the positions of a pass, at most 1024; by default as many as the machine has cores
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// No progress on stderr
+    /// No progress and no table, only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,
 }

@@ -75,6 +75,7 @@ pub fn run(
                 let pair = pair(case, writer.results().surfaces_after(done)?)?;
                 *simulation = simulate(pair, motion)?.resumed(done, writer.results().warm_start_after(done)?);
             }
+            passes.passes().iter().for_each(|pass| watch.pass(pass));
             if done < motion.passes {
                 simulation.run(watch, &mut [&mut passes])?;
             }

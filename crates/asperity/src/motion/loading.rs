@@ -143,7 +143,7 @@ pub fn load_in_stages(
         let record = next.increments.last().expect("the increment just done");
         let (solved, load) = (record.increment, record.load);
         output.increment(&next)?;
-        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load });
+        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
         state = Some(next);
     }
     let state = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;

@@ -135,6 +135,7 @@ impl Simulation {
             self.warm = WarmStart::new(guess, &outcome.contacts);
             self.pair = outcome.pair;
             self.passes_done = pass;
+            watch.pass(&record);
         }
         Ok(())
     }
@@ -150,6 +151,7 @@ impl Simulation {
             solved: 0,
             positions: self.positions.len(),
             load: 0.0,
+            together: None,
         };
         let mut solver = Solver {
             operators: &self.operators,

@@ -92,7 +92,7 @@ pub fn sweep(
         let (solved, positions, load) = (index, points.len(), record.load);
         records.push(record);
         output.point(&records, &contact)?;
-        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load });
+        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
         watch.point(&records[index - 1]);
         last = Some(contact);
     }

@@ -9,6 +9,7 @@ use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
+use crate::motion::watch::Progress;
 use crate::motion::{Control, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
 use crate::solver::{Kept, Method, Params, Residual, Site, coarse_gap, solve_together};
@@ -69,10 +70,14 @@ impl Solver<'_> {
         let total = load * self.positions.len() as f64;
         let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(LOOSEST);
         let first = OnceCell::new();
-        let tolerance = |state: &Residual| match self.watch.stop() {
+        let tolerance = |state: &Residual| {
+            let first = *first.get_or_init(|| state.eta);
+            let wanted = residual.min(PROGRESS * first).max(params.tolerance);
+            let way = (first / state.eta).ln() / (first / wanted).ln();
+            let way = if way.is_finite() { way.clamp(0.0, 1.0) } else { 0.0 };
+            self.watch.at(&Progress { load, together: Some(way), ..self.progress });
             // Whoever wants to stop takes anything.
-            true => f64::INFINITY,
-            false => residual.min(PROGRESS * first.get_or_init(|| state.eta)).max(params.tolerance),
+            if self.watch.stop() { f64::INFINITY } else { wanted }
         };
         let found = solve_together(&sites, pair.cap(), total, start, &tolerance, params.max_convolutions)?;
         if self.watch.stop() {

@@ -24,12 +24,17 @@ pub struct Progress {
     pub positions: usize,
     /// Load at the position solved last.
     pub load: Newton,
+    /// Where all positions are solved together: the part of the way, 0 to 1, in the logarithm of their residual.
+    pub together: Option<f64>,
 }
 
 /// Looks on, from the threads that solve.
 pub trait Watch: Sync {
     /// A position has been solved.
     fn at(&self, progress: &Progress);
+
+    /// A pass has been finished: each in its turn, those too from which an interrupted motion goes on.
+    fn pass(&self, _: &PassRecord) {}
 
     /// A point of a sweep has been solved: each in its turn, those too from which an interrupted sweep goes on.
     fn point(&self, _: &SweepRecord) {}

@@ -1,0 +1,147 @@
+//! A table whose rows come one after the other: columns of one unit each, points below points.
+
+use asperity::units::{Dimension, Multiple, format_number};
+
+/// Characters of a column, and of what follows the decimal point in it.
+const WIDTH: usize = 9;
+const PART: usize = 4;
+
+/// A number of a row under the head of its column, SI; none where there is none to tell.
+pub(super) struct Cell {
+    head: &'static str,
+    kind: Kind,
+    value: Option<f64>,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Of(Dimension),
+    Share,
+    Number,
+}
+
+impl Cell {
+    /// A quantity, told in the unit that suits the first one of its column.
+    pub(super) fn of(head: &'static str, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
+        Self { head, kind: Kind::Of(dimension), value: value.into() }
+    }
+
+    /// A part of one, told in per cent.
+    pub(super) fn share(head: &'static str, value: f64) -> Self {
+        Self { head, kind: Kind::Share, value: Some(value) }
+    }
+
+    /// A pure number, which may be small beside 1.
+    pub(super) fn number(head: &'static str, value: f64) -> Self {
+        Self { head, kind: Kind::Number, value: Some(value) }
+    }
+
+    fn unit(&self) -> Multiple {
+        let of = |factor, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
+        match self.kind {
+            Kind::Of(dimension) => {
+                // A volume of 0 may be followed by one that is not.
+                let value = self.value.filter(|value| *value != 0.0).unwrap_or(match dimension {
+                    Dimension::Volume => 1e-18,
+                    _ => 0.0,
+                });
+                // Four digits have room: 104.2 nm rather than 0.104 µm.
+                let [unit, finer] = [value, 0.1 * value].map(|value| dimension.multiple(value));
+                let fits = (1.0..999.5).contains(&(value.abs() / finer.factor));
+                if value.abs() < unit.factor && fits { finer } else { unit }
+            }
+            Kind::Share => of(0.01, "%"),
+            Kind::Number => of(1.0, ""),
+        }
+    }
+}
+
+/// The columns of a table, whose units its first row settles.
+#[derive(Default)]
+pub(super) struct Columns {
+    units: Vec<Multiple>,
+}
+
+impl Columns {
+    /// A row, the first one under its heads: what is counted, the number of this row, its cells.
+    pub(super) fn row(&mut self, counted: &str, number: usize, cells: &[Cell]) -> String {
+        let first = counted.len().max(4);
+        let mut text = String::new();
+        if self.units.is_empty() {
+            self.units = cells.iter().map(Cell::unit).collect();
+            let right = |text: &str| format!("{text:>WIDTH$}");
+            let heads: String = cells.iter().map(|cell| right(cell.head)).collect();
+            let units: String = self.units.iter().map(|unit| right(&unit.symbol)).collect();
+            text = format!("{counted:>first$}{heads}\n{:first$}{}\n", "", units.trim_end());
+        }
+        let numbers: String = cells
+            .iter()
+            .zip(&self.units)
+            .map(|(cell, unit)| match (cell.value, cell.kind) {
+                (None, _) => format!("{:>WIDTH$}", "–"),
+                (Some(value), Kind::Number) => format!("{:>WIDTH$}", format_number(value)),
+                (Some(value), _) => aligned(value / unit.factor),
+            })
+            .collect();
+        text + format!("{number:>first$}{numbers}").trim_end() + "\n"
+    }
+}
+
+/// Four significant digits, the point in the place that all share; a power of ten where they would leave the column.
+fn aligned(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        return format!("{:>1$}{2:PART$}", "0", WIDTH - PART, "");
+    }
+    // A sign takes the place of a digit.
+    let most = if value < 0.0 { 999.5 } else { 9999.5 };
+    if !(1e-3..most).contains(&size) {
+        return format!("{:>WIDTH$}", format!("{value:.1e}"));
+    }
+    let decimals = (3.0 - size.log10().floor()).clamp(0.0, PART as f64 - 1.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let (whole, part) = text.split_at(text.find('.').unwrap_or(text.len()));
+    format!("{whole:>0$}{part:PART$}", WIDTH - PART)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_keeps_its_units_and_points_and_eighty_columns() {
+        let mut columns = Columns::default();
+        let row = |area: f64, volume: f64| {
+            [
+                Cell::of("load", Dimension::Force, 0.18),
+                Cell::of("area", Dimension::Area, area),
+                Cell::of("plastic", Dimension::Volume, volume),
+                Cell::share("stick", 0.5),
+                Cell::number("friction", -0.12345),
+                Cell::of("stiff", Dimension::Stiffness, None),
+            ]
+        };
+        let mut text = columns.row("pass", 1, &row(61.8e-12, 3.085e-18));
+        text += &columns.row("pass", 2, &row(1234e-12, 2e-23));
+        text += &columns.row("pass", 3, &row(0.0, 12345e-18));
+        let expected = "\
+pass     load     area  plastic    stick friction    stiff
+           mN      µm²      µm³        %               N/m
+   1  180.0     61.80     3.085   50.00    -0.1235         –
+   2  180.0   1234      2.0e-5   50.00    -0.1235         –
+   3  180.0      0      1.2e4   50.00    -0.1235         –
+";
+        assert_eq!(text.replace(' ', ""), expected.replace(' ', ""));
+        let places = |line: &str, c: char| -> Vec<usize> {
+            line.chars().enumerate().filter(|(_, d)| *d == c).map(|(i, _)| i).collect()
+        };
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(places(lines[2], '.')[0], places(lines[3], '.')[0]);
+        assert!(lines.iter().all(|line| line.chars().count() <= 4 + 6 * WIDTH), "{text}");
+    }
+
+    #[test]
+    fn nine_columns_fit_a_terminal() {
+        assert!(4 + 8 * WIDTH <= 80);
+    }
+}

@@ -1,0 +1,121 @@
+//! What is told while a case is computed: rows of a table on stdout, progress on stderr.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use asperity::io::case::Case;
+use asperity::motion::{PassRecord, Progress, SweepRecord, Watch};
+use asperity::units::{Dimension, format};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::rows::Rows;
+use crate::report::{self, print};
+use crate::signals::Stop;
+
+/// The progress bar, and the table, which grows with each pass or point.
+pub(super) struct Display {
+    bar: ProgressBar,
+    quiet: bool,
+    /// What is solved one after the other.
+    step: &'static str,
+    stop: Stop,
+    table: Mutex<Table>,
+}
+
+struct Table {
+    rows: Rows,
+    /// What became of the table so far.
+    printed: report::Outcome,
+    began: Instant,
+    /// Passes, points or increments that this run has finished, and when the last of them ended.
+    finished: Option<(usize, Instant)>,
+}
+
+impl Display {
+    pub(super) fn new(quiet: bool, case: &Case, stop: Stop) -> Self {
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
+        let bar = ProgressBar::with_draw_target(None, target).with_style(style);
+        let step = match (&case.motion, &case.contact.sweep) {
+            (Some(_), _) => "pass",
+            (None, Some(_)) => "point",
+            (None, None) => "increment",
+        };
+        let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
+        Self { bar, quiet, step, stop, table: Mutex::new(table) }
+    }
+
+    /// Takes the bar away, and says what became of the table.
+    pub(super) fn end(self) -> report::Outcome {
+        self.bar.finish_and_clear();
+        self.table.into_inner().unwrap_or_else(PoisonError::into_inner).printed
+    }
+
+    fn table(&self) -> MutexGuard<'_, Table> {
+        self.table.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn add(&self, row: impl FnOnce(&mut Rows) -> String) {
+        let mut table = self.table();
+        let row = row(&mut table.rows);
+        if table.printed.is_ok() && !self.quiet {
+            table.printed = self.bar.suspend(|| print(&row));
+        }
+    }
+
+    /// Time left of `steps`, of which so many are `done`, by those that this run has finished; none before the first.
+    fn time_left(&self, done: usize, steps: usize) -> Option<Duration> {
+        let table = self.table();
+        let (finished, last) = table.finished?;
+        let each = last.duration_since(table.began).div_f64(finished as f64);
+        Some(each.mul_f64(steps.saturating_sub(done) as f64).saturating_sub(last.elapsed()))
+    }
+
+    /// One more of the steps has been finished.
+    fn finish(&self) {
+        let mut table = self.table();
+        let finished = table.finished.map_or(0, |(finished, _)| finished);
+        table.finished = Some((finished + 1, Instant::now()));
+    }
+}
+
+impl Watch for Display {
+    fn at(&self, progress: &Progress) {
+        let Progress { pass, passes, trial, solved, positions, load, together } = *progress;
+        let (place, part, steps) = if self.step == "pass" {
+            let place = match together {
+                Some(way) => format!("all {positions} positions together, {:.0} %", 100.0 * way),
+                None => format!("approach {trial}, position {solved}/{positions}"),
+            };
+            let part = together.unwrap_or(solved as f64 / positions as f64);
+            // Beyond the last of the trials there is one position after the other: the bar stands for the passes.
+            (format!("pass {pass}/{passes}, {place}"), (pass - 1) as f64 + 0.99 * part, (pass - 1, passes))
+        } else {
+            self.finish();
+            (format!("{} {solved}/{positions}", self.step), solved as f64, (solved, positions))
+        };
+        const FINE: f64 = 1000.0;
+        self.bar.set_length((steps.1 as f64 * FINE) as u64);
+        self.bar.set_position((part * FINE) as u64);
+        let left = self.time_left(steps.0, steps.1).map(|left| left.as_secs());
+        let left =
+            left.map_or(String::new(), |seconds| format!(", {}:{:02} left", seconds / 60, seconds % 60));
+        self.bar.set_message(format!("{place}, load {}{left}", format(load, Dimension::Force)));
+    }
+
+    fn pass(&self, record: &PassRecord) {
+        // Those of an earlier run come before anything has been solved.
+        if self.bar.length().is_some() {
+            self.finish();
+        }
+        self.add(|rows| rows.pass(record));
+    }
+
+    fn point(&self, record: &SweepRecord) {
+        self.add(|rows| rows.point(record));
+    }
+
+    fn stop(&self) -> bool {
+        self.stop.asked()
+    }
+}

@@ -1,0 +1,79 @@
+//! `asperity run`: a case from its surfaces to its figures.
+
+mod columns;
+mod display;
+mod record;
+mod rows;
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use asperity::io::case::{Case, Course};
+use asperity::io::engine;
+use asperity::io::results::Existing;
+
+use crate::args::Run;
+use crate::machine;
+use crate::report::{self, Failure, clipped, note, print};
+use crate::signals::Stop;
+use crate::{example, figures};
+use display::Display;
+
+/// Runs the case, prints a table of its outcome, draws its figures.
+pub(crate) fn run(arguments: &Run) -> report::Outcome {
+    let (file, directory) = match (&arguments.case, &arguments.example) {
+        (Some(file), _) => (file.clone(), arguments.out.clone().unwrap_or_else(|| beside(file))),
+        (None, Some(name)) => {
+            let directory = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+            (example::unpack(name, &directory.join("case"))?, directory.join("results"))
+        }
+        (None, None) => unreachable!("the parser asks for one of them"),
+    };
+    let case = Case::load(&file)?;
+    machine::demand(&case)?;
+    let existing = match (arguments.resume, arguments.overwrite) {
+        (true, _) => Existing::Resume,
+        (_, true) => Existing::Overwrite,
+        _ => Existing::Keep,
+    };
+    // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
+    let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
+    let display = Display::new(arguments.quiet, &case, stop.clone());
+    let outcome = engine::run(&case, &directory, existing, &display);
+    let printed = display.end();
+    // The directory stays this run's until the figures are there.
+    let (summary, writer) = outcome?;
+    for warning in &summary.warnings {
+        note(&format!("warning: {}", clipped(warning)));
+    }
+    let tell = |text: &str| if arguments.quiet { Ok(()) } else { print(text) };
+    let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
+    figures::draw(writer.results(), &figures::Wanted::default(), &|| stop.asked()).map_err(|failure| {
+        match failure {
+            Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
+                Failure::FiguresInterrupted { directory: directory.clone() }
+            }
+            other => other,
+        }
+    })?;
+    if !arguments.quiet {
+        note(&format!("results and figures in {}", directory.display()));
+    }
+    printed
+}
+
+/// Whether a static contact is computed in increments or points, which are kept one by one.
+fn in_steps(case: &Case) -> bool {
+    match case.course(1.0) {
+        Some(Course::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
+        Some(Course::Sweep(points)) => points.len() > 1,
+        Some(Course::Rolling(_)) | None => false,
+    }
+}
+
+/// `surfaces/disc.toml` → `surfaces/disc-results`.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push("-results");
+    file.with_file_name(name)
+}

@@ -1,0 +1,70 @@
+//! What is told of a contact at the end: a line for each of its numbers.
+
+use asperity::io::case::Case;
+use asperity::io::subsurface::SubsurfaceRecord;
+use asperity::io::summary::{Outcome, Summary};
+use asperity::motion::StaticRecord;
+use asperity::units::{Dimension, format, format_number};
+
+use super::rows::planes;
+
+/// A static contact, and the largest stress under the surface. The rows of passes and points have been told as they came.
+pub(super) fn text(case: &Case, summary: &Summary) -> String {
+    let contact = match &summary.outcome {
+        Outcome::Static(record) => static_table(record, planes(case)),
+        Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
+    };
+    contact + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+fn stress_line(record: &SubsurfaceRecord) -> String {
+    let pass = record.pass.map_or(String::new(), |pass| format!("pass {pass}: "));
+    let [x, y, z] = record.position.map(|length| format(length, Dimension::Length));
+    format!(
+        "{pass}largest von Mises stress {} at x = {x}, y = {y}, depth {z}\n",
+        format(record.max_von_mises, Dimension::Pressure)
+    )
+}
+
+fn static_table(record: &StaticRecord, planes: &str) -> String {
+    let share = 100.0 * record.contact_area / record.apparent_area;
+    let mut rows = vec![
+        ("load", format(record.load, Dimension::Force)),
+        ("mean pressure", format(record.load / record.apparent_area, Dimension::Pressure)),
+        match record.approach {
+            approach if approach < 0.0 => (planes, format!("{} apart", format(-approach, Dimension::Length))),
+            approach => ("approach", format(approach, Dimension::Length)),
+        },
+        ("contact area", format!("{} ({share:.3} %)", format(record.contact_area, Dimension::Area))),
+        ("largest pressure", format(record.max_pressure, Dimension::Pressure)),
+        ("mean gap", format(record.mean_gap, Dimension::Length)),
+        ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
+        ("plastic cells", record.plastic_cells.to_string()),
+        ("plastic volume", format(record.plastic_volume, Dimension::Volume)),
+        ("residual", format!("{:.1e}", record.residual)),
+        ("convolutions", format!("{:.1}", record.convolutions)),
+    ];
+    if let Some(shear) = &record.shear {
+        let both = |[x, y]: [f64; 2], scale: f64, dimension| {
+            // What rounding leaves of a component that is not there is not worth reading.
+            let shown = |value: f64| if value.abs() < 1e-8 * scale.max(x.hypot(y)) { 0.0 } else { value };
+            format!("{}, {}", format(shown(x), dimension), format(shown(y), dimension))
+        };
+        let stick = 100.0 * shear.stick_area / record.contact_area;
+        rows.extend([
+            ("tangential force", both(shear.tangential_force, record.load, Dimension::Force)),
+            ("displacement", both(shear.tangential_displacement, 0.0, Dimension::Length)),
+            ("force ratio", format_number(shear.force_ratio)),
+            ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
+            ("largest shear", format(shear.max_shear, Dimension::Pressure)),
+            ("dissipation", format(shear.dissipation, Dimension::Energy)),
+        ]);
+        if let Some(coefficient) = shear.friction_coefficient {
+            rows.push(("friction coeff.", format_number(coefficient)));
+        }
+        if let Some([x, y]) = shear.creepage {
+            rows.push(("creepage", format!("{}, {}", format_number(x), format_number(y))));
+        }
+    }
+    rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
+}
