@@ -256,7 +256,9 @@ fn hint(error: &Error) -> Option<String> {
         Error::ResultsExist { results: true, .. } => Some(
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),
-        Error::ResultsExist { results: false, .. } => Some("--out names another directory".to_owned()),
+        Error::ResultsExist { results: false, .. } | Error::WithinResults { .. } => {
+            Some("--out names another directory".to_owned())
+        }
         Error::OtherCase { .. } | Error::SurfaceChanged { .. } | Error::NotResumable { .. } => {
             Some("--overwrite computes all of it anew, --out names another directory".to_owned())
         }

@@ -676,6 +676,22 @@ fn a_directory_of_something_else_is_left_alone() {
 }
 
 #[test]
+fn results_do_not_lie_within_others_and_leave_no_empty_folder() {
+    let folder = folder_with("ball.toml", &pushed(PUSH));
+    ok(&run(&folder, "ball.toml --out out"));
+    let out = folder.path().join("out");
+    assert!(!out.join("fields").exists());
+    let before = files(&out);
+    for within in ["out/second", "out/fields/deep/er"] {
+        let error = refused(&run(&folder, &format!("ball.toml --out {within}")));
+        assert!(error.contains(&format!("{within} lies within the results in ")), "{error}");
+        assert!(error.contains("hint: --out names another directory"), "{error}");
+    }
+    assert_eq!(files(&out), before);
+    assert!(!out.join("second").exists() && !out.join("fields").exists());
+}
+
+#[test]
 fn a_place_where_nothing_can_be_written_is_named() {
     let folder = folder_with("case.toml", &moving(1, 8));
     fs::write(folder.path().join("file"), "mine").unwrap();

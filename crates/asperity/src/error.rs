@@ -247,6 +247,14 @@ pub enum Error {
         /// Whether it holds results of this program.
         results: bool,
     },
+    /// A directory that is to take results lies within other results.
+    #[error("{path} lies within the results in {results}")]
+    WithinResults {
+        /// The directory.
+        path: PathBuf,
+        /// That of the other results.
+        results: PathBuf,
+    },
     /// Results that are to be resumed belong to another case.
     #[error("{path} holds the results of another case: '{key}' was {before}, now it is {now}")]
     OtherCase {

@@ -164,7 +164,7 @@ impl FieldFile {
         self
     }
 
-    /// Writes the file to `path`, atomically.
+    /// Writes the file to `path`, atomically, in a folder that is made if there is none.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -181,6 +181,10 @@ impl FieldFile {
             self.builder.set_attr(&name, value);
         }
         let image = self.builder.finish().map_err(|error| file_error(path, error))?;
+        if let Some(folder) = path.parent() {
+            let failed = |source| Error::File { path: folder.to_owned(), source };
+            std::fs::create_dir_all(folder).map_err(failed)?;
+        }
         atomic::write(path, &image)
     }
 }

@@ -63,7 +63,11 @@ impl LoadingWriter {
     /// # Errors
     /// [`Error::File`].
     pub fn done(&self) -> Result<()> {
-        self.results.remove(&self.results.increment_state_path())
+        let state = self.results.increment_state_path();
+        self.results.remove(&state)?;
+        // Nothing else is kept of a loading: its folder goes, unless somebody has put something there.
+        let _ = state.parent().map(std::fs::remove_dir);
+        Ok(())
     }
 }
 

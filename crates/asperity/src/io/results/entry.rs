@@ -82,6 +82,7 @@ pub(super) enum Kept {
 /// cleared yet.
 pub(super) fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<(Lock, Kept)> {
     let failed = |source| Error::File { path: directory.to_owned(), source };
+    outside_others(directory)?;
     fs::create_dir_all(directory).map_err(|source| {
         failed(if source.kind() == ErrorKind::AlreadyExists {
             ErrorKind::NotADirectory.into()
@@ -99,6 +100,18 @@ pub(super) fn enter(directory: &Path, case: &Value, existing: Existing) -> Resul
         _ => Kept::Nothing,
     };
     Ok((lock, kept))
+}
+
+/// An error if `directory` lies within the results of another run, which are cleared as a whole.
+fn outside_others(directory: &Path) -> Result<()> {
+    let all = std::path::absolute(directory);
+    let all = all.map_err(|source| Error::File { path: directory.to_owned(), source })?;
+    match all.ancestors().skip(1).find(|folder| folder.join("case.json").exists()) {
+        Some(results) => {
+            Err(Error::WithinResults { path: directory.to_owned(), results: results.to_owned() })
+        }
+        None => Ok(()),
+    }
 }
 
 /// An error if there is something in `directory` that must be kept.

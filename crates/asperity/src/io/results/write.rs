@@ -1,13 +1,12 @@
 //! What a run writes into its results directory.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
 use super::entry::{self, Existing, Kept, Lock};
 use super::{Results, pressure_name, traction_name};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Field;
 use crate::io::fields::FieldFile;
 use crate::io::loading::LoadingWriter;
@@ -34,9 +33,9 @@ impl Writer {
     /// stays until [`Self::begin`].
     ///
     /// # Errors
-    /// [`Error::ResultsExist`] where there is something that must be kept, [`Error::InUse`] while another run writes
-    /// there; of results to be resumed [`Error::OtherCase`] (more passes and another title are welcome),
-    /// [`Error::SurfaceChanged`], [`Error::NotResumable`] where a file is missing or of another run; [`Error::File`].
+    /// [`crate::Error::ResultsExist`] where there is something that must be kept, [`crate::Error::WithinResults`], [`crate::Error::InUse`] while another run writes
+    /// there; of results to be resumed [`crate::Error::OtherCase`] (more passes and another title are welcome),
+    /// [`crate::Error::SurfaceChanged`], [`crate::Error::NotResumable`] where a file is missing or of another run; [`crate::Error::File`].
     pub fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<Self> {
         let (lock, kept) = entry::enter(directory, case, existing)?;
         Ok(Self {
@@ -51,7 +50,7 @@ impl Writer {
     /// Clears what is replaced, and what killed runs have left, and writes `case.json`.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn begin(&self) -> Result<()> {
         let fields = self.results.fields_folder();
         entry::clear(&self.results, self.kept)?;
@@ -59,8 +58,7 @@ impl Writer {
             atomic::sweep(directory);
         }
         let text = serde_json::to_vec_pretty(&self.case).expect("a JSON value can be written");
-        atomic::write(&self.results.case_path(), &text)?;
-        fs::create_dir_all(&fields).map_err(|source| Error::File { path: fields, source })
+        atomic::write(&self.results.case_path(), &text)
     }
 
     /// What is there already.
@@ -76,7 +74,7 @@ impl Writer {
     /// Writes the summary.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn finish(&self, content: &Summary) -> Result<()> {
         summary::write(&self.results.summary_path(), content)
     }
@@ -84,7 +82,7 @@ impl Writer {
     /// Writes the fields of a static contact.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
         let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower), pair.hardness());
         let file = static_fields(self.field_file(), pair, solution, &plastic);
@@ -94,7 +92,7 @@ impl Writer {
     /// Writes the fields of a static contact that has been loaded in stages, or rolls.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn write_loaded(&self, pair: &Pair, contact: &LoadedContact) -> Result<()> {
         let grid = pair.lower_grid();
         let mut file = static_fields(self.field_file(), pair, contact.solution.normal(), &contact.plastic);
@@ -134,7 +132,7 @@ impl Writer {
     /// `tractions`.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn write_subsurface(&self, plan: &Plan, tractions: Tractions) -> Result<SubsurfaceRecord> {
         plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions)
     }
@@ -142,7 +140,7 @@ impl Writer {
     /// Writes the surfaces before the first pass.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn write_initial(&self, pair: &Pair) -> Result<()> {
         let mut file = self.field_file();
         file.set("pass", 0);
@@ -155,7 +153,7 @@ impl Writer {
     /// the stress under the surface, where there is a plan for it.
     ///
     /// # Errors
-    /// [`Error::File`] if the results of earlier passes cannot be read.
+    /// [`crate::Error::File`] if the results of earlier passes cannot be read.
     pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter<'_>> {
         let passes = self.results.passes()?;
         let done = plan.iter().flat_map(|_| 1..=passes.len());
@@ -174,7 +172,7 @@ impl Writer {
     /// Writes each file of fields as image data for ParaView, too, unless that is there.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`crate::Error::File`].
     pub fn write_for_paraview(&self) -> Result<()> {
         let finished = self.results.passes()?.len();
         let passes = (0..=finished).filter(|_| finished > 0).map(|pass| self.results.fields_path(pass));

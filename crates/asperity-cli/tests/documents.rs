@@ -1,0 +1,152 @@
+//! What README and tutorials say that is printed is what is printed.
+//!
+//! The commands of their `sh` and `python` blocks are run in their order, in one folder for each document; a `text` block that
+//! follows is what the last of them prints. With `ASPERITY_DOCUMENTS=write` these blocks are written anew.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Numbers may differ by so much of themselves: loads are met to 10⁻⁴, and machines differ in the last digits.
+const TOLERANCE: f64 = 0.01;
+
+#[test]
+fn readme_and_tutorials_show_what_is_printed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let tutorials = fs::read_dir(root.join("docs/tutorials")).unwrap().map(|entry| entry.unwrap().path());
+    let documents: Vec<PathBuf> = tutorials.chain([root.join("README.md")]).collect();
+    let write = std::env::var("ASPERITY_DOCUMENTS").is_ok_and(|value| value == "write");
+    for path in documents {
+        let text = fs::read_to_string(&path).unwrap();
+        let (made, shown) = with_outputs(&text);
+        assert!(shown > 0, "{} shows nothing that is printed", path.display());
+        if write {
+            fs::write(&path, made).unwrap();
+        } else if let Some((shown, printed)) = first_difference(&text, &made) {
+            panic!("{} shows\n{shown}\nbut printed is\n{printed}", path.display());
+        }
+    }
+}
+
+/// The document with what its commands print in its `text` blocks, and how many of these there are.
+fn with_outputs(text: &str) -> (String, usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut made, mut shown) = (String::new(), 0);
+    let mut printed: Option<String> = None;
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        made += &format!("{line}\n");
+        let Some(language) = line.strip_prefix("```") else { continue };
+        let block: String =
+            lines.by_ref().take_while(|line| *line != "```").map(|line| format!("{line}\n")).collect();
+        match (language, printed.take()) {
+            ("text", Some(output)) => {
+                made += &output;
+                shown += 1;
+            }
+            _ => made += &block,
+        }
+        match language {
+            "sh" => printed = run(&block, folder.path()),
+            "python" => printed = python(&block, folder.path()),
+            _ => {}
+        }
+        made += "```\n";
+    }
+    (made, shown)
+}
+
+/// What the last of the block's commands prints; nothing where none of them is the program's.
+fn run(block: &str, folder: &Path) -> Option<String> {
+    let mut printed = None;
+    for line in block.lines() {
+        let command =
+            ["asperity ", "cargo run --release -- "].iter().find_map(|start| line.strip_prefix(start));
+        // Commands with a name to fill in are there to be read.
+        let Some(command) =
+            command.filter(|command| !command.contains("--path") && !command.contains("FILE"))
+        else {
+            continue;
+        };
+        let arguments = command.split('#').next().unwrap().split_whitespace();
+        let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .args(arguments)
+            .current_dir(folder)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        printed = Some(String::from_utf8(output.stdout).unwrap());
+    }
+    printed
+}
+
+/// What a program prints, if there is a Python with numpy and h5py.
+fn python(block: &str, folder: &Path) -> Option<String> {
+    let Some(python) = std::env::var_os("ASPERITY_PYTHON") else {
+        assert!(std::env::var_os("CI").is_none(), "ASPERITY_PYTHON names no Python");
+        return None;
+    };
+    let output = Command::new(python).args(["-c", block]).current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{block}: {}", String::from_utf8_lossy(&output.stderr));
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+/// The first lines that differ by more than the last digits of their numbers.
+fn first_difference(shown: &str, printed: &str) -> Option<(String, String)> {
+    let (mut shown, mut printed) = (shown.lines(), printed.lines());
+    loop {
+        match (shown.next(), printed.next()) {
+            (None, None) => return None,
+            (one, other) => {
+                let [one, other] = [one, other].map(Option::unwrap_or_default);
+                if !alike(one, other) {
+                    return Some((one.to_owned(), other.to_owned()));
+                }
+            }
+        }
+    }
+}
+
+fn alike(one: &str, other: &str) -> bool {
+    // These belong to the machine.
+    if ["time ", "memory "].iter().any(|start| one.starts_with(start) && other.starts_with(start)) {
+        return true;
+    }
+    let ([words, numbers], [other_words, other_numbers]) = (parts(one), parts(other));
+    let near = |(one, other): (&String, &String)| match (one.parse::<f64>(), other.parse::<f64>()) {
+        (Ok(one), Ok(other)) => (one - other).abs() <= TOLERANCE * one.abs().max(other.abs()),
+        _ => one == other,
+    };
+    words == other_words
+        && numbers.len() == other_numbers.len()
+        && numbers.iter().zip(&other_numbers).all(near)
+}
+
+/// The words of a line and its numbers; how far apart they stand does not count.
+fn parts(line: &str) -> [Vec<String>; 2] {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let mut parts = [Vec::new(), Vec::new()];
+    for word in line.split_whitespace() {
+        let mut rest = word;
+        while !rest.is_empty() {
+            let number = rest.starts_with(|c: char| c.is_ascii_digit());
+            let end = rest.find(|c| is_of_number(c) != number).unwrap_or(rest.len()).max(1);
+            let end = (end..=rest.len()).find(|end| rest.is_char_boundary(*end)).unwrap();
+            parts[usize::from(number)].push(rest[..end].trim_end_matches('.').to_owned());
+            rest = &rest[end..];
+        }
+    }
+    parts
+}
+
+#[test]
+fn last_digits_may_differ_and_nothing_else() {
+    assert!(alike("   1   30.71   180.0  1e-6", "   1  30.70  180.1 1e-6"));
+    for (one, other) in
+        [("load 30.7 nm", "load 31.7 nm"), ("load 3 nm", "load 3 µm"), ("a 1", "a 1 2"), ("", "a")]
+    {
+        assert!(!alike(one, other), "{one}: {other}");
+    }
+    let document = "x\n```sh\nls\n```\n\n```text\nnot ours\n```\n";
+    assert_eq!(with_outputs(document), (document.to_owned(), 0));
+}
