@@ -13,17 +13,26 @@ use asperity::{Error, Field, Grid};
 pub type Target = fn(&[u8]);
 
 /// The targets by their names, which are those of the corpora too.
-pub const TARGETS: [(&str, Target); 18] = [
+pub const TARGETS: [(&str, Target); 30] = [
     ("al3d", al3d),
     ("bcr", bcr),
     ("csv", csv),
     ("frt", frt),
     ("gwy", gwy),
     ("gzip", gzip),
+    ("hdf5", hdf5),
     ("headed", headed),
+    ("ibw", ibw),
     ("metropro", metropro),
+    ("mi", mi),
+    ("mnt", mnt),
+    ("nanoscope", nanoscope),
+    ("netcdf", netcdf),
+    ("nid", nid),
+    ("nms", nms),
     ("npy", npy),
     ("opd", opd),
+    ("opdx", opdx),
     ("plu", plu),
     ("sdf_binary", sdf_binary),
     ("sdf_text", sdf_text),
@@ -31,6 +40,9 @@ pub const TARGETS: [(&str, Target); 18] = [
     ("text", text),
     ("tiff", tiff),
     ("tmd", tmd),
+    ("utf16", utf16),
+    ("vk", vk),
+    ("wsxm", wsxm),
     ("x3p", x3p),
 ];
 
@@ -80,6 +92,11 @@ pub fn gzip(data: &[u8]) {
     check(&[], &encoder.finish().expect("memory takes all"));
 }
 
+/// HDF5: results or any other.
+pub fn hdf5(data: &[u8]) {
+    check(&["hdf5", "results"], &beginning_with(&[b"\x89HDF\r\n\x1a\n"], data));
+}
+
 /// Text with a header of SPIP, Gwyddion, Koala or Zygo.
 pub fn headed(data: &[u8]) {
     let magics: [&[u8]; 4] = [b"# File Format = ASCII", b"# Channel:", b"h=", b"Zygo XYZ Data File"];
@@ -87,9 +104,67 @@ pub fn headed(data: &[u8]) {
     check(&formats, &beginning_with(&magics, data));
 }
 
+/// IBW, its checksum put right here.
+pub fn ibw(data: &[u8]) {
+    let mut file = beginning_with(&[b"\x05\0", b"\0\x05", b"\x02\0", b"\0\x02"], data);
+    let big = file[0] == 0;
+    let (place, headers) = if file[0].max(file[1]) == 2 { (14, 126) } else { (2, 384) };
+    if file.len() >= headers {
+        file[place..place + 2].fill(0);
+        let words = file[..headers].chunks_exact(2).map(|word| [word[0], word[1]]);
+        let words = words.map(|word| if big { u16::from_be_bytes(word) } else { u16::from_le_bytes(word) });
+        let rest = words.fold(0u16, u16::wrapping_add).wrapping_neg();
+        file[place..place + 2].copy_from_slice(&if big { rest.to_be_bytes() } else { rest.to_le_bytes() });
+    }
+    check(&["ibw"], &file);
+}
+
 /// MetroPro.
 pub fn metropro(data: &[u8]) {
     check(&["metropro"], &beginning_with(&[b"\x88\x1b\x03\x6f", b"\x88\x1b\x03"], data));
+}
+
+/// MI.
+pub fn mi(data: &[u8]) {
+    check(&["mi"], &beginning_with(&[b"fileType      "], data));
+}
+
+/// MNT: a file, or the document in it.
+pub fn mnt(data: &[u8]) {
+    if data.starts_with(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") {
+        return check(&["mnt"], data);
+    }
+    let mut file = cfb::CompoundFile::create(Cursor::new(Vec::new())).expect("memory takes all");
+    let mut stream = file.create_stream("/ScopedContents").expect("a new name");
+    stream.write_all(data).expect("memory takes all");
+    drop(stream);
+    file.flush().expect("memory takes all");
+    check(&["mnt"], file.into_inner().get_ref());
+}
+
+/// NanoScope.
+pub fn nanoscope(data: &[u8]) {
+    check(&["nanoscope"], &beginning_with(&[b"\\*File list", b"\\*EC File list"], data));
+}
+
+/// NetCDF 3.
+pub fn netcdf(data: &[u8]) {
+    check(&["netcdf"], &beginning_with(&[b"CDF\x01", b"CDF\x02"], data));
+}
+
+/// NID.
+pub fn nid(data: &[u8]) {
+    check(&["nid"], &beginning_with(&[b"[DataSet]"], data));
+}
+
+/// NMS.
+pub fn nms(data: &[u8]) {
+    let mut file = data.to_vec();
+    file.resize(file.len().max(38), 0);
+    // Nothing else begins with two zeros.
+    file[..2].fill(0);
+    file[32..38].copy_from_slice(b"OM_MS_");
+    check(&["nms"], &file);
 }
 
 /// NPY.
@@ -100,6 +175,11 @@ pub fn npy(data: &[u8]) {
 /// OPD.
 pub fn opd(data: &[u8]) {
     check(&["opd"], &beginning_with(&[b"\x01\0Directory"], data));
+}
+
+/// OPDx.
+pub fn opdx(data: &[u8]) {
+    check(&["opdx"], &beginning_with(&[b"VCA DATA\x01\0\0\x55"], data));
 }
 
 /// PLU.
@@ -137,6 +217,34 @@ pub fn tiff(data: &[u8]) {
 /// TMD.
 pub fn tmd(data: &[u8]) {
     check(&["tmd"], &beginning_with(&[b"Binary TrueMap Data File v2.0\r\n\0"], data));
+}
+
+/// Text in UTF-16: a file, or text that is put into it.
+pub fn utf16(data: &[u8]) {
+    if data.starts_with(b"\xff\xfe") || data.starts_with(b"\xfe\xff") {
+        return check(&[], data);
+    }
+    let text = String::from_utf8_lossy(data);
+    let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+    check(&[], &units.flat_map(u16::to_le_bytes).collect::<Vec<_>>());
+}
+
+/// VK: a file, and the VK4 in an archive.
+pub fn vk(data: &[u8]) {
+    let file = beginning_with(&[b"VK4_", b"VK3_", b"VK6", b"VK7"], data);
+    check(&["vk"], &file);
+    if file.starts_with(b"VK4_") {
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        archive.start_file("Vk4File", zip::write::SimpleFileOptions::default()).expect("a new name");
+        archive.write_all(&file).expect("memory takes all");
+        let archive = archive.finish().expect("memory takes all").into_inner();
+        check(&["vk"], &[b"VK7", archive.as_slice()].concat());
+    }
+}
+
+/// WSxM.
+pub fn wsxm(data: &[u8]) {
+    check(&["wsxm"], &beginning_with(&[b"WSxM file copyright"], data));
 }
 
 /// X3P: an archive, or `main.xml` and, after a zero, the length of the mask, the mask and the heights.
@@ -189,6 +297,14 @@ fn check_in_unit(formats: &[&str], file: &[u8], unit: Option<f64>) {
         }
         Err(Error::CorruptTopography { format, .. }) => assert!(is_one(format), "taken for {format}"),
         Err(Error::NotATopography { .. }) => {}
+        Err(Error::NoChannel { available, .. }) => {
+            for channel in available.iter().take(4) {
+                if let Ok(scan) = read(Some(channel)) {
+                    assert_eq!(scan.channel, *channel);
+                    check_scan(&scan);
+                }
+            }
+        }
         Err(other) => panic!("{other}"),
     }
     assert!(!matches!(read(Some("none such")), Err(Error::File { .. })));

@@ -77,12 +77,12 @@ pub enum Error {
         /// What is wrong, and where.
         reason: Defect,
     },
-    /// A channel that the file does not have.
-    #[error("no height channel `{channel}` in {path}")]
+    /// A channel that the file does not have, or none where one is to be chosen.
+    #[error("{}", no_channel(path, channel))]
     NoChannel {
         /// The file.
         path: PathBuf,
-        /// The channel asked for.
+        /// The channel asked for; empty if none was.
         channel: String,
         /// The channels there are.
         available: Vec<String>,
@@ -338,8 +338,9 @@ impl Error {
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
             Self::NotATopography { .. } => Some(
-                "x3p, sdf, gwy, sur, opd, MetroPro dat, plu, al3d, frt, tmd, bcr, tiff, npy, csv, text and tables \
-                     (also gzipped) are read; export as one of these"
+                "x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to vk7, NanoScope spm, \
+                     ibw, nid, WSxM stp, mi, bcr, tiff, NetCDF 3, HDF5, npy, csv, text and tables (also gzipped) are read; \
+                     export as one of these"
                     .into(),
             ),
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
@@ -357,6 +358,13 @@ impl Error {
 /// Two forces that can be told apart.
 fn forces(one: Newton, other: Newton) -> [String; 2] {
     format_distinct([one, other], Dimension::Force)
+}
+
+fn no_channel(path: &std::path::Path, channel: &str) -> String {
+    match channel {
+        "" => format!("{} holds several data sets, none of which is chosen", path.display()),
+        _ => format!("no height channel `{channel}` in {}", path.display()),
+    }
 }
 
 fn quoted(names: &[String]) -> String {

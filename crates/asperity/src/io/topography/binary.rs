@@ -203,6 +203,13 @@ impl<'a> Cursor<'a> {
         })
     }
 
+    pub(super) fn u64(&mut self) -> Result<u64, Defect> {
+        self.array().map(|bytes| match self.order {
+            Order::Little => u64::from_le_bytes(bytes),
+            Order::Big => u64::from_be_bytes(bytes),
+        })
+    }
+
     pub(super) fn i32(&mut self) -> Result<i32, Defect> {
         self.u32().map(u32::cast_signed)
     }
@@ -235,10 +242,10 @@ pub(super) fn text(bytes: &[u8]) -> String {
 /// A unit of length, as instruments write it.
 pub(super) fn unit_of_length(unit: &str) -> Result<crate::units::Metre, Defect> {
     match unit {
-        "m" => Ok(1.0),
+        "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),
         "cm" => Ok(1e-2),
         "mm" => Ok(1e-3),
-        "µm" | "μm" | "um" => Ok(1e-6),
+        "µm" | "μm" | "um" | "~m" => Ok(1e-6),
         "nm" => Ok(1e-9),
         "pm" => Ok(1e-12),
         "Å" | "A" => Ok(1e-10),

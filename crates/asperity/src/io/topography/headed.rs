@@ -64,7 +64,7 @@ fn gwyddion(bytes: &[u8]) -> Result<Heights, Defect> {
     let text = String::from_utf8_lossy(bytes);
     let header = Header::of(head(&text), ':');
     let unit = header.get("Value units").ok_or(Defect::Missing("Value units"))?;
-    let lengths = [length(&header, "Width")?, length(&header, "Height")?];
+    let lengths = [header.length("Width")?, header.length("Height")?];
     let channel = header.get("Channel").unwrap_or(ONLY_CHANNEL);
     Ok(Lines::read(bytes, 0, None)?.over(channel, lengths, unit_of_length(unit)?))
 }
@@ -134,15 +134,6 @@ fn head(text: &str) -> &str {
         end += line.len();
     }
     &text[..end]
-}
-
-/// A length with its unit, such as `10.0 µm`.
-fn length(header: &Header<'_>, name: &'static str) -> Result<f64, Defect> {
-    let found = header.get(name).ok_or(Defect::Missing(name))?;
-    let unreadable =
-        || Defect::Value { what: name, found: excerpt(found), expected: "a length with its unit" };
-    let (number, unit) = found.split_once(' ').ok_or_else(unreadable)?;
-    Ok(number.parse::<f64>().map_err(|_| unreadable())? * unit_of_length(unit.trim())?)
 }
 
 /// Numbers in lines that run along x, indexed [iy, ix].

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::binary::unit_of_length;
 use crate::error::Defect;
+use crate::units::Metre;
 
 /// The lines of a header, by their names in lower case.
 pub(super) struct Header<'a>(HashMap<String, &'a str>);
@@ -25,12 +27,41 @@ impl<'a> Header<'a> {
         number.ok_or_else(|| Defect::Value { what: name, found: excerpt(found), expected: "a number" })
     }
 
+    /// A number and its unit, such as `10.0 µm`.
+    pub(super) fn quantity(&self, name: &'static str) -> Result<(f64, &'a str), Defect> {
+        let found = self.get(name).ok_or(Defect::Missing(name))?;
+        let quantity =
+            found.split_once(' ').and_then(|(number, unit)| Some((number.parse().ok()?, unit.trim())));
+        let expected = "a length with its unit";
+        quantity.ok_or_else(|| Defect::Value { what: name, found: excerpt(found), expected })
+    }
+
+    /// A length with its unit.
+    pub(super) fn length(&self, name: &'static str) -> Result<Metre, Defect> {
+        let (number, unit) = self.quantity(name)?;
+        Ok(number * unit_of_length(unit)?)
+    }
+
     /// A number of heights.
     pub(super) fn size(&self, name: &'static str) -> Result<u32, Defect> {
         let found = self.get(name).ok_or(Defect::Missing(name))?;
         let unusable = || Defect::Value { what: name, found: excerpt(found), expected: "at least 1" };
         found.parse().map_err(|_| unusable())
     }
+}
+
+/// The parts of `text` that begin with a line `[name]`.
+pub(super) fn sections(text: &str) -> Vec<(&str, &str)> {
+    let mut sections = Vec::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        start += line.len();
+        if let Some(name) = line.trim().strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+            sections.push((name, start - line.len(), start));
+        }
+    }
+    let ends = sections.iter().skip(1).map(|(_, line, _)| *line).chain([text.len()]);
+    sections.iter().zip(ends).map(|((name, _, start), end)| (*name, &text[*start..end])).collect()
 }
 
 fn before_comment(value: &str) -> &str {

@@ -12,17 +12,28 @@ pub mod bcr;
 pub mod csv;
 pub mod frt;
 pub mod gwy;
+pub mod hdf5;
 pub mod headed;
+pub mod ibw;
 pub mod metropro;
+pub mod mi;
+pub mod mnt;
+pub mod nanoscope;
+pub mod netcdf;
+pub mod nid;
+pub mod nms;
 pub mod npy;
 pub mod opd;
+pub mod opdx;
 pub mod plu;
 pub mod sdf;
 pub mod sur;
 pub mod text;
 pub mod tiff;
 pub mod tmd;
+pub mod vk;
 pub mod vtk;
+pub mod wsxm;
 pub mod x3p;
 
 use std::collections::HashSet;
@@ -89,6 +100,11 @@ pub fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>, unit: Option
 }
 
 impl Scan {
+    /// Whether the heights are those of an underside, as mounted: the upper body's in the results of a computation.
+    pub fn is_underside(&self) -> bool {
+        (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
+    }
+
     /// With its numbers multiplied by the unit that is given, if they have none of their own.
     fn in_unit(mut self, unit: Option<Metre>) -> Decoded {
         match (self.unit, unit) {
@@ -148,7 +164,7 @@ fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
 
 fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[&[u8]], Decode); 12] = [
+    const READ: [(&[&[u8]], Decode); 21] = [
         (&[b"PK\x03\x04"], x3p::decode),
         (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
         (&[b"\x93NUMPY"], npy::decode),
@@ -161,17 +177,26 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
         (&[frt::MAGIC], frt::decode),
         (&[tmd::MAGIC], tmd::decode),
         (&tiff::MAGICS, tiff::decode),
+        (&nanoscope::MAGICS, nanoscope::decode),
+        (&[nid::MAGIC], nid::decode),
+        (&[wsxm::MAGIC], wsxm::decode),
+        (&[mi::MAGIC], mi::decode),
+        (&[mnt::MAGIC], mnt::decode),
+        (&[opdx::MAGIC], opdx::decode),
+        (&vk::MAGICS, vk::decode),
+        (&netcdf::MAGICS, netcdf::decode),
+        (&[hdf5::MAGIC], hdf5::decode),
     ];
     const NOT_READ: [(&[u8], &str); 10] = [
-        (b"VCA DATA", "it is a Wyko OPDx file"),
         (b"FRTM_GLIDER", "it is an FRT file of another version than 1.00"),
         (b"Binary TrueMap Data File", "it is a TrueMap file of another version than 2.0"),
-        (b"\x89HDF\r\n\x1a\n", "it is an HDF5 file"),
+        (b"CDF", "it is NetCDF of another version than 1 and 2"),
+        (b"\\*Force file list", "it is a force curve of NanoScope"),
+        (b"?*File list", "it is a NanoScope file in text"),
         (b"\x89PNG", "it is a picture (PNG)"),
         (b"\xff\xd8\xff", "it is a picture (JPEG)"),
         (b"BM", "it is a picture (BMP)"),
         (b"GWYO", "it is a file of Gwyddion 1"),
-        (b"\xff\xfe", "it is UTF-16 text, expected UTF-8"),
         (b"PK\x05\x06", "it is an empty zip archive"),
     ];
     if bytes.is_empty() {
@@ -187,6 +212,19 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if plu::is_one(bytes) {
         return plu::decode(bytes, channel);
     }
+    if ibw::is_one(bytes) {
+        return ibw::decode(bytes, channel);
+    }
+    if nms::is_one(bytes) {
+        return nms::decode(bytes, channel);
+    }
+    match utf16(bytes) {
+        Some(text) => decode_text(text.as_bytes(), channel),
+        None => decode_text(bytes, channel),
+    }
+}
+
+fn decode_text(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
     if bytes.iter().take(1 << 16).any(binary) {
         return Err(Fault::NotATopography("it is binary, of no known format"));
@@ -194,6 +232,17 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
     headed::decode(bytes, channel)
         .or_else(|| csv::decode(bytes, channel))
         .unwrap_or_else(|| text::decode(bytes, channel))
+}
+
+/// Text in UTF-16, which begins with a mark of the order of its bytes, in UTF-8.
+fn utf16(bytes: &[u8]) -> Option<String> {
+    let (number, bytes): (fn([u8; 2]) -> u16, _) = match bytes {
+        [0xff, 0xfe, text @ ..] => (u16::from_le_bytes, text),
+        [0xfe, 0xff, text @ ..] => (u16::from_be_bytes, text),
+        _ => return None,
+    };
+    let units = bytes.as_chunks().0.iter().map(|unit| number(*unit));
+    Some(char::decode_utf16(units).map(|unit| unit.unwrap_or('\u{fffd}')).collect())
 }
 
 type Decoded = std::result::Result<Scan, Fault>;
@@ -248,6 +297,9 @@ fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     names.enumerate().map(number).collect()
 }
 
+/// The channel of results that is the underside of the upper body.
+pub(crate) const UNDERSIDE: &str = "upper";
+
 /// The name of the only channel of a file that does not name it.
 const ONLY_CHANNEL: &str = "height";
 
@@ -272,6 +324,44 @@ fn only(
         pitch: usable_pitch(pitch),
         heights,
         unit: Unit::Known,
+    })
+}
+
+/// A channel of a file that has several, whose heights are not read before it is chosen.
+struct Channel<'a> {
+    /// Empty if the file does not name it.
+    name: String,
+    pitch: [Metre; 2],
+    unit: Unit,
+    heights: Box<dyn FnOnce() -> std::result::Result<Field, Defect> + 'a>,
+}
+
+/// The scan of a file with these channels of heights.
+fn several(
+    format: &'static str,
+    channel: Option<&str>,
+    found: std::result::Result<Vec<Channel<'_>>, Defect>,
+) -> Decoded {
+    let fault = |defect| Fault::defect(format, defect);
+    let mut found = found.map_err(fault)?;
+    if found.is_empty() {
+        return Err(fault(Defect::Missing("channel of lengths")));
+    }
+    let name = |channel: &Channel<'_>| match channel.name.as_str() {
+        "" => ONLY_CHANNEL.to_owned(),
+        name => name.to_owned(),
+    };
+    let channels = distinct(found.iter().map(name));
+    let chosen = choose(&channels, channel)?;
+    let Channel { pitch, unit, heights, .. } = found.swap_remove(chosen);
+    let heights = heights().map_err(fault)?;
+    Ok(Scan {
+        format,
+        channel: channels[chosen].clone(),
+        channels,
+        pitch: usable_pitch(pitch),
+        heights,
+        unit,
     })
 }
 

@@ -211,7 +211,7 @@ fn vet_xml(text: &str) -> Outcome<()> {
     Ok(())
 }
 
-type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
+pub(super) type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 type Outcome<T> = std::result::Result<T, Defect>;
 
 struct Header {
@@ -397,7 +397,12 @@ fn verify(what: &'static str, expected: &str, content: &[u8]) -> Outcome<()> {
 }
 
 /// At most `most` + 1 bytes of an entry.
-fn entry(archive: &mut Archive<'_>, name: &str, what: &'static str, most: u64) -> Outcome<Vec<u8>> {
+pub(super) fn entry(
+    archive: &mut Archive<'_>,
+    name: &str,
+    what: &'static str,
+    most: u64,
+) -> Outcome<Vec<u8>> {
     if archive.index_for_name(name).is_none() {
         return Err(Defect::Missing(what));
     }
