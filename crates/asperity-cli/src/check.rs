@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use asperity::io::case::{Boundary, Case, Course, Method, Side};
+use asperity::io::case::{Boundary, Case, Course, Method, Mount, Side};
 use asperity::io::outlook::{Demand, Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
@@ -67,6 +67,12 @@ fn body(body: &Prepared) -> String {
     if let Some(origin) = &body.origin {
         let [sx, sy] = origin.shape;
         let _ = write!(text, "; {} `{}`, {sx} × {sy} samples", origin.format, origin.channel);
+        if origin.is_underside {
+            text.push_str(match body.mount {
+                Mount::AsIs => ", an underside, mounted as it is",
+                Mount::TurnedOver => ", an underside, turned over",
+            });
+        }
     }
     let findings = &body.findings;
     if findings.undefined > 0 {

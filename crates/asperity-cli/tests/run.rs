@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use asperity::io::fields::{Fields, StoredField};
 use asperity::io::results::{Results, pressure_name, traction_name};
 use asperity::io::tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+use asperity::io::topography;
 use asperity::material::{Material, composite_modulus};
 use asperity::motion::PassRecord;
 use asperity::reference::cattaneo::tangential_modulus;
@@ -779,6 +780,75 @@ fn every_motion_goes_on_with_the_same_bits() {
         ok(&run(&folder, "case.toml --out parts --resume --threads 1"));
         assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
     }
+}
+
+#[test]
+fn a_run_from_the_surfaces_of_a_pass_does_what_the_next_pass_did() {
+    const TABLE: [&str; 4] = ["approach", "mean_load", "mean_contact_area", "max_pressure"];
+    for keys in ["", "strategy = \"shift\", speed_lower = 0.0, speed_upper = 1.0, "] {
+        let motion = moving(3, 4).replace("load_tolerance = 1e-6", &format!("{keys}load_tolerance = 1e-9"));
+        let folder = folder_with("case.toml", &motion);
+        ok(&run(&folder, "case.toml --out whole"));
+        // The body's material stays; its surface is that of the results.
+        let mut next = motion.replace("passes = 3", "passes = 1");
+        for name in ["lower", "upper"] {
+            let start = next.find(&format!("{name} = {{")).unwrap();
+            let start = start + next[start..].find("topography = {").unwrap();
+            let end = start + next[start..].find("} }").unwrap();
+            let source =
+                format!("topography = {{ file = \"whole/fields/pass-0002.h5\", channel = \"{name}\" ");
+            next.replace_range(start..end, &source);
+        }
+        fs::write(folder.path().join("next.toml"), next).unwrap();
+        let said = ok(&asperity(&folder, "check next.toml"));
+        assert!(said.contains("results `upper`, 32 × 32 samples, an underside, mounted as it is"), "{said}");
+        ok(&run(&folder, "next.toml --out next"));
+
+        let passes = |directory: &str| {
+            let passes = summary(&folder.path().join(directory))["passes"].clone();
+            passes.as_array().unwrap().last().unwrap().clone()
+        };
+        let (whole, next) = (passes("whole"), passes("next"));
+        for key in TABLE {
+            let [found, expected] = [&next, &whole].map(|pass| number(&pass[key]));
+            // Both are solved to η < 10⁻⁶, from different guesses.
+            assert!((found / expected - 1.0).abs() < 1e-5, "{key}: {found} is not {expected}");
+        }
+        let fields = |path: &str| Fields::open(&folder.path().join(path)).unwrap();
+        let (whole, next) = (fields("whole/fields/pass-0003.h5"), fields("next/fields/pass-0001.h5"));
+        for name in ["lower", "upper"] {
+            let [found, expected] = [&next, &whole].map(|fields| field(fields, name, "m").values);
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-13, "{name}: {found:e} is not {expected:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_fields_of_results_are_topographies() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out moved"));
+    fs::write(folder.path().join("case.toml"), BALL).unwrap();
+    ok(&run(&folder, "case.toml --out pressed"));
+    for (file, channels) in [
+        ("moved/fields/initial.h5", "lower, upper"),
+        ("moved/fields/pass-0001.h5", "lower, upper"),
+        ("pressed/fields.h5", "lower, upper, displacement, gap, plastic"),
+    ] {
+        let told = ok(&asperity(&folder, &format!("surface info {file} --channel lower")));
+        assert!(told.starts_with("format     results\nchannel    lower\n"), "{told}");
+        assert!(told.contains(&format!("channels   {channels}\n")), "{told}");
+        let told = ok(&asperity(&folder, &format!("surface info {file} --channel upper")));
+        assert!(told.contains("an underside: as [upper] it is mounted as it is"), "{told}");
+        ok(&asperity(&folder, &format!("surface convert {file} out.npy --channel upper --overwrite")));
+        let found = topography::read(&folder.path().join("out.npy"), None, None).unwrap();
+        let expected = field(&Fields::open(&folder.path().join(file)).unwrap(), "upper", "m");
+        assert!(found.heights.iter().eq(expected.values.iter()), "{file}");
+    }
+    let refused = refused(&asperity(&folder, "surface info pressed/fields.h5 --channel pressure"));
+    assert!(refused.contains("no height channel `pressure`"), "{refused}");
+    assert!(refused.contains("it holds `lower`, `upper`"), "{refused}");
 }
 
 #[test]

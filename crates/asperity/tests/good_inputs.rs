@@ -21,7 +21,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(case.lower.material.young, 210e9);
     assert_eq!(case.lower.material.hardness, 4e9);
     assert_eq!(case.upper.material.hardness, f64::INFINITY);
-    assert_eq!((case.lower.mount, case.upper.mount), (Mount::AsIs, Mount::TurnedOver));
+    assert_eq!((case.lower.mount, case.upper.mount), (Some(Mount::AsIs), Some(Mount::TurnedOver)));
     let lower = &case.lower.topography;
     assert_eq!(
         lower.source,
@@ -91,7 +91,7 @@ fn a_mean_pressure_becomes_a_load_on_the_apparent_area() {
     let motion = case.motion(4e-9).unwrap();
     assert_eq!(motion.control, Control::StepLoad(10e6 * 4e-9));
     assert_eq!(motion.strategy, Strategy::Shift { speed_lower: -0.01, speed_upper: 0.02 });
-    assert_eq!(case.upper.mount, Mount::AsIs);
+    assert_eq!(case.upper.mount, Some(Mount::AsIs));
 }
 
 #[test]

@@ -80,7 +80,8 @@ fn about_file(table: &mut Table, file: &Read) {
     let undefined = file.topography.undefined();
     let share = 100.0 * undefined as f64 / grid.cells() as f64;
     table.words("format", file.scan.format, "");
-    table.words("channel", &file.scan.channel, "");
+    let side = if file.scan.is_underside() { "an underside: as [upper] it is mounted as it is" } else { "" };
+    table.words("channel", &file.scan.channel, side);
     if file.scan.channels.len() > 1 {
         table.words("channels", file.scan.channels.join(", "), "");
     }

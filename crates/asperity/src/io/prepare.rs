@@ -30,6 +30,8 @@ pub struct Prepared {
     pub topography: Topography,
     /// Where they were read; none if they were made.
     pub origin: Option<Origin>,
+    /// How they face.
+    pub mount: Mount,
     /// What was missing and is filled, what was removed.
     pub findings: Findings,
 }
@@ -41,6 +43,8 @@ pub struct Origin {
     pub format: &'static str,
     /// The channel.
     pub channel: String,
+    /// See [`Scan::is_underside`].
+    pub is_underside: bool,
     /// Number of samples along x and y in the file.
     pub shape: [usize; 2],
     /// Digest of the file, hexadecimal.
@@ -120,11 +124,16 @@ fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
         topography = topography.plus(&added)?;
     }
     at.measurable(&topography)?;
-    let topography = match body.mount {
+    let of_file = || match &origin {
+        Some(origin) if origin.is_underside => Mount::AsIs,
+        _ => Mount::TurnedOver,
+    };
+    let mount = body.mount.unwrap_or_else(of_file);
+    let topography = match mount {
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    Ok(Prepared { topography, origin, findings })
+    Ok(Prepared { topography, origin, mount, findings })
 }
 
 /// What the file holds, and its digest.
@@ -141,6 +150,7 @@ fn measured(
     sha256: String,
     spec: &TopographySpec,
 ) -> Result<(Topography, Origin, Preparation)> {
+    let is_underside = scan.is_underside();
     let Scan { format, channel, pitch: carried, heights, .. } = scan;
     let shape = [heights.nrows(), heights.ncols()];
     let mut preparation = spec.preparation;
@@ -166,7 +176,7 @@ fn measured(
     })?;
     let grid = Grid::new(shape, pitch).map_err(|error| at.parameter(error))?;
     let topography = Topography::new(grid, heights).map_err(|error| at.reading(error))?;
-    Ok((topography, Origin { format, channel, shape, sha256 }, preparation))
+    Ok((topography, Origin { format, channel, is_underside, shape, sha256 }, preparation))
 }
 
 /// Where the mistakes of one body's topography are shown.
@@ -386,4 +396,48 @@ fn lengths([x, y]: [Metre; 2]) -> String {
 
 fn by([nx, ny]: [usize; 2]) -> String {
     format!("{nx} × {ny}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Field;
+    use crate::io::fields::FieldFile;
+
+    #[test]
+    fn the_underside_in_results_is_mounted_as_it_is_unless_the_case_says_otherwise() {
+        let directory = tempfile::tempdir().unwrap();
+        let grid = Grid::new([4, 3], [1e-6; 2]).unwrap();
+        let lower = Field::from_shape_fn(grid.shape, |(ix, iy)| 1e-9 * (ix * ix + 2 * iy) as f64);
+        let upper = &lower * 3.0 + 5e-9;
+        let mut file = FieldFile::new();
+        file.set("version", "0.1.0").set("pass", 5).set("identity", "a digest");
+        file.add_field("lower", "m", &grid, [0.0; 2], &lower)
+            .add_field("upper", "m", &grid, [0.0; 2], &upper);
+        file.write(&directory.path().join("pass-0005.h5")).unwrap();
+        let mounted = |channel: &str, mount: &str| {
+            let body = |name: &str, more: &str, channel: &str| {
+                format!(
+                    "[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\n{more}\n[{name}.topography]\nfile = \"pass-0005.h5\"\n\
+                     channel = \"{channel}\"\n"
+                )
+            };
+            let path = directory.path().join("case.toml");
+            let text =
+                body("lower", "", "lower") + &body("upper", mount, channel) + "[contact]\nload = \"1 mN\"\n";
+            std::fs::write(&path, text).unwrap();
+            bodies(&Case::load(&path).unwrap()).unwrap()
+        };
+        let by_default = mounted("upper", "");
+        assert_eq!(by_default.lower.topography.heights(), &lower);
+        assert_eq!(by_default.upper.topography.heights(), &upper);
+        assert_eq!(by_default.upper.mount, Mount::AsIs);
+        assert!(by_default.upper.origin.unwrap().is_underside);
+        let turned = mounted("upper", "mount = \"turned-over\"").upper;
+        assert_eq!(turned.topography.heights()[[0, 0]], -upper[[3, 0]]);
+        // The surface of a lower body is turned over, as any is that was measured.
+        let lower_as_upper = mounted("lower", "").upper;
+        assert_eq!(lower_as_upper.topography.heights()[[0, 0]], -lower[[3, 0]]);
+        assert_eq!(lower_as_upper.mount, Mount::TurnedOver);
+    }
 }

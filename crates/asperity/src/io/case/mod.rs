@@ -68,9 +68,10 @@ pub struct Body {
     pub material: Material,
     /// Its surface.
     pub topography: TopographySpec,
-    /// How the heights face: always [`Mount::AsIs`] for the lower body.
+    /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
+    /// they are an underside, see [`Scan::is_underside`](crate::io::topography::Scan::is_underside), else turned over.
     #[serde(skip)]
-    pub mount: Mount,
+    pub mount: Option<Mount>,
 }
 
 /// How the heights of a body become those of the case.
@@ -277,7 +278,7 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
     struct Keys<'a> {
         #[serde(flatten)]
         body: &'a Body,
-        mount: Mount,
+        mount: Option<Mount>,
     }
     Keys { body: upper, mount: upper.mount }.serialize(serializer)
 }

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::error::Result;
 use crate::grid::MOST_CELLS;
+use crate::io::topography::UNDERSIDE;
 use crate::material::{self, Material};
 use crate::motion::{PlasticUpdate, Strategy};
 use crate::surface::{
@@ -189,13 +190,19 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     };
     let topography = topography(&table.required_table("topography")?, folder)?;
     let mount = match table.get("mount") {
-        Some(entry) => entry.choice(&[("turned-over", Mount::TurnedOver), ("as-is", Mount::AsIs)])?,
-        None if is_upper => Mount::TurnedOver,
-        None => Mount::AsIs,
+        Some(entry) => Some(entry.choice(&[("turned-over", Mount::TurnedOver), ("as-is", Mount::AsIs)])?),
+        None if is_upper && may_be_an_underside(&topography.source) => None,
+        None if is_upper => Some(Mount::TurnedOver),
+        None => Some(Mount::AsIs),
     };
     // Checked above, entry by entry: this can find nothing new.
     let material = Material::new(young, poisson, hardness)?;
     Ok(Body { material, topography, mount })
+}
+
+/// Whether a file of results would hold the underside of a body there.
+fn may_be_an_underside(source: &Source) -> bool {
+    matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
 }
 
 fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
