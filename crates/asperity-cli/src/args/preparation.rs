@@ -15,7 +15,7 @@ pub(crate) struct Preparing {
     /// Part to keep, in samples
     #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
     window: Option<Window>,
-    /// Spikes become missing: samples that deviate from the median of the 5 × 5 around by more than so many (robust) standard deviations, such as 6
+    /// Spikes and pits become missing: samples, in groups of up to about 5 × 5, that deviate from what is around by more than so many (robust) standard deviations, such as 6
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     despike: Option<f64>,
     /// Where the heights of missing samples come from

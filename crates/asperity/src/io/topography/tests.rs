@@ -6,6 +6,7 @@ use arbtest::arbtest;
 
 use super::*;
 use crate::grid::Grid;
+use crate::surface::Topography;
 
 mod bombs;
 mod containers;
@@ -86,6 +87,29 @@ fn an_x3p_by_mountainsmap_is_read_as_others_read_it() {
 #[test]
 fn a_sur_by_mountainsmap_is_read_as_others_read_it() {
     assert_as_expected("sur-2.sur", "sur", 1e-3);
+}
+
+#[test]
+fn the_pits_of_a_measured_map_are_the_first_spikes_to_go() {
+    let Some(path) = measured("sur-2.sur") else { return };
+    let scan = read(&path, None, None).unwrap();
+    let grid = Grid::new([563, 484], scan.pitch.unwrap()).unwrap();
+    let measured = Topography::new(grid, scan.heights).unwrap();
+    let cleared = measured.clone().despike(8.0).unwrap();
+    // 98 samples of a few pits, down to 1.25 µm, of a surface whose others lie within 0.1 µm of their mean.
+    let middle = measured.mean();
+    let deep = |map: &Topography| map.heights().iter().filter(|z| **z < middle - 1e-7).count();
+    assert_eq!([deep(&measured), deep(&cleared)], [98, 0]);
+    assert!(cleared.undefined() - measured.undefined() < 3000);
+    let sku = |map: &Topography| {
+        let middle = map.mean();
+        map.heights().iter().filter(|z| !z.is_nan()).fold([0.0; 2], |[m2, m4], z| {
+            let height = z - middle;
+            [m2 + height.powi(2), m4 + height.powi(4)]
+        })
+    };
+    let [m2, m4] = sku(&cleared);
+    assert!(m4 * (cleared.heights().len() - cleared.undefined()) as f64 / (m2 * m2) < 3.0);
 }
 
 #[test]

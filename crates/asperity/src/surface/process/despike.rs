@@ -1,7 +1,5 @@
 //! Removal of spikes.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 
 use super::median::median;
@@ -9,46 +7,43 @@ use crate::error::{Result, check};
 use crate::grid::Field;
 use crate::surface::Topography;
 
-/// Samples to each side of the one judged: 5 × 5 in all.
+/// Samples around the one judged, on each side of it along x and y: 5 × 5 in all.
 const REACH: usize = 2;
 
+/// Distances of the samples around, one after the other: of every second one first, over 9 × 9.
+const STRIDES: [usize; 2] = [2, 1];
+
+/// Distance to which the surroundings of a spike reach.
+const SURROUNDINGS: usize = 2;
+
+/// Largest share of the samples next to a spike that may stand out with it.
+const OPEN: f64 = 0.25;
+
 impl Topography {
-    /// With the spikes undefined: the samples that deviate from the median of the 5 × 5 samples around by more than
-    /// `factor` standard deviations, both those of the samples around and those of all such deviations; 5 to 10 is usual.
+    /// With the spikes undefined: samples, and groups of up to about 5 × 5 that touch each other, that deviate from their
+    /// surroundings by more than `factor` standard deviations, both those of the surroundings and those of the deviations
+    /// over the whole topography; 5 to 10 is usual.
+    ///
+    /// Candidates deviate so from the median of 5 × 5 samples, first of every second one, among which a spike of 5 × 5 is no
+    /// majority, then of every one: Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which spares a
+    /// rough part of a smooth surface. Candidates that touch and deviate alike, to the same side and neither by more than
+    /// twice the other, are judged together, by the samples around all of them, within two of any. They stay if along x or y
+    /// they are longer than the 5 samples reach, as a groove is, or if they go on: if more than a quarter of the samples next
+    /// to them stand out by half as much as they do, as at the corner of a step.
     ///
     /// The standard deviations are robust ones, 1.4826 times the median of the absolute deviations, which spikes do not
-    /// widen: around a sample Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which spares
-    /// a rough part of a smooth surface. Of the whole topography it is 1.2533 times their mean where the median is 0
-    /// because more than half of the samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers,
-    /// 1993). Only defined samples count. Towards a rim the neighbourhood of the median shrinks so that it stays
-    /// symmetric: no plane has spikes.
+    /// widen. Of the whole topography it is 1.2533 times their mean where the median is 0 because more than half of the
+    /// samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). Only defined samples count.
+    /// Towards a rim the neighbourhood of the median shrinks so that it stays symmetric: no plane has spikes.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the factor is above 0.
     pub fn despike(mut self, factor: f64) -> Result<Self> {
         check("despike", factor, factor > 0.0 && factor.is_finite(), "a number above 0 such as 6")?;
-        let deviations = deviations(self.heights());
-        let mut sizes: Vec<f64> = deviations.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
-        if sizes.is_empty() {
-            return Ok(self);
+        for stride in STRIDES {
+            let spikes = spikes(self.heights(), factor, stride);
+            spikes.into_iter().for_each(|at| self.heights_mut()[at] = f64::NAN);
         }
-        let sigma = match SIGMA * median(&mut sizes) {
-            0.0 => 1.2533 * sizes.iter().sum::<f64>() / sizes.len() as f64,
-            sigma => sigma,
-        };
-        let z = self.heights();
-        let is_spike = |((ix, iy), deviation): &((usize, usize), &f64)| {
-            deviation.abs() > factor * sigma && {
-                let clipped = |i: usize, n: usize| i.saturating_sub(REACH)..(i + REACH + 1).min(n);
-                let mut around = Vec::new();
-                defined(z, clipped(*ix, z.nrows()), clipped(*iy, z.ncols()), &mut around);
-                let middle = median(&mut around);
-                around.iter_mut().for_each(|z| *z = (*z - middle).abs());
-                deviation.abs() > factor * SIGMA * median(&mut around)
-            }
-        };
-        let spikes: Vec<_> = deviations.indexed_iter().filter(is_spike).map(|(at, _)| at).collect();
-        spikes.into_iter().for_each(|at| self.heights_mut()[at] = f64::NAN);
         Ok(self)
     }
 }
@@ -56,13 +51,110 @@ impl Topography {
 /// Standard deviation of Gaussian heights over the median of their absolute deviations.
 const SIGMA: f64 = 1.4826;
 
-/// Height of each sample above the median of its neighbourhood, which shrinks towards a rim so that it stays symmetric.
-fn deviations(z: &Field) -> Field {
+/// The spikes that stand out from medians of samples so far from each other.
+fn spikes(z: &Field, factor: f64, stride: usize) -> Vec<(usize, usize)> {
+    let deviations = deviations(z, stride);
+    let mut sizes: Vec<f64> = deviations.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
+    if sizes.is_empty() {
+        return Vec::new();
+    }
+    let sigma = match SIGMA * median(&mut sizes) {
+        0.0 => 1.2533 * sizes.iter().sum::<f64>() / sizes.len() as f64,
+        sigma => sigma,
+    };
+    let (nx, ny) = z.dim();
+    let mut candidates = deviations;
+    let mut around = Vec::new();
+    for ((ix, iy), deviation) in candidates.indexed_iter_mut() {
+        let is_one = deviation.abs() > factor * sigma && {
+            let there = |i: usize, n: usize| {
+                let start = i - stride * REACH.min(i / stride);
+                (start..(i + stride * REACH + 1).min(n)).step_by(stride)
+            };
+            defined(z, there(ix, nx), there(iy, ny), &mut around);
+            deviation.abs() > factor * SIGMA * median_deviation(&mut around).1
+        };
+        if !is_one {
+            *deviation = 0.0;
+        }
+    }
+    let groups = groups(candidates);
+    let groups = groups.into_iter().filter(|group| extent(group) <= 2 * REACH * stride);
+    groups.flat_map(|group| outliers(z, group, factor, sigma)).collect()
+}
+
+/// Those of a group of samples that stand out from what is around all of them.
+fn outliers(z: &Field, group: Vec<(usize, usize)>, factor: f64, sigma: f64) -> Vec<(usize, usize)> {
+    let mut around: Vec<_> = group
+        .iter()
+        .flat_map(|at| within(z.dim(), *at, SURROUNDINGS))
+        .filter(|at| !z[*at].is_nan() && group.binary_search(at).is_err())
+        .collect();
+    around.sort_unstable();
+    around.dedup();
+    if around.is_empty() {
+        return Vec::new();
+    }
+    let mut heights: Vec<f64> = around.iter().map(|at| z[*at]).collect();
+    let (middle, deviation) = median_deviation(&mut heights);
+    let least = factor * sigma.max(SIGMA * deviation);
+    let n_candidates = group.len();
+    let found: Vec<_> = group.into_iter().filter(|at| (z[*at] - middle).abs() > least).collect();
+    if 2 * found.len() < n_candidates {
+        return Vec::new();
+    }
+
+    let half = 0.5 * median(&mut found.iter().map(|at| z[*at] - middle).collect::<Vec<_>>());
+    let goes_on = |at: &(usize, usize)| (z[*at] - middle) / half > 1.0;
+    let touches =
+        |at: &&(usize, usize)| found.iter().any(|(x, y)| x.abs_diff(at.0).max(y.abs_diff(at.1)) == 1);
+    let next: Vec<_> = around.iter().filter(touches).collect();
+    let open = next.iter().filter(|at| goes_on(at)).count();
+    if open as f64 > OPEN * next.len() as f64 { Vec::new() } else { found }
+}
+
+/// The groups of candidates, those whose deviation is not 0, that touch each other, also at a corner, and deviate alike: to
+/// the same side, neither by more than twice the other. Each group is sorted.
+fn groups(mut candidates: Field) -> Vec<Vec<(usize, usize)>> {
+    let starts: Vec<_> = candidates.indexed_iter().filter(|(_, d)| **d != 0.0).map(|(at, _)| at).collect();
+    let mut groups = Vec::new();
+    for start in starts {
+        let deviation = std::mem::take(&mut candidates[start]);
+        if deviation == 0.0 {
+            continue;
+        }
+        let mut group = Vec::new();
+        let mut next = vec![(start, deviation)];
+        while let Some((at, deviation)) = next.pop() {
+            group.push(at);
+            for touching in within(candidates.dim(), at, 1) {
+                if (0.5..=2.0).contains(&(candidates[touching] / deviation)) {
+                    next.push((touching, std::mem::take(&mut candidates[touching])));
+                }
+            }
+        }
+        group.sort_unstable();
+        groups.push(group);
+    }
+    groups
+}
+
+/// Samples along x or y, whichever are more, of the part that a group lies in.
+fn extent(group: &[(usize, usize)]) -> usize {
+    let along = |place: fn(&(usize, usize)) -> usize| {
+        let places = group.iter().map(place);
+        places.clone().max().zip(places.min()).map_or(0, |(last, first)| last - first + 1)
+    };
+    along(|at| at.0).max(along(|at| at.1))
+}
+
+/// Height of each sample above the median of those around, which become fewer towards a rim so that they stay symmetric.
+fn deviations(z: &Field, stride: usize) -> Field {
     let mut deviations = z.clone();
     let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(z.ncols());
     let symmetric = |i: usize, n: usize| {
-        let reach = REACH.min(i).min(n - 1 - i);
-        i - reach..i + reach + 1
+        let reach = stride * REACH.min(i.min(n - 1 - i) / stride);
+        (i - reach..i + reach + 1).step_by(stride)
     };
     rows.enumerate().for_each(|(ix, row)| {
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
@@ -74,8 +166,31 @@ fn deviations(z: &Field) -> Field {
     deviations
 }
 
-/// The defined heights of a part.
-fn defined(z: &Field, xs: Range<usize>, ys: Range<usize>, heights: &mut Vec<f64>) {
+/// The median, and the median of the absolute deviations from it, which take the values' place.
+fn median_deviation(values: &mut [f64]) -> (f64, f64) {
+    let middle = median(values);
+    values.iter_mut().for_each(|value| *value = (*value - middle).abs());
+    (middle, median(values))
+}
+
+/// The samples up to `reach` to each side of one, of those there are.
+fn within(
+    (nx, ny): (usize, usize),
+    (x, y): (usize, usize),
+    reach: usize,
+) -> impl Iterator<Item = (usize, usize)> {
+    let xs = x.saturating_sub(reach)..(x + reach + 1).min(nx);
+    let ys = y.saturating_sub(reach)..(y + reach + 1).min(ny);
+    xs.flat_map(move |x| ys.clone().map(move |y| (x, y)))
+}
+
+/// The defined heights at these places.
+fn defined(
+    z: &Field,
+    xs: impl Iterator<Item = usize>,
+    ys: impl Iterator<Item = usize> + Clone,
+    heights: &mut Vec<f64>,
+) {
     heights.clear();
     for ix in xs {
         heights.extend(ys.clone().map(|iy| z[[ix, iy]]).filter(|z| !z.is_nan()));
@@ -84,8 +199,15 @@ fn defined(z: &Field, xs: Range<usize>, ys: Range<usize>, heights: &mut Vec<f64>
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
     use super::*;
     use crate::grid::Grid;
+    use crate::surface::{
+        Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
+    };
 
     fn with_heights(height: impl Fn(usize, usize) -> f64) -> Topography {
         let grid = Grid::new([60, 50], [1.0, 1.0]).unwrap();
@@ -140,5 +262,167 @@ mod tests {
         with_spike.heights_mut()[[25, 25]] += 4e4;
         assert_eq!(undefined(&with_spike.despike(8.0).unwrap()), [(25, 25)]);
         assert_eq!(streaked.despike(8.0).unwrap().undefined(), 0);
+    }
+
+    /// Normal deviates of standard deviation 1.
+    fn noise() -> impl FnMut(usize, usize) -> f64 {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        move |_, _| StandardNormal.sample(&mut random)
+    }
+
+    type Height = fn(usize, usize) -> f64;
+
+    /// Heights over noise of standard deviation 1 that are no spikes, with their names.
+    fn surfaces() -> [(&'static str, Height); 5] {
+        let grooves = |i: usize, _: usize| match i {
+            20 | 40..42 | 60..63 | 80..84 => -40.0,
+            _ => 0.0,
+        };
+        let plateaus = |i: usize, j: usize| {
+            let disc = i.abs_diff(64).pow(2) + j.abs_diff(64).pow(2) < 400;
+            let diamond = i.abs_diff(30) + j.abs_diff(30) < 15;
+            50.0 * f64::from(u8::from(disc)) + 25.0 * f64::from(u8::from(diamond))
+        };
+        [
+            ("rough", |_, _| 0.0),
+            ("wavy", |i, j| 20.0 * ((i as f64 / 8.0).sin() + (j as f64 / 11.0).cos())),
+            ("ground", |i, _| 5.0 * ((i as f64 * 1.3).sin() + (i as f64 * 0.7).cos())),
+            ("grooved", grooves),
+            ("stepped", plateaus),
+        ]
+    }
+
+    fn on_a_map(mut height: impl FnMut(usize, usize) -> f64) -> Topography {
+        let grid = Grid::new([128, 128], [1.0, 1.0]).unwrap();
+        Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, j)| height(i, j))).unwrap()
+    }
+
+    #[test]
+    fn spikes_and_pits_of_up_to_five_by_five_samples_are_found_and_nothing_else_is() {
+        for (name, surface) in surfaces() {
+            let mut random = noise();
+            let clean = on_a_map(|i, j| surface(i, j) + random(i, j));
+            assert_eq!(undefined(&clean.clone().despike(8.0).unwrap()), [], "{name}");
+            for size in 1..=5 {
+                let spikes: Vec<_> = (0..36).map(|n| (12 + 18 * (n % 6), 12 + 18 * (n / 6))).collect();
+                let mut with_spikes = clean.clone();
+                for (n, (i, j)) in spikes.iter().enumerate() {
+                    let height = if n % 2 == 0 { 300.0 } else { -300.0 };
+                    for (k, l) in (0..size).flat_map(|k| (0..size).map(move |l| (k, l))) {
+                        with_spikes.heights_mut()[[i + k, j + l]] += height;
+                    }
+                }
+                let found = undefined(&with_spikes.despike(8.0).unwrap());
+                let is_spike = |at: &&(usize, usize)| {
+                    spikes
+                        .iter()
+                        .any(|(i, j)| (*i..i + size).contains(&at.0) && (*j..j + size).contains(&at.1))
+                };
+                let right = found.iter().filter(is_spike).count();
+                assert_eq!(found.len(), right, "{name}, {size} × {size}");
+                // Beside a groove or a step a spike of more than three samples is no longer among a majority of others.
+                let is_beside = size > 3 && ["grooved", "stepped"].contains(&name);
+                let least = if is_beside { 0.8 } else { 1.0 } * (36 * size * size) as f64;
+                assert!(right as f64 >= least, "{name}, {size} × {size}: {right} found");
+            }
+        }
+    }
+
+    /// Places of spikes of 1 × 1 to 5 × 5 samples, apart from each other and from the rim.
+    fn places(random: &mut ChaCha8Rng) -> Vec<[std::ops::Range<usize>; 2]> {
+        let mut places: Vec<[std::ops::Range<usize>; 2]> = Vec::new();
+        for _ in 0..60 {
+            let [x, y] = [(); 2].map(|()| {
+                let start: usize = random.random_range(5..118);
+                start..start + random.random_range(1..=5)
+            });
+            if places.iter().all(|[a, b]| x.start.abs_diff(a.start).max(y.start.abs_diff(b.start)) > 14) {
+                places.push([x, y]);
+            }
+        }
+        places
+    }
+
+    #[test]
+    fn spikes_of_any_size_at_any_place_are_found() {
+        for (name, surface) in surfaces() {
+            let [mut n_spikes, mut n_found, mut n_others] = [0; 3];
+            for seed in 0..40 {
+                let mut random = ChaCha8Rng::seed_from_u64(seed);
+                let places = places(&mut random);
+                let mut map = on_a_map(|i, j| {
+                    let noise: f64 = StandardNormal.sample(&mut random);
+                    surface(i, j) + noise
+                });
+                for at in 0..150 {
+                    map.heights_mut()[[random.random_range(0..128), at % 128]] = f64::NAN;
+                }
+                let clean = map.clone();
+                for [xs, ys] in &places {
+                    let height = 100.0 * 30f64.powf(random.random()) * [-1.0, 1.0][random.random_range(0..2)];
+                    for at in xs.clone().flat_map(|x| ys.clone().map(move |y| [x, y])) {
+                        map.heights_mut()[at] += height * random.random_range(0.6..1.0);
+                    }
+                }
+                let cleared = map.despike(8.0).unwrap();
+                for ((at, z), before) in cleared.heights().indexed_iter().zip(clean.heights()) {
+                    let is_spike = places.iter().any(|[x, y]| x.contains(&at.0) && y.contains(&at.1));
+                    let is_found = z.is_nan() && !before.is_nan();
+                    n_spikes += usize::from(is_spike && !before.is_nan());
+                    n_found += usize::from(is_spike && is_found);
+                    n_others += usize::from(!is_spike && is_found);
+                }
+            }
+            // Pieces of a groove between a spike and a missing sample look like spikes themselves.
+            assert!(n_found as f64 > 0.96 * n_spikes as f64, "{name}: {n_found} of {n_spikes}");
+            assert!((n_others as f64) < 0.02 * n_spikes as f64, "{name}: {n_others} beside {n_spikes}");
+        }
+    }
+
+    #[test]
+    fn random_roughness_without_spikes_loses_nothing() {
+        let grid = Grid::new([256, 256], [1.0, 1.0]).unwrap();
+        let self_affine =
+            |hurst| SelfAffine { hurst, rolloff: None, shortest: None, amplitude: Amplitude::Sq(1.0) };
+        let autocorrelation = |decay, lengths| Autocorrelation {
+            sq: 1.0,
+            correlation_length: lengths,
+            decay,
+            lay: 0.3,
+            heights: HeightDistribution::GAUSSIAN,
+        };
+        let low_pass = |heights| LowPass { sq: 1.0, cutoff: [8.0, 8.0], band: Band::Elliptic, heights };
+        let generators = [
+            Generator::SelfAffine(self_affine(0.5)),
+            Generator::SelfAffine(self_affine(0.8)),
+            Generator::Autocorrelation(autocorrelation(Decay::Exponential, [10.0, 10.0])),
+            Generator::Autocorrelation(autocorrelation(Decay::Gaussian, [40.0, 8.0])),
+            Generator::LowPass(low_pass(HeightDistribution::GAUSSIAN)),
+            Generator::LowPass(low_pass(HeightDistribution { ssk: -1.0, sku: 5.0 })),
+        ];
+        for (index, generator) in generators.iter().enumerate() {
+            for seed in 0..3 {
+                let surface = generator.generate(&grid, seed).unwrap();
+                for (factor, most) in [(8.0, 0), (5.0, 20)] {
+                    let lost = surface.clone().despike(factor).unwrap().undefined();
+                    assert!(lost <= most, "{index}, seed {seed}, {factor}: {lost} lost");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_pit_beside_missing_samples_is_found() {
+        // A pit with a hole at each end, as an instrument leaves where the light does not return.
+        let (deep, gone) = (
+            [(7, 2), (7, 3), (7, 4), (8, 2), (8, 3), (8, 4), (9, 3)],
+            [(6, 3), (6, 4), (9, 1), (9, 2), (10, 2)],
+        );
+        let mut pitted = with_heights(rough);
+        deep.iter().for_each(|(i, j)| pitted.heights_mut()[[20 + i, 20 + j]] -= 1200.0);
+        gone.iter().for_each(|(i, j)| pitted.heights_mut()[[20 + i, 20 + j]] = f64::NAN);
+        let mut expected: Vec<_> = deep.iter().chain(&gone).map(|(i, j)| (20 + i, 20 + j)).collect();
+        expected.sort_unstable();
+        assert_eq!(undefined(&pitted.despike(8.0).unwrap()), expected);
     }
 }
