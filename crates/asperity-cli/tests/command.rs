@@ -57,6 +57,34 @@ fn a_surface_is_prepared_alike_for_a_look_and_for_a_file() {
 }
 
 #[test]
+fn a_pitch_is_printed_with_the_digits_that_a_case_needs_to_match_it() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    for pitch in ["0.123456789123um", "1.333333333333um,0.4um", "2um"] {
+        let made = format!(
+            "surface generate sphere --radius 2mm --shape 12x10 --pitch {pitch} --out ball.x3p --overwrite"
+        );
+        ok(&at(&made));
+        let info = ok(&at("surface info ball.x3p"));
+        let row = info.lines().find(|line| line.starts_with("pitch")).unwrap();
+        let (x, y) = row.trim_start_matches("pitch").split_once('×').unwrap();
+        let case = |made: &str| {
+            let body = |name: &str, topography: &str| {
+                format!("[{name}]\nyoung = 210e9\npoisson = 0.3\ntopography = {{ {topography} }}\n")
+            };
+            let form = body("upper", &format!("form = \"flat\"{made}"));
+            format!("{}{form}[contact]\nload = 1e-3\n", body("lower", "file = \"ball.x3p\""))
+        };
+        let typed = format!(", shape = [12, 10], pitch = [\"{}\", \"{}\"]", x.trim(), y.trim());
+        // As typed, and left to be taken from the file.
+        for made in [typed.as_str(), ""] {
+            fs::write(folder.path().join("case.toml"), case(made)).unwrap();
+            ok(&at("check case.toml"));
+        }
+    }
+}
+
+#[test]
 fn a_case_beyond_the_memory_ends_before_any_work() {
     let folder = folder();
     let body = |name: &str| {

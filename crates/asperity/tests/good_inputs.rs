@@ -6,12 +6,15 @@ use asperity::Grid;
 use asperity::io::case::{
     Boundary, Case, ControlKind, Course, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
 };
+use asperity::io::identity;
+use asperity::io::outlook::demand;
 use asperity::io::prepare::bodies;
+use asperity::io::topography::x3p;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
-    Interpolation, Level, LowPass, Preparation, Resample, SelfAffine,
+    Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
 };
 
 #[test]
@@ -36,7 +39,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!((lower.preparation, lower.pitch), (preparation, None));
     let upper = &case.upper.topography;
     let generate = Generator::LowPass(LowPass::new(0.2e-6, [8e-6; 2]));
-    assert_eq!(upper.source, Source::Generate { generate, shape: [256, 256], seed: 7 });
+    assert_eq!(upper.source, Source::Generate { generate, shape: Some([256, 256]), seed: 7 });
     assert_eq!(upper.pitch, Some([0.5e-6; 2]));
     assert_eq!(case.contact.prescribed, Prescribed::Load(2.0));
     let motion = case.motion(1.0).unwrap();
@@ -145,6 +148,54 @@ fn topographies_are_added_in_the_order_of_the_file() {
         sum = sum.plus(&layer.on(&grid).unwrap()).unwrap();
     }
     assert_eq!(heights, sum.underside().into_heights());
+}
+
+#[test]
+fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_as_prepared() {
+    let made = bodies(&load("as_the_other")).unwrap();
+    let grid = Grid::new([48, 32], [1e-6, 0.7e-6]).unwrap();
+    assert_eq!([&made.lower, &made.upper].map(|body| *body.topography.grid()), [grid; 2]);
+    let low_pass = LowPass::new(20e-9, [8e-6; 2]);
+    assert_eq!(made.lower.topography.heights(), low_pass.generate(&grid, 0).unwrap().heights());
+
+    // A measured one whose pitch has more digits than a text shows, averaged, cut and turned over, on either side.
+    let folder = tempfile::tempdir().unwrap();
+    let heights = LowPass::new(50e-9, [9e-6; 2]);
+    let measured = Grid::new([60, 44], [0.123456789123e-6, 0.3e-6]).unwrap();
+    let heights = heights.generate(&Grid::new([60, 44], [1e-6; 2]).unwrap(), 3).unwrap().into_heights();
+    let measured = Topography::new(measured, heights).unwrap();
+    x3p::write(&folder.path().join("disc.x3p"), measured.grid(), measured.heights()).unwrap();
+    let file = "topography = { file = \"disc.x3p\", window = [4, 2, 56, 40], resample = [28, 40] }";
+    for [lower, upper] in [[file, "MADE"], ["MADE", file]] {
+        let body = |name: &str, topography: &str| {
+            format!("[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\n{topography}\n")
+        };
+        let case = |made: &str| {
+            let text = format!("{}{}[contact]\nload = 1\n", body("lower", lower), body("upper", upper));
+            let text =
+                text.replace("MADE", &format!("topography = {{ form = \"sphere\", radius = 1e-3{made} }}"));
+            Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap()
+        };
+        let short = case("");
+        let long = case(", shape = [28, 40], pitch = [0.246913578246e-6, 0.3e-6]");
+        let [found, expected] = [&short, &long].map(|case| bodies(case).unwrap());
+        for (a, b) in [(&found.lower, &expected.lower), (&found.upper, &expected.upper)] {
+            let pitches = [a, b].map(|body| body.topography.grid().pitch);
+            assert!((0..2).all(|axis| (pitches[0][axis] / pitches[1][axis] - 1.0).abs() < 1e-12));
+            assert_eq!(a.topography.grid().shape, [28, 40]);
+            let difference = a.topography.heights() - b.topography.heights();
+            assert!(difference.iter().all(|e| e.abs() < 1e-12 * 1e-6));
+        }
+        // The case as resolved has what was taken, and comes to the same.
+        let resolved = identity::resolved(&short, &found);
+        let name = if lower == file { "upper" } else { "lower" };
+        let made = &resolved[name]["topography"];
+        assert_eq!(made["shape"], serde_json::json!([28, 40]));
+        assert_eq!(made["pitch"], serde_json::json!(found.lower.topography.grid().pitch));
+        let again = case(&format!(", shape = {}, pitch = {}", made["shape"], made["pitch"]));
+        assert_eq!(identity::resolved(&again, &bodies(&again).unwrap())["identity"], resolved["identity"]);
+        assert_eq!(demand(&short, 1).unwrap().memory, demand(&long, 1).unwrap().memory);
+    }
 }
 
 #[test]

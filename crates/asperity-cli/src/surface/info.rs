@@ -1,5 +1,6 @@
 //! `asperity surface info`.
 
+use asperity::io::prepare::exact_pitch;
 use asperity::io::topography;
 use asperity::surface::{GreenwoodWilliamson, Parameter, Unit};
 use asperity::units::Multiple;
@@ -87,7 +88,8 @@ fn about_file(table: &mut Table, file: &Read) {
     }
     table.words("shape", format!("{} × {}", grid.shape[0], grid.shape[1]), "samples along x and y");
     let none = || "– (the file has none: --pitch)".to_owned();
-    table.words("pitch", file.pitch.map_or_else(none, both), "");
+    let pitch = file.pitch.map_or_else(none, |[x, y]| format!("{} × {}", exact_pitch(x), exact_pitch(y)));
+    table.words("pitch", pitch, "");
     table.words("extent", file.pitch.map_or_else(|| "–".to_owned(), |_| both(grid.extent())), "");
     if file.scan.unit != topography::Unit::Known {
         table.words("unit", "m (the file has none: --unit)", "");

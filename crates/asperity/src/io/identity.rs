@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::case::{Case, Source};
@@ -12,15 +12,21 @@ use crate::error::{Error, Result};
 /// Keys of a surface file in a case.
 const FILES: [&str; 2] = ["/lower/topography", "/upper/topography"];
 
-/// What `case.json` holds: the case resolved to SI, the SHA-256 of each surface file beside its name, and under
+/// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each surface file beside its name, and under
 /// `identity` the digest of all that decides the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let specs = [&case.lower.topography, &case.upper.topography];
-    for ((key, spec), body) in FILES.iter().zip(specs).zip([&bodies.lower, &bodies.upper]) {
+    let grids = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
+    for (n, body) in [&bodies.lower, &bodies.upper].into_iter().enumerate() {
+        let (key, spec, other) = (FILES[n], specs[n], grids[1 - n]);
+        let topography = resolved.pointer_mut(key).expect("a body has a topography");
+        for lacking in spec.lacks() {
+            topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
+        }
         let digest = body.origin.as_ref().map(|origin| origin.sha256.clone());
         if let (Source::File { .. }, Some(digest)) = (&spec.source, digest) {
-            resolved.pointer_mut(key).expect("a body has a topography")["sha256"] = digest.into();
+            topography["sha256"] = digest.into();
         }
     }
     resolved["identity"] = of(&resolved).into();
@@ -102,8 +108,6 @@ fn difference(path: &str, before: &Value, now: &Value) -> Option<(String, [Strin
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     #[test]

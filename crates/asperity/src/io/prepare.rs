@@ -12,7 +12,7 @@ use crate::surface::{Findings, Preparation, Resample, Topography};
 use crate::units::{self, Dimension, Metre};
 
 /// Relative difference up to which two pitches are one.
-const SAME: f64 = 1e-9;
+const SAME_PITCH: f64 = 1e-9;
 
 /// The two surfaces of a case, on one pitch, which is the same to the last bit, and one width.
 #[derive(Debug, Clone)]
@@ -58,8 +58,8 @@ pub struct Origin {
 /// missing heights that nothing fills, and surfaces that do not fit together. They must have one pitch and one number
 /// of cells along y; where nothing moves, and where both are shifted, also along x.
 pub fn bodies(case: &Case) -> Result<Bodies> {
-    let lower = prepared(case, "lower", &case.lower)?;
-    let mut upper = prepared(case, "upper", &case.upper)?;
+    let grid_of = |body: &Prepared| *body.topography.grid();
+    let [lower, mut upper] = in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other))?;
     let fit = Fit { case, bodies: [&lower, &upper] };
     fit.check_pitches()?;
     let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
@@ -75,10 +75,27 @@ pub fn bodies(case: &Case) -> Result<Bodies> {
 /// # Errors
 /// [`Error::Case`] as of [`bodies`], for files and for steps of the preparation that have no meaning on their grid.
 pub fn grids(case: &Case) -> Result<[Grid; 2]> {
-    Ok([grid(case, "lower", &case.lower)?, grid(case, "upper", &case.upper)?])
+    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other))
 }
 
-fn grid(case: &Case, name: &str, body: &Body) -> Result<Grid> {
+/// What is made of both bodies, in the second place of the one that takes its shape or pitch from the other.
+fn in_turn<T>(
+    case: &Case,
+    grid_of: impl Fn(&T) -> Grid,
+    make: impl Fn(&str, &Body, Option<Grid>) -> Result<T>,
+) -> Result<[T; 2]> {
+    if case.lower.topography.lacks().next().is_some() {
+        let upper = make("upper", &case.upper, None)?;
+        let lower = make("lower", &case.lower, Some(grid_of(&upper)))?;
+        Ok([lower, upper])
+    } else {
+        let lower = make("lower", &case.lower, None)?;
+        let upper = make("upper", &case.upper, Some(grid_of(&lower)))?;
+        Ok([lower, upper])
+    }
+}
+
+fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Grid> {
     let at = Place { case, body: name };
     let spec = &body.topography;
     let (grid, preparation) = match &spec.source {
@@ -87,29 +104,27 @@ fn grid(case: &Case, name: &str, body: &Body) -> Result<Grid> {
             let (topography, _, preparation) = measured(at, path, scan, sha256, spec)?;
             (*topography.grid(), preparation)
         }
-        Source::Generate { shape, .. } | Source::Form { shape, .. } => {
-            let pitch = spec.pitch.expect("the case has the pitch of what is made");
-            (Grid::new(*shape, pitch).map_err(|error| at.parameter(error))?, spec.preparation)
+        Source::Generate { .. } | Source::Form { .. } => {
+            (spec.made_on(other).map_err(|error| at.parameter(error))?, spec.preparation)
         }
     };
     preparation.grid(grid).map_err(|error| at.preparing(error))
 }
 
-fn prepared(case: &Case, name: &str, body: &Body) -> Result<Prepared> {
+fn prepared(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Prepared> {
     let at = Place { case, body: name };
     let spec = &body.topography;
-    let made =
-        |shape: &[usize; 2]| Grid::new(*shape, spec.pitch.expect("the case has the pitch of what is made"));
+    let made = || spec.made_on(other);
     let (topography, origin, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
             let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
             let (topography, origin, preparation) = measured(at, path, scan, sha256, spec)?;
             (Ok(topography), Some(origin), preparation)
         }
-        Source::Generate { generate, shape, seed } => {
-            (made(shape).and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
+        Source::Generate { generate, seed, .. } => {
+            (made().and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
         }
-        Source::Form { form, shape } => (made(shape).and_then(|grid| form.on(&grid)), None, spec.preparation),
+        Source::Form { form, .. } => (made().and_then(|grid| form.on(&grid)), None, spec.preparation),
     };
     let topography = topography.map_err(|error| at.parameter(error))?;
     let samples =
@@ -341,10 +356,9 @@ impl Fit<'_> {
             );
             return Err(Place { case: self.case, body: name }.error("window", message, Some(hint)));
         }
-        let source = match (&spec.source, &self.bodies[changed].origin) {
-            (Source::Generate { shape, .. } | Source::Form { shape, .. }, _) => *shape,
-            (_, Some(origin)) => origin.shape,
-            (Source::File { .. }, None) => shape,
+        let source = match &self.bodies[changed].origin {
+            Some(origin) => origin.shape,
+            None => spec.source.shape().unwrap_or(shapes[1 - changed]),
         };
         let [x0, y0, nx, ny] = preparation.window.unwrap_or([0, 0, source[0], source[1]]);
         let mut samples = [nx, ny];
@@ -372,26 +386,21 @@ impl Fit<'_> {
 }
 
 fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= SAME * a.abs().max(b.abs())
+    (a - b).abs() <= SAME_PITCH * a.abs().max(b.abs())
 }
 
-/// As a case file has it, to the last digit.
+/// As a case file has it.
 fn quoted(length: Metre) -> String {
-    let short = units::format(length, Dimension::Length);
-    match units::parse(&short, Dimension::Length) {
-        Ok(value) if same(value, length) => format!("\"{}\"", short.replace('µ', "u")),
-        _ => format!("{length:e}"),
-    }
+    format!("\"{}\"", exact_pitch(length).replace('µ', "u"))
 }
 
 fn lengths([x, y]: [Metre; 2]) -> String {
-    // As many digits as it takes to see that two pitches differ.
-    let digits = |length| {
-        let short = units::format(length, Dimension::Length);
-        let exact = units::parse(&short, Dimension::Length).is_ok_and(|value| same(value, length));
-        if exact { short } else { units::format_digits(length, Dimension::Length, 10) }
-    };
-    format!("{} × {}", digits(x), digits(y))
+    format!("{} × {}", exact_pitch(x), exact_pitch(y))
+}
+
+/// A pitch with as many digits as it takes for a body that is given it to fit this one.
+pub fn exact_pitch(pitch: Metre) -> String {
+    units::format_within(pitch, Dimension::Length, 0.1 * SAME_PITCH)
 }
 
 fn by([nx, ny]: [usize; 2]) -> String {

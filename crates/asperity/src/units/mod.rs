@@ -4,7 +4,8 @@ mod quantity;
 mod range;
 
 pub use quantity::{
-    Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number, parse,
+    Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number, format_within,
+    parse,
 };
 pub use range::{MOST_OF_ANY, NUMBERS, Range};
 

@@ -114,6 +114,14 @@ pub fn format_number(value: f64) -> String {
     }
 }
 
+/// [`format()`] with as many digits as it takes, four at least, for [`parse`] to come within the share `within` of the value.
+pub fn format_within(value: f64, dimension: Dimension, within: f64) -> String {
+    let close =
+        |text: &String| parse(text, dimension).is_ok_and(|read| (read - value).abs() <= within * value.abs());
+    let mut texts = (4..17).map(|digits| format_digits(value, dimension, digits));
+    texts.find(close).unwrap_or_else(|| format_digits(value, dimension, 17))
+}
+
 /// [`format()`] with another number of significant digits.
 pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String {
     if dimension == Dimension::Angle {
@@ -454,6 +462,22 @@ fn decimal(value: f64, digits: usize) -> String {
 mod tests {
     use super::Dimension::{Angle, Area, Energy, Force, Length, Pressure, Speed, Time, Volume};
     use super::*;
+
+    #[test]
+    fn as_many_digits_are_written_as_it_takes() {
+        let written = |value| format_within(value, Length, 1e-9);
+        assert_eq!(written(0.5e-6), "0.5 µm");
+        assert_eq!(written(0.81234e-6), "0.81234 µm");
+        assert_eq!(written(0.123456789123e-6), "0.123456789 µm");
+        assert_eq!(written(1e-6 / 6.0), "0.1666666667 µm");
+        assert_eq!(written(0.0), "0 m");
+        arbtest::arbtest(|u| {
+            let value = f64::from(u.int_in_range(1..=i32::MAX)?) * 10f64.powi(u.int_in_range(-20..=-3)?);
+            let error = parse(&written(value), Length).unwrap() / value - 1.0;
+            assert!(error.abs() <= 1e-9, "{value:e}: {}", written(value));
+            Ok(())
+        });
+    }
 
     #[test]
     fn a_quantity_is_the_double_nearest_to_what_is_written() {

@@ -126,6 +126,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let lower = body(&root.required_table("lower")?, folder)?;
     let upper_table = root.required_table("upper")?;
     let upper = body(&upper_table, folder)?;
+    one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     if material::composite_modulus(&lower.material, &upper.material).is_err() {
         let hint = "give one of them a finite 'young'";
         return Err(upper_table
@@ -152,6 +153,26 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     let output = output(root.table("output")?.as_ref())?;
     Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
+}
+
+/// An error if both bodies wait for each other's shape or pitch.
+fn one_tells_the_other(
+    lower: &TopographySpec,
+    upper: &TopographySpec,
+    upper_table: &Table<'_>,
+) -> Result<()> {
+    let (Some(of_lower), Some(of_upper)) = (lower.lacks().last(), upper.lacks().last()) else {
+        return Ok(());
+    };
+    let table = upper_table.required_table("topography")?;
+    let key = upper.lacks().find(|key| lower.lacks().any(|other| other == *key)).unwrap_or(of_upper);
+    let why = match lower.lacks().any(|other| other == key) {
+        true => "and in [lower.topography]: a body takes from the other what it lacks".to_owned(),
+        false => format!("from which [lower.topography] takes its '{of_lower}'"),
+    };
+    let example = if key == "shape" { "[256, 256]" } else { "\"0.5 um\"" };
+    let hint = format!("for example `{key} = {example}`");
+    Err(table.error(format!("missing key '{key}' in {}, {why}", table.name()), Some(hint)))
 }
 
 /// The stages after the first, which only a static contact has.
@@ -211,11 +232,12 @@ fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
         &["file", "generate", "form"],
         "for example `file = \"disc.x3p\"`, `generate = \"low-pass\"` or `form = \"sphere\"`",
     )?;
-    let (source, pitch) = match kind {
-        "file" => (file(table, folder)?, table.get("pitch").map(|entry| lengths(&entry)).transpose()?),
-        "generate" => (generate(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
-        _ => (form(table)?, Some(lengths(&table.required("pitch", "\"0.5 um\"")?)?)),
+    let source = match kind {
+        "file" => file(table, folder)?,
+        "generate" => generate(table)?,
+        _ => form(table)?,
     };
+    let pitch = table.get("pitch").map(|entry| lengths(&entry)).transpose()?;
     let plus = table.get("plus").map(|entry| layers(&entry)).transpose()?.unwrap_or_default();
     Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
 }
@@ -306,12 +328,12 @@ fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {
 
 fn generate(table: &Table<'_>) -> Result<Source> {
     let (generate, seed) = (generator(table)?, seed(table)?);
-    Ok(Source::Generate { generate, shape: shape(&table.required("shape", "[256, 256]")?)?, seed })
+    Ok(Source::Generate { generate, shape: table.get("shape").map(|entry| shape(&entry)).transpose()?, seed })
 }
 
 fn form(table: &Table<'_>) -> Result<Source> {
     let form = ideal_form(table)?;
-    Ok(Source::Form { form, shape: shape(&table.required("shape", "[256, 256]")?)? })
+    Ok(Source::Form { form, shape: table.get("shape").map(|entry| shape(&entry)).transpose()? })
 }
 
 fn seed(table: &Table<'_>) -> Result<u64> {

@@ -17,8 +17,8 @@ pub struct TopographySpec {
     /// File, generator or form.
     #[serde(flatten)]
     pub source: Source,
-    /// Size of a cell along x and y. It is the pitch of a generated surface, of a form, and of a file that carries
-    /// none (npy, text); to a file that carries one it is resampled.
+    /// Size of a cell along x and y. It is the pitch of a generated surface, of a form (by default the other body's), and of
+    /// a file that carries none (npy, text); to a file that carries one it is resampled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<[Metre; 2]>,
     /// What is done with the heights; `despike` and `fill` belong to files alone.
@@ -50,8 +50,9 @@ pub enum Source {
         /// The method, with its parameters.
         #[serde(flatten)]
         generate: Generator,
-        /// Number of cells along x and y.
-        shape: [usize; 2],
+        /// Number of cells along x and y; the other body's if absent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        shape: Option<[usize; 2]>,
         /// Same seed, same heights.
         seed: u64,
     },
@@ -60,9 +61,43 @@ pub enum Source {
         /// The form, with its parameters.
         #[serde(flatten, serialize_with = "with_infinities")]
         form: Form,
-        /// Number of cells along x and y.
-        shape: [usize; 2],
+        /// Number of cells along x and y; the other body's if absent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        shape: Option<[usize; 2]>,
     },
+}
+
+impl TopographySpec {
+    /// The grid on which a surface is made: what it lacks is that of the `other` body, as prepared.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`].
+    ///
+    /// # Panics
+    /// If the other body does not tell either.
+    pub(in crate::io) fn made_on(&self, other: Option<Grid>) -> crate::error::Result<Grid> {
+        let shape =
+            self.source.shape().or(other.map(|grid| grid.shape)).expect("one of the bodies has a shape");
+        let pitch = self.pitch.or(other.map(|grid| grid.pitch)).expect("one of the bodies has a pitch");
+        Grid::new(shape, pitch)
+    }
+
+    /// The keys that a surface that is made takes from the other body.
+    pub(in crate::io) fn lacks(&self) -> impl Iterator<Item = &'static str> {
+        let is_made = !matches!(self.source, Source::File { .. });
+        let keys = [("shape", self.source.shape().is_none()), ("pitch", self.pitch.is_none())];
+        keys.into_iter().filter(move |(_, lacks)| is_made && *lacks).map(|(key, _)| key)
+    }
+}
+
+impl Source {
+    /// Number of cells along x and y of what is made, where it is given.
+    pub(in crate::io) fn shape(&self) -> Option<[usize; 2]> {
+        match self {
+            Self::File { .. } => None,
+            Self::Generate { shape, .. } | Self::Form { shape, .. } => *shape,
+        }
+    }
 }
 
 /// Heights that are added: a random topography or a form, made on the grid of what they are added to.

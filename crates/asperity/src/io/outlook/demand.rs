@@ -99,7 +99,7 @@ impl Sizes<'_> {
 
     /// Cells that the making of each surface takes, and fields on them.
     fn making(&self) -> [[f64; 2]; 2] {
-        let making = |body: &Body, grid: &Grid| {
+        let making = |body: &Body, grid: &Grid, other: &Grid| {
             let cells = grid.shape[0] as f64 * grid.shape[1] as f64;
             let layers = body.topography.plus.iter().map(|layer| match layer {
                 Layer::Generate { generate, .. } => generate.cells(grid),
@@ -107,15 +107,20 @@ impl Sizes<'_> {
             });
             match &body.topography.source {
                 // A spectrum, noise, heights.
-                Source::Generate { generate, shape, .. } => {
-                    let made = Grid { shape: *shape, pitch: body.topography.pitch.unwrap_or(grid.pitch) };
-                    [layers.fold(generate.cells(&made), f64::max), 3.0]
+                Source::Generate { generate, .. } => {
+                    let cells =
+                        body.topography.made_on(Some(*other)).map_or(cells, |grid| generate.cells(&grid));
+                    [layers.fold(cells, f64::max), 3.0]
                 }
                 Source::File { .. } => [layers.fold(cells, f64::max), 3.0],
-                Source::Form { shape, .. } => [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0],
+                Source::Form { shape, .. } => {
+                    let shape = shape.unwrap_or(other.shape);
+                    [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0]
+                }
             }
         };
-        [making(&self.case.lower, &self.lower), making(&self.case.upper, &self.upper)]
+        let Self { case, lower, upper, .. } = self;
+        [making(&case.lower, lower, upper), making(&case.upper, upper, lower)]
     }
 
     fn surfaces(&self) -> Surfaces {
