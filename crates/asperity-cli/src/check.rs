@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use asperity::io::case::{Boundary, Case, Course, Method, Mount, Side};
+use asperity::io::case::{Boundary, Case, Course, Edge, Method, Mount, Side};
 use asperity::io::outlook::{Demand, Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
@@ -110,9 +110,13 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
         Control::StepLoad(load) => format!("load {}", force(load)),
         Control::Approach(approach) => format!("approach {}", units::format(approach, Dimension::Length)),
     };
+    let name = |edge| match edge {
+        Edge::Free => "free",
+        Edge::Periodic => "periodic",
+    };
     let boundary = match case.contact.boundary {
-        Boundary::Free => "free boundary",
-        Boundary::Periodic => "periodic boundary",
+        Boundary([edge, same]) if edge == same => format!("{} boundary", name(edge)),
+        Boundary([x, y]) => format!("boundary {} along x, {} along y", name(x), name(y)),
     };
     let method = match case.contact.method {
         Method::Auto => "auto",

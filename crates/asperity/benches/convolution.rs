@@ -38,12 +38,12 @@ fn periodic_single(bencher: divan::Bencher, side: usize) {
 /// Three tractions in, three displacements out, of two dissimilar bodies.
 #[divan::bench(args = SIDES)]
 fn free_coupled(bencher: divan::Bencher, side: usize) {
-    measure_coupled(bencher, Boundary::Free, side);
+    measure_coupled(bencher, Boundary::FREE, side);
 }
 
 #[divan::bench(args = SIDES)]
 fn periodic_coupled(bencher: divan::Bencher, side: usize) {
-    measure_coupled(bencher, Boundary::Periodic, side);
+    measure_coupled(bencher, Boundary::PERIODIC, side);
 }
 
 fn square(side: usize) -> Grid {
@@ -65,9 +65,10 @@ fn measure_single(bencher: divan::Bencher, operator: &mut dyn Operator) {
 }
 
 fn measure_coupled(bencher: divan::Bencher, boundary: Boundary, side: usize) {
-    let Grid { shape, pitch } = square(side);
+    let grid = square(side);
+    let shape = grid.shape;
     let compliances = Compliances { normal: 1.0, lateral: 0.4, coupling: 0.2 };
-    let mut operator = Operators::new(pitch, compliances, boundary).coupled_on(shape);
+    let mut operator = Operators::new(grid, compliances, boundary).coupled_on(shape);
     let traction: [Field; 3] =
         std::array::from_fn(|n| Field::from_shape_fn(shape, |(i, j)| ((i * j + n) % 7) as f64));
     let mut displacement: [Field; 3] = std::array::from_fn(|_| Field::zeros(shape));

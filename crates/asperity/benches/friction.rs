@@ -15,12 +15,12 @@ fn main() {
 
 #[divan::bench(args = PRESSURES)]
 fn free(bencher: divan::Bencher, pressure: f64) {
-    measure(bencher, Boundary::Free, pressure);
+    measure(bencher, Boundary::FREE, pressure);
 }
 
 #[divan::bench(args = PRESSURES)]
 fn periodic(bencher: divan::Bencher, pressure: f64) {
-    measure(bencher, Boundary::Periodic, pressure);
+    measure(bencher, Boundary::PERIODIC, pressure);
 }
 
 /// A polymer under steel, μ = 0.3, pushed by half of what friction holds.
@@ -32,7 +32,7 @@ fn measure(bencher: divan::Bencher, boundary: Boundary, pressure: f64) {
     let polymer = Material::elastic(3e9, 0.35).expect("a material");
     let steel = Material::elastic(210e9, 0.3).expect("a material");
     let pair = Compliances::new(&polymer, &steel).expect("a pair");
-    let mut operator = Operators::new(grid.pitch, pair, boundary).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
     let friction = Friction::coulomb(0.3).expect("a coefficient");
     let load = pressure * pair.modulus() * grid.area();
     let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([0.15 * load, 0.0]) };

@@ -38,9 +38,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let start = Instant::now();
     let modulus = number("modulus", 1.0)?;
-    let mut operator: Box<dyn Operator> = match boundary {
-        Boundary::Free => Box::new(FreeFft::new(grid, modulus)),
-        Boundary::Periodic => Box::new(PeriodicFft::new(grid, modulus)),
+    let mut operator: Box<dyn Operator> = if boundary.leaves_mean_free() {
+        Box::new(PeriodicFft::new(grid, modulus))
+    } else {
+        Box::new(FreeFft::new(grid, modulus))
     };
     let setup = start.elapsed().as_secs_f64();
     let solve = |operator: &mut dyn Operator| {

@@ -31,7 +31,7 @@
 //! let pair = Pair::new(lower, upper, [&steel, &steel])?;
 //!
 //! let load = solver::Control::Load(0.3);
-//! let (contact, solution) = press(&pair, Boundary::Free, load, &solver::Params::default())?;
+//! let (contact, solution) = press(&pair, Boundary::FREE, load, &solver::Params::default())?;
 //! assert!(contact.residual < 1e-6 && contact.max_pressure <= 2.8e9);
 //! assert_eq!(solution.contact_cells() as f64 * grid.cell_area(), contact.contact_area);
 //! # Ok::<(), asperity::Error>(())

@@ -56,8 +56,8 @@ fn assert_same(solution: &FrictionalSolution, cell_by_cell: &[[f64; 3]], what: &
 fn forces_and_displacements_are_two_ways_to_say_the_same() {
     let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape).mapv(|h| 0.2 * h);
-    for boundary in [Boundary::Free, Boundary::Periodic] {
-        let mut operator = Operators::new(grid.pitch, dissimilar(), boundary).coupled_on(grid.shape);
+    for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+        let mut operator = Operators::new(grid, dissimilar(), boundary).coupled_on(grid.shape);
         let friction = Friction::coulomb(0.3).unwrap();
         let (mut by_force, mut by_shift): (Option<FrictionalSolution>, Option<FrictionalSolution>) =
             (None, None);
@@ -95,7 +95,7 @@ fn forces_and_displacements_are_two_ways_to_say_the_same() {
 fn identical_bodies_press_as_without_friction() {
     let grid = Grid::new([40, 40], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape).mapv(|h| 0.1 * h);
-    let mut operator = Operators::new(grid.pitch, alike(), Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
     let alone = solve_normal(operator.normal(), &gap, 0.05, Control::Load(5.0), None, &PARAMS).unwrap();
     for tangential in
         [Tangential::Force([0.9, 0.2]), Tangential::Sliding([0.6, 0.8]), Tangential::Displacement([0.3, 0.0])]
@@ -113,7 +113,7 @@ fn identical_bodies_press_as_without_friction() {
 fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
     let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape).mapv(|h| 0.1 * h);
-    let mut operator = Operators::new(grid.pitch, dissimilar(), Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction { shear_strength: 0.02, ..Friction::coulomb(0.5).unwrap() };
     let loading = Loading { normal: Control::Load(5.0), tangential: Tangential::Sliding([1.0, 0.0]) };
     let mut solve = |friction: &Friction, loading| {
@@ -141,7 +141,7 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
     let gap = gap(grid.shape).mapv(|h| 0.2 * h);
     let (hardness, load) = (0.04, 6.0);
     for pair in [alike(), dissimilar()] {
-        let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+        let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
         let friction = |junction_growth| Friction { junction_growth, ..Friction::coulomb(0.4).unwrap() };
         let mut solve = |junction_growth, tangential, before: Option<&FrictionalSolution>| {
             let loading = Loading { normal: Control::Load(load), tangential };
@@ -180,7 +180,7 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
 fn bodies_apart_bear_nothing_and_touch_later() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape);
-    let mut operator = Operators::new(grid.pitch, dissimilar(), Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(0.3).unwrap();
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let mut to = |approach, tangential, before: Option<&FrictionalSolution>| {
@@ -207,7 +207,7 @@ fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
     let gap =
         Field::from_shape_fn(grid.shape, |(i, j)| (i as f64 - middle).powi(2) + (j as f64 - middle).powi(2));
     let pair = pair([0.0, 0.3], [1.0, f64::INFINITY]);
-    let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(100.0).unwrap();
     let mut state: Option<FrictionalSolution> = None;
     for step in 1..=steps {
@@ -235,7 +235,7 @@ fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
 fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape);
-    let mut operator = Operators::new(grid.pitch, alike(), Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
     let mut solve = |force: [f64; 2], coefficient| {
         let loading = Loading { normal: Control::Load(2.0), tangential: Tangential::Force(force) };
         let friction = Friction { coefficient, ..Friction::coulomb(0.0).unwrap() };
@@ -321,7 +321,7 @@ fn a_large_contact_takes_no_more_steps_than_a_small_one() {
             0.5 * (x * x + y * y)
         });
         let pair = dissimilar();
-        let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+        let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
         let loading =
             Loading { normal: Control::Load(0.6 * pair.modulus()), tangential: Tangential::Force([0.0; 2]) };
         let (friction, params) = (Friction::coulomb(0.3).unwrap(), Params::default());

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::io::case::{
-    Boundary, Case, ControlKind, Course, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
+    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source,
+    Sweep,
 };
 use asperity::io::identity;
 use asperity::io::outlook::demand;
@@ -79,13 +80,19 @@ fn what_is_left_out_takes_its_default() {
     assert_eq!(case.lower.topography.preparation, Preparation::default());
     let contact = &case.contact;
     assert_eq!(contact.prescribed, Prescribed::Approach(10e-9));
-    assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::Free, Method::Auto, 1e-6));
+    assert_eq!((contact.boundary, contact.method, contact.tolerance), (Boundary::FREE, Method::Auto, 1e-6));
     assert!(case.motion.is_none() && case.motion(1.0).is_none());
     assert_eq!((case.output.pressure_every, case.output.rim), (8, 0.1));
 
     let motion = load("forms").motion.unwrap();
     assert_eq!((motion.passes, motion.stride, motion.load_tolerance), (1, 1, 1e-4));
     assert_eq!((motion.plastic_update, motion.control), (PlasticUpdate::Pass, ControlKind::Approach));
+}
+
+#[test]
+fn the_boundary_is_one_word_or_one_for_each_axis() {
+    assert_eq!(load("rolling").contact.boundary, Boundary::PERIODIC);
+    assert_eq!(load("line").contact.boundary, Boundary([Edge::Free, Edge::Periodic]));
 }
 
 #[test]
@@ -120,6 +127,8 @@ fn one_length_serves_both_directions_and_two_serve_each() {
     assert_eq!(form, Form::Sinusoid { amplitude: 1e-7, wavelength: [8e-6, f64::INFINITY] });
     let Source::Form { form, .. } = load("forms").upper.topography.source else { panic!() };
     assert_eq!(form, Form::Cylinder { radius: 5e-3, axis: Axis::X });
+    let Source::Form { form, .. } = load("ellipsoid").upper.topography.source else { panic!() };
+    assert_eq!(form, Form::Ellipsoid { radius: [1e-3, 2e-3] });
 }
 
 #[test]

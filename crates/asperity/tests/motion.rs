@@ -142,10 +142,10 @@ fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
 fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
     let slide = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     for (strategy, boundary, update) in [
-        (Strategy::Overlap, Boundary::Free, PlasticUpdate::Pass),
-        (Strategy::Overlap, Boundary::Free, PlasticUpdate::Step),
-        (slide, Boundary::Free, PlasticUpdate::Pass),
-        (slide, Boundary::Periodic, PlasticUpdate::Step),
+        (Strategy::Overlap, Boundary::FREE, PlasticUpdate::Pass),
+        (Strategy::Overlap, Boundary::FREE, PlasticUpdate::Step),
+        (slide, Boundary::FREE, PlasticUpdate::Pass),
+        (slide, Boundary::PERIODIC, PlasticUpdate::Step),
     ] {
         let motion = Motion { strategy, plastic_update: update, ..motion(Control::PassLoad(20.0 * LOAD), 2) };
         let [kept, whole] = [0.2, 0.0].map(|rim| {
@@ -156,11 +156,11 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         let interior = |field: &Field, columns: bool| {
             let (inside, all) = (5..19, 0..24);
             let x = if columns { inside.clone() } else { all.clone() };
-            let y = if boundary == Boundary::Free { inside } else { all };
+            let y = if boundary == Boundary::FREE { inside } else { all };
             field.slice(ndarray::s![x, y]).to_owned()
         };
         let ends =
-            [strategy == Strategy::Overlap || boundary == Boundary::Free, strategy == Strategy::Overlap];
+            [strategy == Strategy::Overlap || boundary == Boundary::FREE, strategy == Strategy::Overlap];
         let (mut before, mut lost_inside) = (rough_pair(24), 0.0);
         for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
             let told = [
@@ -177,7 +177,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
                 );
                 lost_inside += lost;
                 assert_close(&[interior(to, ends[body]).std(0.0)], &[sq], 1e-14, "Sq");
-                assert!(if boundary == Boundary::Periodic { lost == all } else { lost < all });
+                assert!(if boundary == Boundary::PERIODIC { lost == all } else { lost < all });
             }
             before = after.clone();
         }
@@ -185,7 +185,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         for (pass, other) in kept.passes.iter().zip(&whole.passes) {
             let area = mean(&kept.steps_of(pass.pass).map(|s| s.contact_area_interior).collect::<Vec<_>>());
             assert_close(&[area], &[pass.mean_contact_area_interior], 1e-13, "contact area");
-            assert_eq!(area < pass.mean_contact_area, boundary == Boundary::Free);
+            assert_eq!(area < pass.mean_contact_area, boundary == Boundary::FREE);
             let PassRecord {
                 mean_contact_area, plastic_volume_lower, plastic_volume_upper, sq_lower, ..
             } = *other;
@@ -202,7 +202,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
     for rim in [0.5, -0.1, f64::NAN] {
         let simulation = Simulation::new(
             rough_pair(24),
-            Boundary::Free,
+            Boundary::FREE,
             motion(Control::PassLoad(LOAD), 1),
             Params::default(),
         );
@@ -387,7 +387,7 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     let shift = Strategy::Shift { speed_lower: -0.5, speed_upper: 1.0 };
     let mut motions = Vec::new();
     for (strategy, boundary) in
-        [(Strategy::Overlap, Boundary::Free), (shift, Boundary::Free), (shift, Boundary::Periodic)]
+        [(Strategy::Overlap, Boundary::FREE), (shift, Boundary::FREE), (shift, Boundary::PERIODIC)]
     {
         for control in
             [Control::PassLoad(5.0 * LOAD), Control::StepLoad(0.8 * LOAD), Control::Approach(40e-9)]
@@ -448,7 +448,7 @@ fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bit
             let whole = run(rough_pair(24), motion);
             let mut kept = Kept::default();
             let mut simulation =
-                Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default()).unwrap();
+                Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default()).unwrap();
             // A pass has 47 positions, and some trials where its load is sought.
             let mut interrupted = 0;
             while kept.passes.len() < 3 {
@@ -476,7 +476,7 @@ fn an_output_that_fails_ends_the_motion() {
         }
     }
     let motion = Motion { stride: 8, ..motion(Control::StepLoad(0.2 * LOAD), 3) };
-    let mut simulation = Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default()).unwrap();
+    let mut simulation = Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default()).unwrap();
     assert!(matches!(simulation.run(&(), &mut [&mut Full]), Err(Error::Unsupported("no space left"))));
 }
 
@@ -492,7 +492,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
     let tried = |load: f64| {
         let motion = Motion { control: Control::PassLoad(load), ..step };
         let mut kept = Kept::default();
-        let mut simulation = Simulation::new(pair(), Boundary::Free, motion, Params::default()).unwrap();
+        let mut simulation = Simulation::new(pair(), Boundary::FREE, motion, Params::default()).unwrap();
         simulation.run(&(), &mut [&mut kept]).map(|()| kept)
     };
     let Err(Error::BeyondPass { load, most, approach, cause }) = tried(0.9 * limit) else {
@@ -523,7 +523,7 @@ fn periodic_bodies_share_a_load_up_to_full_contact() {
         let motion = Motion { strategy: sliding, stride: 4, ..motion(Control::PassLoad(load), 1) };
         let mut kept = Kept::default();
         let mut simulation =
-            Simulation::new(periodic_pair(), Boundary::Periodic, motion, Params::default()).unwrap();
+            Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
         simulation.run(&(), &mut [&mut kept]).map(|()| kept)
     };
     let Err(Error::BeyondPass { most, approach, cause: LoadLimit::FullContact, .. }) = tried(100.0) else {
@@ -558,7 +558,7 @@ fn a_load_beyond_the_plastic_limit_is_refused_with_the_limit() {
         let expected = HARDNESS * PITCH * PITCH * 24.0 * columns;
         let simulation = |load: f64| {
             let motion = Motion { strategy, ..motion(control(load), 1) };
-            Simulation::new(rough_pair(24), Boundary::Free, motion, Params::default())
+            Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default())
         };
         match simulation(1.001 * expected).map(|_| ()) {
             Err(Error::BeyondPlasticLimit { load, limit }) => {
@@ -576,7 +576,7 @@ fn a_motion_without_meaning_is_refused() {
     let refused = |motion: Motion, boundary: Boundary, pair: Pair| {
         Simulation::new(pair, boundary, motion, Params::default()).map(|_| ()).unwrap_err().to_string()
     };
-    let free = |motion| refused(motion, Boundary::Free, rough_pair(24));
+    let free = |motion| refused(motion, Boundary::FREE, rough_pair(24));
     assert!(free(Motion { passes: 0, ..good }).starts_with("passes is 0"));
     assert!(free(Motion { stride: 0, ..good }).starts_with("stride is 0"));
     assert!(free(Motion { load_tolerance: 0.0, ..good }).starts_with("load_tolerance is 0"));
@@ -587,11 +587,11 @@ fn a_motion_without_meaning_is_refused() {
     assert!(free(Motion { control: Control::Approach(f64::NAN), ..good }).starts_with("approach is NaN"));
     let still = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.0 };
     assert!(free(Motion { strategy: still, ..good }).starts_with("speed is 0"));
-    let periodic = refused(good, Boundary::Periodic, rough_pair(24));
+    let periodic = refused(good, Boundary::PERIODIC, rough_pair(24));
     assert!(periodic.contains("its boundary is free"), "{periodic}");
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let unequal = steel_pair(surface([24, 24], 1), surface([20, 24], 2));
-    let unequal = refused(Motion { strategy: sliding, ..good }, Boundary::Free, unequal);
+    let unequal = refused(Motion { strategy: sliding, ..good }, Boundary::FREE, unequal);
     assert!(unequal.contains("24 cells along x and 20 cells along x differ"), "{unequal}");
 }
 
@@ -600,7 +600,7 @@ fn an_approach_that_closes_a_periodic_gap_is_refused_during_the_pass() {
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let motion = Motion { strategy: sliding, ..motion(Control::Approach(1e-6), 1) };
     let mut simulation =
-        Simulation::new(periodic_pair(), Boundary::Periodic, motion, Params::default()).unwrap();
+        Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
     let ended = simulation.run(&(), &mut []);
     match ended {
         Err(Error::AtPosition { pass: 1, position, positions: 32, source }) => {
@@ -654,7 +654,7 @@ fn periodic_pair() -> Pair {
 fn periodic_loads(strategy: Strategy) -> Vec<f64> {
     let motion = Motion { strategy, ..motion(Control::Approach(-70e-9), 1) };
     let params = Params { tolerance: 1e-8, ..Params::default() };
-    let simulation = Simulation::new(periodic_pair(), Boundary::Periodic, motion, params).unwrap();
+    let simulation = Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, params).unwrap();
     let loads = continued(simulation).loads_of(1);
     assert!(loads[0] > 0.0);
     loads
@@ -725,7 +725,7 @@ impl Output for Kept {
 }
 
 fn run(pair: Pair, motion: Motion) -> Kept {
-    continued(Simulation::new(pair, Boundary::Free, motion, Params::default()).unwrap())
+    continued(Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap())
 }
 
 fn continued(mut simulation: Simulation) -> Kept {

@@ -79,7 +79,7 @@ impl Output for Keep {
 
 fn run(pair: Pair, motion: Motion, method: Method) -> (Keep, Pair) {
     let mut kept = Keep::default();
-    let mut simulation = Simulation::new(pair, Boundary::Free, motion, params(method)).unwrap();
+    let mut simulation = Simulation::new(pair, Boundary::FREE, motion, params(method)).unwrap();
     simulation.run(&(), &mut [&mut kept]).unwrap();
     let pair = simulation.pair().clone();
     (kept, pair)

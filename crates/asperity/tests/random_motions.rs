@@ -8,7 +8,7 @@ use asperity::motion::{
     Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation, StepRecord,
     Strategy,
 };
-use asperity::operator::{Boundary, CoupledOperator, Operators};
+use asperity::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity::solver::{
     self, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
 };
@@ -62,7 +62,8 @@ impl Case {
             _ => Strategy::Shift { speed_lower: -0.5, speed_upper: 1.0 },
         };
         let overlap = strategy == Strategy::Overlap;
-        let boundary = if !overlap && pick(rng, 2) == 0 { Boundary::Periodic } else { Boundary::Free };
+        let edges = [0, 1].map(|_| [Edge::Free, Edge::Periodic][pick(rng, 2)]);
+        let boundary = Boundary(if overlap { [Edge::Free, edges[1]] } else { edges });
         let long = rng.random_range(5..15);
         let columns = [long, if overlap { rng.random_range(4..15) } else { long }];
         let width = rng.random_range(1..9);
@@ -168,7 +169,7 @@ fn check(case: &Case, index: u64, tally: &mut Tally) {
                 }
                 LoadLimit::FullContact => {
                     tally.full += 1;
-                    assert_eq!(case.boundary, Boundary::Periodic, "{}", what());
+                    assert_eq!(case.boundary, Boundary::PERIODIC, "{}", what());
                 }
             }
         }
@@ -204,7 +205,11 @@ fn hold(
         assert!(missed <= case.motion.load_tolerance.max(100.0 * case.tolerance), "{missed:e}, {}", what());
         assert!(steps.iter().all(|step| step.approach == steps[0].approach), "{}", what());
     }
-    let operators = Operators::new(before.pitch(), *before.compliances(), case.boundary);
+    let operators = Operators::new(
+        before.grid(case.columns[0].min(case.columns[1])),
+        *before.compliances(),
+        case.boundary,
+    );
     let positions = case.motion.strategy.positions(case.columns[0], case.columns[1], case.motion.stride);
     let mut now = before.clone();
     let mut deepest = [Field::zeros(now.lower.raw_dim()), Field::zeros(now.upper.raw_dim())];

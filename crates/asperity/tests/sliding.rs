@@ -17,7 +17,7 @@ const LOAD: f64 = 10e-3;
 fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
     let pair = pair([20e9, 210e9], |z| z);
     let friction = Friction { shear_strength: 400e6, ..Friction::coulomb(0.3).unwrap() };
-    let operators = Operators::new(pair.pitch(), *pair.compliances(), Boundary::Free);
+    let operators = Operators::new(pair.lower_grid(), *pair.compliances(), Boundary::FREE);
     for control in [Control::PassLoad(LOAD), Control::StepLoad(LOAD)] {
         let kept = slide(pair.clone(), Strategy::Overlap, control, Some(friction));
         assert_eq!(kept.len(), 13, "offsets of −18, −15, … 18 columns");
@@ -111,6 +111,6 @@ fn slide(pair: Pair, strategy: Strategy, control: Control, friction: Option<Fric
         friction,
     };
     let mut kept = Kept(Vec::new());
-    Simulation::new(pair, Boundary::Free, motion, PARAMS).unwrap().run(&(), &mut [&mut kept]).unwrap();
+    Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap().run(&(), &mut [&mut kept]).unwrap();
     kept.0
 }

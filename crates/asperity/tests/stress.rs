@@ -42,8 +42,9 @@ fn stress(seeds: impl Iterator<Item = u64>) {
                 }
                 let flat = Field::from_elem(gap.raw_dim(), mean);
                 for (start, worst) in [(None, &mut cascade), (Some(&flat), &mut uniform)] {
-                    let boundary = if operator.periodic() { "periodic" } else { "free" };
-                    let case = format!("seed {seed}, {boundary}, hardness {hardness}, mean pressure {mean}");
+                    let boundary = operator.boundary();
+                    let case =
+                        format!("seed {seed}, {boundary:?}, hardness {hardness}, mean pressure {mean}");
                     let params =
                         Params { method: Method::ActiveSet, tolerance: TOLERANCE, max_convolutions: 300 };
                     let load = Control::Load(mean * grid.area());

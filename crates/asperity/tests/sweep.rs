@@ -60,7 +60,7 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     for n in 0..24 {
         let hardness = if n % 2 == 0 { f64::INFINITY } else { random.random_range(2e9..6e9) };
-        let boundary = if n % 4 < 2 { Boundary::Free } else { Boundary::Periodic };
+        let boundary = if n % 4 < 2 { Boundary::FREE } else { Boundary::PERIODIC };
         let shape = [random.random_range(12..80), random.random_range(12..80)];
         let pair = rough(shape, hardness, n);
         let full = pair.lower_grid().area() * 3e9;
@@ -105,7 +105,7 @@ fn the_stiffness_is_the_slope_of_the_load_over_the_approach() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
     for n in 0..16 {
         let hardness = if n % 2 == 0 { f64::INFINITY } else { random.random_range(2e9..5e9) };
-        let boundary = if n % 4 < 2 { Boundary::Free } else { Boundary::Periodic };
+        let boundary = if n % 4 < 2 { Boundary::FREE } else { Boundary::PERIODIC };
         let pair = rough([random.random_range(24..64), random.random_range(24..64)], hardness, 100 + n);
         let load = pair.lower_grid().area() * 3e9 * 10f64.powf(random.random_range(-2.5..-0.7));
         let points = [0.998, 1.0, 1.002].map(|share| at(Control::Load(share * load)));
@@ -118,7 +118,7 @@ fn the_stiffness_is_the_slope_of_the_load_over_the_approach() {
         let change = (ends[1] - ends[0]).abs() + 1e-5 * stiffness;
         assert!((slope - stiffness).abs() <= change, "{n}: {slope:e} {stiffness:e} {ends:?}");
         assert!(change < 0.1 * stiffness, "{n}: {ends:?}");
-        if boundary == Boundary::Periodic && hardness.is_infinite() {
+        if boundary == Boundary::PERIODIC && hardness.is_infinite() {
             // The mean displacement is 0: approach and mean gap are one.
             let of_gap = (more.load - less.load) / (less.mean_gap - more.mean_gap);
             assert!((of_gap / slope - 1.0).abs() < 1e-6, "{of_gap} {slope}");
@@ -135,7 +135,7 @@ fn the_stiffness_of_a_ball_is_that_of_hertz() {
         let pair = ball(cells, pitch);
         let loads = [0.2, 1.0, 0.5];
         let (records, _) =
-            swept(&pair, Boundary::Free, &loads.map(|load| at(Control::Load(load))), &Params::default());
+            swept(&pair, Boundary::FREE, &loads.map(|load| at(Control::Load(load))), &Params::default());
         let error = records.iter().zip(loads).map(|(record, load)| {
             let contact_radius = (0.75 * load * radius / modulus).cbrt();
             (record.stiffness.unwrap() / (2.0 * modulus * contact_radius) - 1.0).abs()
@@ -152,7 +152,7 @@ fn what_does_not_touch_has_no_stiffness_and_what_closes_a_period_gives_nowhere()
     let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let full = pair.lower_grid().area() * 1e12;
     let points = [Control::Approach(touch - 1e-9), Control::Load(full)].map(at);
-    let (records, _) = swept(&pair, Boundary::Periodic, &points, &Params::default());
+    let (records, _) = swept(&pair, Boundary::PERIODIC, &points, &Params::default());
     assert_eq!((records[0].load, records[0].stiffness), (0.0, Some(0.0)));
     assert_eq!((records[1].contact_fraction, records[1].stiffness), (1.0, None));
 }
@@ -165,9 +165,9 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling) });
     let params = Params { tolerance: 1e-4, ..Params::default() };
     let (records, _) =
-        sweep(&pair, Boundary::Free, Some(&friction), &points, &params, Vec::new(), &(), &mut ()).unwrap();
+        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut ()).unwrap();
     for (record, point) in records.iter().zip(&points) {
-        let alone = roll(&pair, Boundary::Free, &friction, point.control, rolling, &params).unwrap().record;
+        let alone = roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params).unwrap().record;
         let shear = alone.shear.unwrap();
         assert_eq!([record.tangential_force_x, record.tangential_force_y], shear.tangential_force);
         assert_eq!((record.stick_area, record.max_shear), (shear.stick_area, shear.max_shear));
@@ -181,10 +181,10 @@ fn a_point_without_an_answer_is_named() {
     let pair = rough([16, 16], 1e9, 1);
     let limit = pair.lower_grid().area() * 1e9;
     let points = [0.1, 1.1, 0.2].map(|share| at(Control::Load(share * limit)));
-    let error = sweep(&pair, Boundary::Free, None, &points, &FINE, Vec::new(), &(), &mut ()).unwrap_err();
+    let error = sweep(&pair, Boundary::FREE, None, &points, &FINE, Vec::new(), &(), &mut ()).unwrap_err();
     assert!(error.to_string().starts_with("point 2 of 3: load"), "{error}");
     assert!(matches!(
-        sweep(&pair, Boundary::Free, None, &[], &FINE, Vec::new(), &(), &mut ()),
+        sweep(&pair, Boundary::FREE, None, &[], &FINE, Vec::new(), &(), &mut ()),
         Err(Error::Unsupported(_))
     ));
 }

@@ -98,6 +98,14 @@ pub(crate) enum Source {
         #[command(flatten)]
         target: Target,
     },
+    /// Form: an ellipsoid, its apex in the centre at height 0
+    Ellipsoid {
+        /// Principal radii of curvature, in the planes along x and along y: 1mm,2mm
+        #[arg(long, value_name = "LENGTH,LENGTH", value_parser = lengths)]
+        radius: Pair,
+        #[command(flatten)]
+        target: Target,
+    },
     /// Form: a cylinder
     Cylinder {
         /// Radius of curvature
@@ -241,6 +249,9 @@ impl Source {
                 (Recipe::Random(Generator::SelfAffine(method), seed.seed), target)
             }
             Self::Sphere { radius, target } => (Recipe::Form(Form::Sphere { radius }), target),
+            Self::Ellipsoid { radius, target } => {
+                (Recipe::Form(Form::Ellipsoid { radius: radius.0 }), target)
+            }
             Self::Cylinder { radius, axis, target } => {
                 (Recipe::Form(Form::Cylinder { radius, axis }), target)
             }

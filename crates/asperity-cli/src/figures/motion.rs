@@ -189,16 +189,14 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
         return Ok(None);
     }
     let [below, above] = results.surfaces_after(step.pass - 1)?;
-    let boundary = match case["contact"]["boundary"].as_str() {
-        Some("free") => Boundary::Free,
-        Some("periodic") => Boundary::Periodic,
-        _ => return Ok(None),
+    let Ok(boundary) = serde_json::from_value::<Boundary>(case["contact"]["boundary"].clone()) else {
+        return Ok(None);
     };
     let shape = pressure.grid.shape;
+    let columns = below.heights().nrows().min(above.heights().nrows());
+    let largest = Grid { shape: [columns, shape[1]], ..pressure.grid };
     let mut displacement = Field::zeros(shape);
-    Operators::new(pressure.grid.pitch, compliances, boundary)
-        .on(shape)
-        .apply(&pressure.field, &mut displacement);
+    Operators::new(largest, compliances, boundary).on(shape).apply(&pressure.field, &mut displacement);
     let offset = (step.offset / pressure.grid.pitch[0]).round() as isize;
     let facing = |body: &Topography, first: isize| {
         let columns = body.heights().nrows() as isize;

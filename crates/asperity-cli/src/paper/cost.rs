@@ -219,7 +219,7 @@ impl Task {
     fn new(work: Work, side: usize) -> asperity::Result<Self> {
         let pair = pair(side)?;
         let gap = &pair.upper - &pair.lower;
-        let operators = Operators::new(pair.pitch(), *pair.compliances(), Boundary::Free);
+        let operators = Operators::new(pair.lower_grid(), *pair.compliances(), Boundary::FREE);
         let load = Control::Load(PRESSURE * pair.modulus() * pair.lower_grid().area());
         let mut operator = operators.on([side; 2]);
         let full = solve_normal(operator.as_mut(), &gap, f64::INFINITY, load, None, &Params::default())?;

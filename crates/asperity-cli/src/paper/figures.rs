@@ -155,7 +155,7 @@ fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
     };
     bar.set_message(format!("figure 10: {PASSES} passes of {} positions", 2 * SIDE - 1));
     let mut kept = Keep(Vec::new());
-    Simulation::new(pair, Boundary::Free, motion, Params::default())?.run(&(), &mut [&mut kept])?;
+    Simulation::new(pair, Boundary::FREE, motion, Params::default())?.run(&(), &mut [&mut kept])?;
     Ok(kept.0)
 }
 

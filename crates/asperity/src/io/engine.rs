@@ -158,7 +158,7 @@ fn rest(
             writer.begin()?;
             writer.write_static(pair, &solution)?;
             let tractions = Tractions::frictionless(solution.pressure);
-            let outcome = Outcome::Static(record);
+            let outcome = Outcome::Static(Box::new(record));
             return Ok(Rest { outcome, tractions, warnings: Vec::new(), under_way: None });
         }
     };
@@ -168,7 +168,7 @@ fn rest(
         None => review::loaded(&contact),
     };
     let LoadedContact { record, solution, .. } = contact;
-    let outcome = points.map_or(Outcome::Static(record), Outcome::Sweep);
+    let outcome = points.map_or_else(|| Outcome::Static(Box::new(record)), Outcome::Sweep);
     let tractions = match solution {
         Equilibrium::Frictionless(solution) => Tractions::frictionless(solution.pressure),
         Equilibrium::Frictional(solution) => {

@@ -7,7 +7,7 @@ mod plausible;
 pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
-use super::case::{Body, Boundary, Case, Course, Layer, Source, TopographySpec};
+use super::case::{Body, Case, Course, Layer, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -212,11 +212,9 @@ fn warnings(case: &Case, bodies: &Bodies, outlook: &Outlook) -> Vec<String> {
         if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
             tilted(name, body, &mut warnings);
         }
-        let wraps = case.contact.boundary == Boundary::Periodic
-            || matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
-        if wraps {
-            torn(name, body, &mut warnings);
-        }
+        let shifts = matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
+        let wraps = [0, 1].map(|axis| case.contact.boundary.repeats(axis) || (shifts && axis == 0));
+        torn(name, body, wraps, &mut warnings);
     }
     /// Up to here tan and sin of a slope agree to some 5 %.
     const STEEP: f64 = 0.3;
@@ -397,7 +395,14 @@ fn rolling_pressure(case: &Case, outlook: &Outlook) -> Option<Pascal> {
 /// Whether a body is the same wherever it is rolled over, but for what its form changes slowly.
 fn rolls_alike(body: &Body) -> bool {
     let smooth = |form: &Form| {
-        matches!(form, Form::Sphere { .. } | Form::Cylinder { .. } | Form::Cone { .. } | Form::Flat)
+        matches!(
+            form,
+            Form::Sphere { .. }
+                | Form::Ellipsoid { .. }
+                | Form::Cylinder { .. }
+                | Form::Cone { .. }
+                | Form::Flat
+        )
     };
     let TopographySpec { source, plus, .. } = &body.topography;
     matches!(source, Source::Form { form, .. } if smooth(form))
@@ -471,10 +476,10 @@ fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
     }
 }
 
-/// A surface that does not continue over its edge where it is taken to.
-fn torn(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+/// A surface that does not continue over its edge along an axis along which it `wraps`.
+fn torn(name: &str, body: &Prepared, wraps: [bool; 2], warnings: &mut Vec<String>) {
     let heights = body.topography.heights();
-    for axis in 0..2 {
+    for axis in (0..2).filter(|axis| wraps[*axis]) {
         let n = heights.len_of(ndarray::Axis(axis));
         let (first, last) =
             (heights.index_axis(ndarray::Axis(axis), 0), heights.index_axis(ndarray::Axis(axis), n - 1));

@@ -9,7 +9,7 @@ use crate::operator::Boundary;
 /// Of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || &pair.upper - &pair.lower;
-    let rim = (boundary == Boundary::Free).then(|| cut_off(pressure, gap, pair.pitch())).flatten();
+    let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 

@@ -118,7 +118,8 @@ impl Plan {
     /// Memory that the stress takes for each thread, bytes.
     pub fn memory(&self) -> f64 {
         let cells = self.grid.cells() as f64;
-        let padded = if self.boundary == Boundary::Free { 4.0 * cells } else { cells };
+        let padded = self.boundary.padded(self.grid.shape).map(|n| n as f64);
+        let padded = padded[0] * padded[1];
         // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one under way.
         8.0 * (9.0 * cells + 4.0 * padded)
     }

@@ -34,7 +34,7 @@ pub struct Summary {
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// One static contact.
-    Static(StaticRecord),
+    Static(Box<StaticRecord>),
     /// Static contacts under one load after another: one record each.
     Sweep(Vec<SweepRecord>),
     /// A motion: one record per pass.
@@ -89,7 +89,7 @@ mod tests {
         let summary = Summary {
             version: "0.1.0".into(),
             case: serde_json::json!({"contact": {"load": 2.0}}),
-            outcome: Outcome::Static(record),
+            outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {
                 pass: None,
                 step: None,

@@ -31,20 +31,21 @@ fn by_corners([x, y]: [f64; 2], [a, b]: [f64; 2], closed: impl Fn(f64, f64) -> f
 }
 
 /// Gauss–Legendre.
-fn by_quadrature([x, y]: [f64; 2], [a, b]: [f64; 2], k: impl Fn(f64, f64) -> f64) -> f64 {
+fn by_quadrature(at: [f64; 2], half: [f64; 2], k: impl Fn(f64, f64) -> f64) -> f64 {
+    let sum: f64 = gauss_points(at, half).map(|([x, y], weight)| weight * k(x, y)).sum();
+    sum * half[0] * half[1]
+}
+
+/// 4 × 4 Gauss points of a cell as they are seen from `at` its centre, and their weights, which add up to 4.
+pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<Item = ([f64; 2], f64)> {
     const NODES: [(f64, f64); 4] = [
         (-0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
         (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
         (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
     ];
-    let mut sum = 0.0;
-    for (s, weight_x) in NODES {
-        for (t, weight_y) in NODES {
-            sum += weight_x * weight_y * k(x - a * s, y - b * t);
-        }
-    }
-    sum * a * b
+    let along_y = move |s: f64, weight: f64| NODES.map(|(t, other)| ([x - a * s, y - b * t], weight * other));
+    NODES.into_iter().flat_map(move |(s, weight)| along_y(s, weight))
 }
 
 /// X asinh(Y/|X|), 0 where X is: of y²/r³. With X and Y exchanged, of x²/r³; both together, of 1/r.

@@ -2,10 +2,12 @@
 
 mod cell;
 pub mod coupled;
+pub mod line;
 pub mod normal;
 pub mod spectral;
 pub mod subsurface;
 
 pub use coupled::{Coefficients, CoupledTable, coupled_displacement, coupled_matrix};
+pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

@@ -157,7 +157,7 @@ impl Contact {
             contact_area: pair.cell_area() * self.pressure.len() as f64,
             contact_area_interior: pair.cell_area()
                 * self.pressure.iter().filter(|(cell, _)| inside(*cell)).count() as f64,
-            largest_spot_cells: largest_spot(touching, shape, boundary == Boundary::Periodic),
+            largest_spot_cells: largest_spot(touching, shape, boundary.wraps()),
             max_pressure: self.max_pressure(),
             plastic_cells: self.plastic.len(),
             plastic_volume: self.plastic_volume(pair),
@@ -185,7 +185,7 @@ pub fn press(
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
     let grid: Grid = pair.lower_grid();
     let gap = &pair.upper - &pair.lower;
-    let mut operator = Operators::new(pair.pitch(), *pair.compliances(), boundary).on(grid.shape);
+    let mut operator = Operators::new(grid, *pair.compliances(), boundary).on(grid.shape);
     let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
     Ok((StaticRecord::new(pair, &solution), solution))
 }

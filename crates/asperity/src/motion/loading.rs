@@ -431,7 +431,7 @@ impl Flattening {
 /// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
 pub(super) fn facing(pair: &Pair, boundary: Boundary) -> (Operators, Field) {
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
-    (Operators::new(pair.pitch(), *pair.compliances(), boundary), &pair.upper - &pair.lower)
+    (Operators::new(pair.lower_grid(), *pair.compliances(), boundary), &pair.upper - &pair.lower)
 }
 
 /// Where a stage begins, in each quantity that it may prescribe.

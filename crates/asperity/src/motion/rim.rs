@@ -20,14 +20,13 @@ impl Interior {
     /// ½: the cells whose centres are farther than `rim` × length from each free end, at least the one or two in the
     /// middle.
     ///
-    /// Ends along x are free in an overlap; in a shift, which joins them, those of a body that stands still under a free
-    /// boundary. Ends along y are free under a free boundary.
+    /// Ends along x are free in an overlap; in a shift, which joins them, those of a body that stands still under a boundary
+    /// that is free along x. Ends along y are free under one that is free along y.
     pub fn of_bodies(shapes: [[usize; 2]; 2], boundary: Boundary, strategy: Strategy, rim: f64) -> [Self; 2] {
-        let open = boundary == Boundary::Free;
         let ends = match strategy {
             Strategy::Overlap => [true; 2],
             Strategy::Shift { speed_lower, speed_upper } => {
-                [speed_lower, speed_upper].map(|speed| open && speed == 0.0)
+                [speed_lower, speed_upper].map(|speed| !boundary.repeats(0) && speed == 0.0)
             }
         };
         [0, 1].map(|body| {
@@ -37,7 +36,7 @@ impl Interior {
                 let outside = outside.min((cells - 1) / 2);
                 outside..cells - outside
             };
-            Self { ranges: [range(0, ends[body]), range(1, open)], width: shapes[body][1] }
+            Self { ranges: [range(0, ends[body]), range(1, !boundary.repeats(1))], width: shapes[body][1] }
         })
     }
 
@@ -61,6 +60,7 @@ impl Interior {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::operator::Edge;
 
     const ROLL: Strategy = Strategy::Shift { speed_lower: 1.0, speed_upper: 1.0 };
     const SLIDE: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
@@ -73,20 +73,24 @@ mod tests {
     fn only_free_ends_have_a_rim() {
         let (whole, within) = (0..20, 2..18);
         let both = [within.clone(), within.clone()];
+        let ends = [within.clone(), whole.clone()];
         let sides = [whole.clone(), within];
         let none = [whole.clone(), whole];
         let shape = [20, 20];
-        assert_eq!(ranges(shape, Boundary::Free, Strategy::Overlap, 0.1), [both.clone(), both.clone()]);
-        assert_eq!(ranges(shape, Boundary::Free, ROLL, 0.1), [sides.clone(), sides.clone()]);
-        assert_eq!(ranges(shape, Boundary::Free, SLIDE, 0.1), [both, sides]);
-        assert_eq!(ranges(shape, Boundary::Periodic, SLIDE, 0.1), [none.clone(), none]);
+        assert_eq!(ranges(shape, Boundary::FREE, Strategy::Overlap, 0.1), [both.clone(), both.clone()]);
+        assert_eq!(ranges(shape, Boundary::FREE, ROLL, 0.1), [sides.clone(), sides.clone()]);
+        assert_eq!(ranges(shape, Boundary::FREE, SLIDE, 0.1), [both, sides]);
+        assert_eq!(ranges(shape, Boundary::PERIODIC, SLIDE, 0.1), [none.clone(), none]);
+        let line = Boundary([Edge::Free, Edge::Periodic]);
+        assert_eq!(ranges(shape, line, Strategy::Overlap, 0.1), [ends.clone(), ends.clone()]);
+        assert_eq!(ranges(shape, line, SLIDE, 0.1)[0], ends);
     }
 
     #[test]
     fn the_centres_of_interior_cells_are_farther_from_the_ends_than_the_rim() {
         for cells in 1..40 {
             for rim in [0.0, 0.01, 0.1, 0.25, 0.3, 0.4999] {
-                let [[columns, _], _] = ranges([cells, 3], Boundary::Free, Strategy::Overlap, rim);
+                let [[columns, _], _] = ranges([cells, 3], Boundary::FREE, Strategy::Overlap, rim);
                 let far = |i: usize| (i as f64 + 0.5).min((cells - i) as f64 - 0.5) > rim * cells as f64;
                 let expected: Vec<usize> = (0..cells).filter(|&i| far(i)).collect();
                 let middle: Vec<usize> = ((cells - 1) / 2..=cells / 2).collect();
@@ -94,6 +98,6 @@ mod tests {
                 assert_eq!(columns.collect::<Vec<_>>(), expected, "{cells} cells, rim {rim}");
             }
         }
-        assert_eq!(Interior::of_bodies([[5, 3]; 2], Boundary::Free, Strategy::Overlap, 0.0)[0].cells(), 15);
+        assert_eq!(Interior::of_bodies([[5, 3]; 2], Boundary::FREE, Strategy::Overlap, 0.0)[0].cells(), 15);
     }
 }

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;
-use crate::kernel::normal_displacement;
 use crate::motion::approach::{LOOSEST, Limit, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
@@ -50,7 +49,8 @@ impl Simulation {
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), cap);
         motion.control.check_limit(limit)?;
-        let operators = Operators::new(pair.pitch(), *pair.compliances(), boundary);
+        let largest = pair.grid(pair.lower.nrows().min(pair.upper.nrows()));
+        let operators = Operators::new(largest, *pair.compliances(), boundary);
         let together = memory_together(&motion, params.method, cap, &columns, pair.lower.ncols()).is_some();
         Ok(Self {
             together,
@@ -212,7 +212,7 @@ impl Simulation {
         let found = found.map_err(|error| match error {
             // A load that jumps: where a position comes into full contact with the pressure below the hardness.
             Error::LoadNotReached { load, below: most, approach, .. }
-                if self.boundary == Boundary::Periodic =>
+                if self.boundary == Boundary::PERIODIC =>
             {
                 Error::BeyondPass { load, most, approach, cause: LoadLimit::FullContact }
             }
@@ -268,27 +268,21 @@ impl Simulation {
         let largest = |value: fn(&Field) -> f64| {
             self.positions.iter().map(|p| value(&self.pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
         };
-        match (hardness.is_finite(), self.boundary) {
-            (true, boundary) => {
-                let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
-                let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
-                let [length, width] = self.pair.grid(columns).extent();
-                // In the middle of the hardness on all that faces; the shear of what slides adds less than μ times as much.
-                let sinks = match boundary {
-                    Boundary::Free => normal_displacement(0.0, 0.0, [length, width], self.pair.modulus()),
-                    Boundary::Periodic => 0.0,
-                };
-                let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
-                let approach = highest + (1.0 + coefficient) * hardness * sinks;
-                Limit { approach, cause: LoadLimit::Yielded }
-            }
-            (false, Boundary::Periodic) => {
-                // Closer to it the load is less certain than the residual.
-                let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
-                let rough = largest(|gap| gap.std(0.0));
-                Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
-            }
-            (false, Boundary::Free) => Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact },
+        if hardness.is_finite() {
+            let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+            let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
+            // Of the hardness on all that faces; the shear of what slides adds less than μ times as much.
+            let sinks = self.operators.most_under_uniform([columns, self.pair.lower.ncols()]);
+            let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+            let approach = highest + (1.0 + coefficient) * hardness * sinks;
+            Limit { approach, cause: LoadLimit::Yielded }
+        } else if self.boundary.leaves_mean_free() {
+            // Closer to it the load is less certain than the residual.
+            let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
+            let rough = largest(|gap| gap.std(0.0));
+            Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
+        } else {
+            Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact }
         }
     }
 
@@ -318,8 +312,8 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     }
     let (lower, upper) = (pair.lower.nrows(), pair.upper.nrows());
     match motion.strategy {
-        Strategy::Overlap if boundary == Boundary::Periodic => {
-            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free"));
+        Strategy::Overlap if boundary.repeats(0) => {
+            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free along x"));
         }
         Strategy::Overlap => {}
         Strategy::Shift { .. } if lower != upper => {
@@ -429,7 +423,7 @@ mod tests {
     #[test]
     fn all_positions_together_are_the_search_on_the_approach_in_fewer_convolutions() {
         let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
-        for (strategy, boundary) in [(Strategy::Overlap, Boundary::Free), (shift, Boundary::Periodic)] {
+        for (strategy, boundary) in [(Strategy::Overlap, Boundary::FREE), (shift, Boundary::PERIODIC)] {
             let [one, other] = [true, false].map(|together| passes(strategy, boundary, together));
             for (a, b) in one.iter().zip(&other) {
                 let close = |a: f64, b: f64, tolerance: f64| (a / b - 1.0).abs() < tolerance;

@@ -1,11 +1,16 @@
 //! Contact spots: connected cells that touch.
 
 /// Cells across the largest contact spot: of the spot with the most cells, the number of columns or, if fewer, of rows
-/// that it lies in; 0 without contact.
+/// that it lies in; 0 without contact. Along a periodic axis a spot that goes all around has no end, and is as wide as it
+/// is along the other one.
 ///
 /// `cells` are the flat cells in contact in ascending order on a grid of `shape`, connected over edges and corners and,
-/// where the grid is `periodic`, over its rim.
-pub(crate) fn largest_spot(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: bool) -> usize {
+/// where the grid is `periodic` along x or y, over its rim.
+pub(crate) fn largest_spot(
+    cells: impl Iterator<Item = usize>,
+    shape: [usize; 2],
+    periodic: [bool; 2],
+) -> usize {
     let [columns, width] = shape;
     let mut spots = Spots::default();
     let mut lines: Vec<Vec<(usize, usize)>> = vec![Vec::new(); columns];
@@ -21,19 +26,19 @@ pub(crate) fn largest_spot(cells: impl Iterator<Item = usize>, shape: [usize; 2]
                 spots.join(pair[0].1, pair[1].1);
             }
         }
-        if let (true, Some(first), Some(last)) = (periodic, lines[x].first(), lines[x].last())
+        if let (true, Some(first), Some(last)) = (periodic[1], lines[x].first(), lines[x].last())
             && first.0 == 0
             && last.0 == width - 1
         {
             spots.join(first.1, last.1);
         }
         if x + 1 < columns {
-            join_lines(&mut spots, &lines[x], &lines[x + 1], width, periodic);
-        } else if periodic {
-            join_lines(&mut spots, &lines[x], &lines[0], width, periodic);
+            join_lines(&mut spots, &lines[x], &lines[x + 1], width, periodic[1]);
+        } else if periodic[0] {
+            join_lines(&mut spots, &lines[x], &lines[0], width, periodic[1]);
         }
     }
-    across(&mut spots, &cells_in_order)
+    across(&mut spots, &cells_in_order, shape, periodic)
 }
 
 /// Joins what touches in two neighbouring lines.
@@ -66,7 +71,7 @@ fn join_lines(
     }
 }
 
-fn across(spots: &mut Spots, cells: &[[usize; 2]]) -> usize {
+fn across(spots: &mut Spots, cells: &[[usize; 2]], shape: [usize; 2], periodic: [bool; 2]) -> usize {
     let mut counts = vec![0_usize; cells.len()];
     for cell in 0..cells.len() {
         counts[spots.root(cell)] += 1;
@@ -80,7 +85,17 @@ fn across(spots: &mut Spots, cells: &[[usize; 2]]) -> usize {
         places.dedup();
         places.len()
     };
-    distinct(0).min(distinct(1))
+    narrower([distinct(0), distinct(1)], shape, periodic)
+}
+
+/// The lesser of two widths, unless a spot has no end along that axis.
+fn narrower(widths: [usize; 2], shape: [usize; 2], periodic: [bool; 2]) -> usize {
+    let endless = [0, 1].map(|axis| periodic[axis] && widths[axis] == shape[axis]);
+    match endless {
+        [true, false] => widths[1],
+        [false, true] => widths[0],
+        _ => widths[0].min(widths[1]),
+    }
 }
 
 /// Sets of connected cells.
@@ -120,7 +135,8 @@ mod tests {
         let block = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
             x.flat_map(move |x| y.clone().map(move |y| x * width + y)).collect::<Vec<_>>()
         };
-        let spot = |cells: Vec<usize>, periodic| largest_spot(cells.into_iter(), [10, width], periodic);
+        let spot =
+            |cells: Vec<usize>, periodic: bool| largest_spot(cells.into_iter(), [10, width], [periodic; 2]);
         assert_eq!(spot(vec![], false), 0);
         assert_eq!(spot(vec![37], false), 1);
         assert_eq!(spot(block(2..5, 1..9), false), 3);
@@ -128,6 +144,10 @@ mod tests {
         assert_eq!(spot((0..5).map(|i| i * width + i).collect(), false), 5);
         assert_eq!(spot(vec![0, 9, 90, 99], true), 2);
         assert_eq!(spot(vec![0, 9, 90, 99], false), 1);
+        // Along a line that goes on for ever it has no width.
+        let line = || block(0..7, 0..3).into_iter().map(|cell| cell / width * 3 + cell % width);
+        assert_eq!(largest_spot(line(), [10, 3], [false, true]), 7);
+        assert_eq!(largest_spot(line(), [10, 3], [false, false]), 3);
     }
 
     /// Held against a flood from cell to cell.
@@ -136,16 +156,17 @@ mod tests {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         for _ in 0..2000 {
             let shape = [random.random_range(1..9), random.random_range(1..9)];
-            let (share, periodic) = (random.random_range(0.0..1.0), random.random_bool(0.5));
+            let share = random.random_range(0.0..1.0);
+            let periodic = [random.random_bool(0.5), random.random_bool(0.5)];
             let touches: Vec<bool> = (0..shape[0] * shape[1]).map(|_| random.random_bool(share)).collect();
             let cells = (0..touches.len()).filter(|&cell| touches[cell]);
             let (found, flooded) = (largest_spot(cells, shape, periodic), flood(&touches, shape, periodic));
-            assert!(flooded.contains(&found), "{found}, {flooded:?}: {shape:?} {periodic} {touches:?}");
+            assert!(flooded.contains(&found), "{found}, {flooded:?}: {shape:?} {periodic:?} {touches:?}");
         }
     }
 
     /// The widths of the spots with the most cells.
-    fn flood(touches: &[bool], shape: [usize; 2], periodic: bool) -> Vec<usize> {
+    fn flood(touches: &[bool], shape: [usize; 2], periodic: [bool; 2]) -> Vec<usize> {
         let mut left = touches.to_vec();
         let mut spots = Vec::new();
         for seed in 0..left.len() {
@@ -158,7 +179,7 @@ mod tests {
                 for (dx, dy) in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
                     let [nx, ny] = shape.map(|n| n as isize);
                     let (x, y) = ((cell / shape[1]) as isize + dx, (cell % shape[1]) as isize + dy);
-                    if periodic || ((0..nx).contains(&x) && (0..ny).contains(&y)) {
+                    if (periodic[0] || (0..nx).contains(&x)) && (periodic[1] || (0..ny).contains(&y)) {
                         open.push((x.rem_euclid(nx) * ny + y.rem_euclid(ny)) as usize);
                     }
                 }
@@ -169,6 +190,10 @@ mod tests {
         let distinct = |spot: &Vec<[usize; 2]>, axis: usize| {
             spot.iter().map(|cell| cell[axis]).collect::<std::collections::BTreeSet<_>>().len()
         };
-        spots.iter().filter(|s| s.len() == most).map(|s| distinct(s, 0).min(distinct(s, 1))).collect()
+        spots
+            .iter()
+            .filter(|s| s.len() == most)
+            .map(|s| narrower([distinct(s, 0), distinct(s, 1)], shape, periodic))
+            .collect()
     }
 }

@@ -123,7 +123,7 @@ fn record(
         mean_gap: contact.record.mean_gap,
         contact_area,
         contact_fraction: contact_area / apparent_area,
-        largest_spot_cells: largest_spot(touching, pair.lower_grid().shape, boundary == Boundary::Periodic),
+        largest_spot_cells: largest_spot(touching, pair.lower_grid().shape, boundary.wraps()),
         max_pressure: contact.record.max_pressure,
         plastic_area: pair.cell_area() * contact.record.plastic_cells as f64,
         plastic_volume: contact.record.plastic_volume,

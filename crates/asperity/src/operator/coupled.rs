@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid};
-use crate::kernel::{Coefficients, CoupledTable, coupled_displacement, spectral::harmonic_displacements};
+use crate::kernel::{
+    Coefficients, CoupledTable, Line, coupled_displacement, spectral::harmonic_displacements,
+};
 use crate::material::Compliances;
 use crate::math::fft::angular_frequency;
 use crate::math::{TensorConvolution, TensorKernel};
@@ -88,14 +90,22 @@ pub(super) struct CoupledKernel {
 }
 
 impl CoupledKernel {
-    /// For grids that fit into the `padded` one, free at their edges.
-    pub(super) fn free(padded: [usize; 2], pitch: [f64; 2], compliances: &Compliances) -> Arc<Self> {
+    /// For grids that fit into the `padded` one, free at their edges but along the `line` of their images.
+    pub(super) fn free(
+        padded: [usize; 2],
+        pitch: [f64; 2],
+        compliances: &Compliances,
+        line: Option<&Line>,
+    ) -> Arc<Self> {
         let at = |i: usize, j: usize| {
             let (x, y) = (i as f64 * pitch[0], j as f64 * pitch[1]);
-            in_order(coupled_displacement(x, y, pitch, compliances))
+            match line {
+                None => coupled_displacement(x, y, pitch, compliances),
+                Some(line) => line.coupled_displacement(x, y, pitch, compliances),
+            }
         };
-        let self_influence = coupled_displacement(0.0, 0.0, pitch, compliances);
-        Arc::new(Self { kernel: Arc::new(TensorKernel::from_values(padded, at)), self_influence })
+        let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
+        Arc::new(Self { kernel: Arc::new(kernel), self_influence: at(0, 0) })
     }
 
     /// For the periodic `grid`.
@@ -199,7 +209,7 @@ mod tests {
                 Field::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j * j + n * i * j) % 11) as f64 - 3.0)
             });
             let slow = displacement(&mut CoupledSum::new(grid, pair), &traction);
-            let mut operator = Operators::new(pitch, pair, Boundary::Free).coupled_on(shape);
+            let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(shape);
             let fast = displacement(operator.as_mut(), &traction);
             for (fast, slow) in fast.iter().zip(&slow) {
                 assert!(largest(&(fast - slow)) < 1e-13 * largest(slow), "{shape:?}");
@@ -223,7 +233,7 @@ mod tests {
         let k = kx.hypot(ky);
         let (c, s) = (kx / k, ky / k);
         let cos = wave(f64::cos);
-        let mut operator = Operators::new(grid.pitch, pair, Boundary::Periodic).coupled_on(grid.shape);
+        let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
         // Across the crests (along k): plane strain, as stiff as under pressure, and it lifts the surface.
         let across = displacement(operator.as_mut(), &[c * &cos, s * &cos, grid.zeros()]);
         let lifted = wave(f64::sin);
@@ -256,8 +266,9 @@ mod tests {
         };
         let (one, other) = (traction(5), traction(8));
         let work = |t: &[Field; 3], u: &[Field; 3]| t.iter().zip(u).map(|(t, u)| (t * u).sum()).sum::<f64>();
-        for boundary in [Boundary::Free, Boundary::Periodic] {
-            let mut operator = Operators::new([1.0, 0.8], pair, boundary).coupled_on(shape);
+        for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+            let grid = Grid::new(shape, [1.0, 0.8]).unwrap();
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(shape);
             let (under_one, under_other) =
                 (displacement(operator.as_mut(), &one), displacement(operator.as_mut(), &other));
             let (a, b) = (work(&other, &under_one), work(&one, &under_other));

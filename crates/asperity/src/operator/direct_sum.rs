@@ -2,7 +2,7 @@
 
 use crate::grid::{Field, Grid};
 use crate::kernel::influence_table;
-use crate::operator::{Operator, coarse_free_grid};
+use crate::operator::{Boundary, Operator};
 use crate::units::Pascal;
 
 /// The free boundary by direct summation of the influence coefficients: O(n²) for n cells, exact to round-off.
@@ -30,8 +30,8 @@ impl Operator for DirectSum {
         self.modulus
     }
 
-    fn periodic(&self) -> bool {
-        false
+    fn boundary(&self) -> Boundary {
+        Boundary::FREE
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
@@ -51,6 +51,6 @@ impl Operator for DirectSum {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        Box::new(Self::new(coarse_free_grid(&self.grid), self.modulus))
+        Box::new(Self::new(Boundary::FREE.coarse(&self.grid), self.modulus))
     }
 }

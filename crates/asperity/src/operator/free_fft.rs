@@ -1,62 +1,86 @@
-//! The free boundary by zero-padded transforms, pruned to what is not zero.
+//! The boundary that is free along one axis or both, by transforms padded with zeros there, pruned to what is not zero.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::{influence_table, normal_displacement};
-use crate::math::{Kernel, MixedConvolution, MixedKernel, good_size};
-use crate::operator::{Operator, coarse_free_grid};
+use crate::kernel::{Line, influence_table, normal_displacement};
+use crate::math::{Kernel, MixedConvolution, MixedKernel};
+use crate::operator::{Boundary, Operator};
 use crate::units::{Metre, Pascal};
 
-/// All free operators of one pitch and modulus: they share the spectra of the influence coefficients.
+/// All operators of one pitch, modulus and boundary that is free along an axis: they share the spectra of the influence
+/// coefficients.
 ///
 /// A spectrum belongs to a padded size, and serves every grid that fits into it: the growing overlaps of a pass
 /// need only a few.
 pub struct FreeFamily {
     pitch: [Metre; 2],
     modulus: Pascal,
+    boundary: Boundary,
+    datum: Metre,
     kernels: Mutex<HashMap<[usize; 2], Arc<MixedKernel>>>,
-    coarse: OnceLock<Arc<FreeFamily>>,
+    /// One for each coarse pitch, which depends on the number of cells along a periodic axis.
+    coarse: Mutex<Vec<Arc<FreeFamily>>>,
 }
 
 impl FreeFamily {
-    /// The family of a cell size and composite modulus E*.
-    pub fn new(pitch: [Metre; 2], modulus: Pascal) -> Arc<Self> {
-        Arc::new(Self { pitch, modulus, kernels: Mutex::default(), coarse: OnceLock::new() })
+    /// The family of the cells of a `largest` grid, composite modulus E* and boundary. Where that is periodic along one
+    /// axis, r₀ is the length of the grid along the other.
+    ///
+    /// # Panics
+    /// If the boundary is periodic along both axes.
+    pub fn new(largest: &Grid, modulus: Pascal, boundary: Boundary) -> Arc<Self> {
+        assert!(boundary != Boundary::PERIODIC, "a free axis");
+        Self::with_datum(largest.pitch, modulus, boundary, boundary.datum(largest))
+    }
+
+    fn with_datum(pitch: [Metre; 2], modulus: Pascal, boundary: Boundary, datum: Metre) -> Arc<Self> {
+        Arc::new(Self {
+            pitch,
+            modulus,
+            boundary,
+            datum,
+            kernels: Mutex::default(),
+            coarse: Mutex::default(),
+        })
     }
 
     /// The operator on a grid of `shape` cells.
     pub fn operator(self: &Arc<Self>, shape: [usize; 2]) -> FreeFft {
-        let kernel = self.kernel(shape.map(|n| good_size(2 * n - 1)));
-        FreeFft {
-            grid: Grid { shape, pitch: self.pitch },
-            convolution: MixedConvolution::new(kernel, shape),
-            family: Arc::clone(self),
-        }
+        let grid = Grid { shape, pitch: self.pitch };
+        let line = self.boundary.line(&grid, self.datum);
+        let kernel = self.kernel(self.boundary.padded(shape), line.as_ref());
+        FreeFft { grid, line, convolution: MixedConvolution::new(kernel, shape), family: Arc::clone(self) }
     }
 
-    fn kernel(&self, padded: [usize; 2]) -> Arc<MixedKernel> {
+    fn kernel(&self, padded: [usize; 2], line: Option<&Line>) -> Arc<MixedKernel> {
         let mut kernels = self.kernels.lock().expect("no holder panics");
         let kernel = kernels.entry(padded).or_insert_with(|| {
-            let table = influence_table(padded.map(|n| n / 2 + 1), self.pitch, self.modulus);
+            let shape = padded.map(|n| n / 2 + 1);
+            let table = match line {
+                None => influence_table(shape, self.pitch, self.modulus),
+                Some(line) => line.influence_table(shape, self.pitch, self.modulus),
+            };
             MixedKernel::new(Kernel::from_values(padded, &table))
         });
         Arc::clone(kernel)
     }
 }
 
-/// A half-space pair loaded on a finite grid: the discrete convolution with Love's coefficients, exact to round-off.
+/// A half-space pair loaded on a finite grid, or on one that repeats itself along one axis: the discrete convolution with
+/// Love's coefficients, or with their sums along a [`Line`], exact to round-off.
 pub struct FreeFft {
     grid: Grid,
+    line: Option<Line>,
     convolution: MixedConvolution,
     family: Arc<FreeFamily>,
 }
 
 impl FreeFft {
-    /// The operator on `grid` for the composite `modulus`.
+    /// The operator on `grid` for the composite `modulus`, free at all its edges.
     pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        FreeFamily::new(grid.pitch, modulus).operator(grid.shape)
+        FreeFamily::new(&grid, modulus, Boundary::FREE).operator(grid.shape)
     }
 }
 
@@ -69,13 +93,17 @@ impl Operator for FreeFft {
         self.family.modulus
     }
 
-    fn periodic(&self) -> bool {
-        false
+    fn boundary(&self) -> Boundary {
+        self.family.boundary
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
         let [dx, dy] = self.grid.pitch;
-        normal_displacement(i as f64 * dx, j as f64 * dy, [dx, dy], self.family.modulus)
+        let (x, y) = (i as f64 * dx, j as f64 * dy);
+        match &self.line {
+            None => normal_displacement(x, y, [dx, dy], self.family.modulus),
+            Some(line) => line.normal_displacement(x, y, [dx, dy], self.family.modulus),
+        }
     }
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
@@ -87,8 +115,13 @@ impl Operator for FreeFft {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        let grid = coarse_free_grid(&self.grid);
-        let family = self.family.coarse.get_or_init(|| FreeFamily::new(grid.pitch, self.family.modulus));
+        let FreeFamily { modulus, boundary, datum, ref coarse, .. } = *self.family;
+        let grid = boundary.coarse(&self.grid);
+        let mut coarse = coarse.lock().expect("no holder panics");
+        let family = coarse.iter().find(|family| family.pitch == grid.pitch).cloned().unwrap_or_else(|| {
+            coarse.push(FreeFamily::with_datum(grid.pitch, modulus, boundary, datum));
+            Arc::clone(&coarse[coarse.len() - 1])
+        });
         Box::new(family.operator(grid.shape))
     }
 }
@@ -96,7 +129,7 @@ impl Operator for FreeFft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::operator::DirectSum;
+    use crate::operator::{DirectSum, Edge};
 
     #[test]
     fn it_is_the_direct_sum_to_round_off() {
@@ -122,8 +155,56 @@ mod tests {
 
     #[test]
     fn grids_of_one_padded_size_share_their_kernel() {
-        let family = FreeFamily::new([1.0, 1.0], 1.0);
+        let family = FreeFamily::new(&Grid::new([32, 32], [1.0; 2]).unwrap(), 1.0, Boundary::FREE);
         let (a, b) = (family.operator([31, 32]), family.operator([32, 32]));
         assert!(Arc::ptr_eq(a.convolution.kernel(), b.convolution.kernel()));
+    }
+
+    #[test]
+    fn along_a_line_it_is_the_direct_sum_of_the_lines_coefficients() {
+        for axis in [0, 1] {
+            for (shape, pitch) in
+                [([12, 9], [1.0, 1.0]), ([1, 8], [1.0, 0.5]), ([9, 1], [1.0, 2.0]), ([20, 7], [0.3, 1.0])]
+            {
+                let turned = |of: [f64; 2]| if axis == 1 { of } else { [of[1], of[0]] };
+                let shape = if axis == 1 { shape } else { [shape[1], shape[0]] };
+                let grid = Grid::new(shape, turned(pitch)).unwrap();
+                let mut edges = [Edge::Free; 2];
+                edges[axis] = Edge::Periodic;
+                let mut operator = FreeFamily::new(&grid, 115e9, Boundary(edges)).operator(shape);
+                let pressure = Field::from_shape_fn(shape, |(i, j)| ((7 * i + 3 * j * j) % 11) as f64);
+                let (mut fast, mut single) = (grid.zeros(), SingleField::zeros(shape));
+                operator.apply(&pressure, &mut fast);
+                operator.apply_single(&pressure.mapv(|p| p as f32), &mut single);
+                let slow = Field::from_shape_fn(shape, |(i, j)| {
+                    let from = pressure.indexed_iter();
+                    from.map(|((k, l), p)| p * operator.influence(i.abs_diff(k), j.abs_diff(l))).sum()
+                });
+                let largest = slow.iter().fold(0.0f64, |m, u| m.max(u.abs()));
+                for ((fast, single), slow) in fast.iter().zip(&single).zip(&slow) {
+                    assert!((fast - slow).abs() <= 1e-14 * largest, "{axis}, {shape:?}: {fast:e}, {slow:e}");
+                    assert!((f64::from(*single) - slow).abs() <= 1e-6 * largest, "{axis}, {shape:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn along_a_line_it_is_positive_definite_on_every_grid() {
+        for (shape, pitch) in
+            [([12, 9], [1.0, 1.0]), ([40, 1], [1.0, 1.0]), ([6, 8], [4.0, 0.5]), ([5, 6], [0.2, 1.0])]
+        {
+            let grid = Grid::new(shape, pitch).unwrap();
+            let boundary = Boundary([Edge::Free, Edge::Periodic]);
+            let operator = FreeFamily::new(&grid, 1.0, boundary).operator(shape);
+            let place = |cell: usize| [cell / shape[1], cell % shape[1]];
+            let matrix = faer::Mat::from_fn(grid.cells(), grid.cells(), |m, n| {
+                let ([i, j], [k, l]) = (place(m), place(n));
+                operator.influence(i.abs_diff(k), j.abs_diff(l))
+            });
+            let values = matrix.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
+            let own = operator.influence(0, 0);
+            assert!(values[0] > 0.02 * own, "{shape:?}: least eigenvalue {:e} of {own:e}", values[0]);
+        }
     }
 }

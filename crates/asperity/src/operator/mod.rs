@@ -1,14 +1,16 @@
 //! Operators: traction in, displacement out.
 
+mod boundary;
 mod coupled;
 mod direct_sum;
 mod family;
 mod free_fft;
 mod periodic_fft;
 
+pub use boundary::{Boundary, Edge};
 pub use coupled::{CoupledFft, CoupledOperator, CoupledSum};
 pub use direct_sum::DirectSum;
-pub use family::{Boundary, Operators};
+pub use family::Operators;
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::{PeriodicFft, PeriodicKernel};
 
@@ -25,8 +27,8 @@ pub trait Operator: Send {
     /// The composite modulus E*.
     fn modulus(&self) -> Pascal;
 
-    /// Whether the surface repeats itself beyond the grid.
-    fn periodic(&self) -> bool;
+    /// What lies beyond the edges of the grid.
+    fn boundary(&self) -> Boundary;
 
     /// Displacement of a cell per unit pressure on the one `i` and `j` cells away, m/Pa; `[i, j]` inside the grid.
     fn influence(&self, i: usize, j: usize) -> f64;
@@ -44,9 +46,4 @@ pub trait Operator: Send {
 
     /// The same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;
-}
-
-/// The grid whose cells are 2 × 2 cells of `grid`, the last row or column hanging over where the number is odd.
-fn coarse_free_grid(grid: &Grid) -> Grid {
-    Grid { shape: grid.shape.map(|n| n.div_ceil(2)), pitch: grid.pitch.map(|p| 2.0 * p) }
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::spectral::harmonic_displacement;
 use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency};
-use crate::operator::Operator;
+use crate::operator::{Boundary, Operator};
 use crate::units::Pascal;
 
 /// What all operators of one periodic grid share: the spectrum of the influence coefficients.
@@ -65,8 +65,8 @@ impl Operator for PeriodicFft {
         self.shared.modulus
     }
 
-    fn periodic(&self) -> bool {
-        true
+    fn boundary(&self) -> Boundary {
+        Boundary::PERIODIC
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
@@ -83,12 +83,10 @@ impl Operator for PeriodicFft {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        let coarse = self.shared.coarse.get_or_init(|| {
-            let shape = self.grid().shape.map(|n| n.div_ceil(2));
-            let extent = self.grid().extent();
-            let pitch = [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64];
-            PeriodicKernel::new(Grid { shape, pitch }, self.modulus())
-        });
+        let coarse = self
+            .shared
+            .coarse
+            .get_or_init(|| PeriodicKernel::new(Boundary::PERIODIC.coarse(self.grid()), self.modulus()));
         Box::new(coarse.operator())
     }
 }

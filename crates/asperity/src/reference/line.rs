@@ -6,8 +6,8 @@ use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of two parallel elastic cylinders in plane strain, taken as parabolas.
 ///
-/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: there
-/// is none here. Johnson (1985), eqs. 4.43–4.45.
+/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: it depends on
+/// where it is measured. Johnson (1985), eqs. 4.43–4.45.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzLine {
     /// Relative radius R: 1/R = 1/R₁ + 1/R₂.
@@ -33,6 +33,17 @@ impl HertzLine {
     pub fn pressure(&self, x: Metre) -> Pascal {
         let a = self.half_width();
         if x.abs() < a { self.peak_pressure() * ((1.0 - x / a) * (1.0 + x / a)).sqrt() } else { 0.0 }
+    }
+
+    /// Approach of the bodies against the distance r₀ = `datum` ≥ a, where −(2/πE*) ln(r/r₀), the displacement under a unit
+    /// line of force, is 0:
+    ///
+    /// ```text
+    /// δ = (2P′/πE*) [ln(2r₀/a) + ½]
+    /// ```
+    pub fn approach(&self, datum: Metre) -> Metre {
+        let line = 2.0 * self.load_per_length / (PI * self.modulus);
+        line * ((2.0 * datum / self.half_width()).ln() + 0.5)
     }
 
     /// Deformed gap at distance `x` from the centre line; 0 in the contact.
@@ -83,6 +94,15 @@ mod tests {
                 max_relative = 1e-10
             );
         }
+    }
+
+    #[test]
+    fn the_approach_is_the_displacement_on_the_centre_line() {
+        let datum = 7.0;
+        let force = integrate_to_edge(LINE.half_width(), |s| -LINE.pressure(s) * (s / datum).ln());
+        let displacement = 2.0 * 2.0 / (PI * LINE.modulus) * force;
+        // The quadrature does not know of the logarithm in the middle.
+        assert_relative_eq!(LINE.approach(datum), displacement, max_relative = 1e-8);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::grid::SingleField;
 use crate::math::{Convolution, Kernel, fft::angular_frequency};
-use crate::operator::Operator;
+use crate::operator::{Edge, Operator};
 use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
@@ -44,15 +44,23 @@ impl CoarseCorrection {
         let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
         let cells = factor[0] * factor[1];
         let longest = grid.extent()[0].max(grid.extent()[1]);
-        let mean =
-            if operator.periodic() { operator.modulus() * std::f64::consts::PI / longest } else { 0.0 };
+        let mean = if operator.boundary().leaves_mean_free() {
+            operator.modulus() * std::f64::consts::PI / longest
+        } else {
+            0.0
+        };
         let stiffness = Kernel::from_transform(shape, |k, l| {
             let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
             let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
             let wide = match (k, l) {
-                (0, 0) if operator.periodic() => 0.0,
-                // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean.
-                (0, 0) => 1.0 / (0.95 * grid.area().sqrt()),
+                (0, 0) => match operator.boundary().0 {
+                    [Edge::Periodic, Edge::Periodic] => 0.0,
+                    // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean,
+                    [Edge::Free, Edge::Free] => 1.0 / (0.95 * grid.area().sqrt()),
+                    // on an endless strip of width L by 3/π L p/E* against the distance L.
+                    [Edge::Free, Edge::Periodic] => std::f64::consts::FRAC_PI_3 / grid.extent()[0],
+                    [Edge::Periodic, Edge::Free] => std::f64::consts::FRAC_PI_3 / grid.extent()[1],
+                },
                 _ => 0.5 * qx.hypot(qy),
             };
             operator.modulus() * wide / cells

@@ -106,8 +106,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
         let load_controlled = matches!(problem.terms.control, Control::Load(_));
-        let periodic_load = operator.periodic() && load_controlled;
-        let stiffening = if periodic_load { stiffening(operator, problem) } else { 0.0 };
+        let free_mean = operator.boundary().leaves_mean_free() && load_controlled;
+        let stiffening = if free_mean { stiffening(operator, problem) } else { 0.0 };
         Self { operator, problem, influence, stiffening, factorisations: 0, convolutions: 0 }
     }
 
@@ -176,8 +176,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     /// approach beyond the mean gap it rises until the cell with the most pressure is at the hardness, under a lesser one it
     /// falls until the cell with the least opens.
     fn anchor(&mut self, approach: Metre, bounds: &mut ndarray::Array2<Bound>) -> Result<()> {
-        let floats =
-            self.operator.periodic() && self.stiffening == 0.0 && bounds.iter().all(|b| *b == Bound::Free);
+        let free_mean = self.operator.boundary().leaves_mean_free() && self.stiffening == 0.0;
+        let floats = free_mean && bounds.iter().all(|b| *b == Bound::Free);
         if !floats {
             return Ok(());
         }

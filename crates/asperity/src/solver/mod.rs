@@ -371,7 +371,7 @@ fn validate(
         Control::Approach(approach) => {
             check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite approach")?;
             let mean_gap = initial_gap.mean().unwrap_or(0.0);
-            if operator.periodic() && hardness.is_infinite() && approach >= mean_gap {
+            if operator.boundary().leaves_mean_free() && hardness.is_infinite() && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });
             }
             Ok(())

@@ -26,7 +26,11 @@ impl SparseInverse {
     pub(super) fn new(operator: &dyn Operator) -> Self {
         let shape = operator.grid().shape;
         // Neighbours that the grid is too small for never occur; periodic coefficients count from the far field.
-        let far = if operator.periodic() { operator.influence(shape[0] / 2, shape[1] / 2) } else { 0.0 };
+        let far = if operator.boundary().leaves_mean_free() {
+            operator.influence(shape[0] / 2, shape[1] / 2)
+        } else {
+            0.0
+        };
         let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 if i < shape[0] && j < shape[1] { operator.influence(i, j) - far } else { 0.0 }

@@ -35,7 +35,7 @@ pub fn normal_stiffness(
     let grid = *operator.grid();
     assert_eq!(elastic.dim(), (grid.shape[0], grid.shape[1]), "shape of the elastic cells");
     let mut stats = Stats::default();
-    if operator.periodic() && elastic.iter().all(|is_elastic| *is_elastic) {
+    if operator.boundary().leaves_mean_free() && elastic.iter().all(|is_elastic| *is_elastic) {
         return Ok((None, stats));
     }
     let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
@@ -119,11 +119,13 @@ mod tests {
             let (share, patch) = (random.random_range(0.0..1.0), random.random_range(1..5));
             let patches = Array2::from_shape_fn([22, 22], |_| random.random_bool(share));
             let mut elastic = Array2::from_shape_fn(shape, |(i, j)| patches[[i / patch, j / patch]]);
-            let mut operator: Box<dyn Operator> = match n % 2 {
+            let line = Boundary([Edge::Free, Edge::Periodic]);
+            let mut operator: Box<dyn Operator> = match n % 3 {
                 0 => Box::new(DirectSum::new(grid, 1.7)),
+                1 => Box::new(FreeFamily::new(&grid, 1.7, line).operator(shape)),
                 _ => Box::new(PeriodicFft::new(grid, 1.7)),
             };
-            if operator.periodic() {
+            if operator.boundary().leaves_mean_free() {
                 elastic[[0, 0]] = false;
             }
             let (found, _) = normal_stiffness(operator.as_mut(), &elastic, &FINE).unwrap();

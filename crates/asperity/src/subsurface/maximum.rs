@@ -119,7 +119,7 @@ mod tests {
             normal.pressure(0.125 * (i as f64 - 12.0).hypot(j as f64 - 12.0))
         });
         let tractions = Tractions { shear: [Some(friction * &pressure), None], pressure };
-        (Subsurface::new(grid, Boundary::Free, 0.3, &tractions), contact)
+        (Subsurface::new(grid, Boundary::FREE, 0.3, &tractions), contact)
     }
 
     #[test]

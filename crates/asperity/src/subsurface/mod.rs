@@ -13,7 +13,7 @@
 //! let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
 //!     ball.pressure((grid.centre(0, i) - 32.5e-6).hypot(grid.centre(1, j) - 32.5e-6))
 //! });
-//! let steel = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions::frictionless(pressure));
+//! let steel = Subsurface::new(grid, Boundary::FREE, 0.3, &Tractions::frictionless(pressure));
 //! let most = steel.maximum(&[0.0, 4e-6, 8e-6, 12e-6]).von_mises;
 //! assert_eq!(most.cell, [32, 32]);
 //! assert!((most.value / ball.peak_pressure() - 0.62).abs() < 0.002);
@@ -31,7 +31,7 @@ use realfft::num_complex::Complex64;
 
 use crate::grid::{Field, Grid};
 use crate::kernel::{Traction, harmonic_stress, stress_table};
-use crate::math::{RealFft2, fft::angular_frequency, good_size};
+use crate::math::{RealFft2, fft::angular_frequency};
 use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
 use crate::units::Metre;
@@ -73,9 +73,9 @@ impl Tractions {
 
 /// A half-space under given tractions.
 ///
-/// - [`Boundary::Free`]: uniform in each cell, zero outside the grid. A plane is the convolution of the tractions with
+/// - [`Boundary::FREE`]: uniform in each cell, zero outside the grid. A plane is the convolution of the tractions with
 ///   the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
-/// - [`Boundary::Periodic`]: the harmonics of the values at the cells, each with the closed form of
+/// - [`Boundary::PERIODIC`]: the harmonics of the values at the cells, each with the closed form of
 ///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot widen: σzz = −p̄,
 ///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
 pub struct Subsurface {
@@ -93,12 +93,10 @@ impl Subsurface {
     /// A body of Poisson's ratio `poisson` under `tractions` on `grid`.
     ///
     /// # Panics
-    /// If a traction is not on the grid.
+    /// If a traction is not on the grid, or the boundary is periodic along one axis alone.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, tractions: &Tractions) -> Self {
-        let fft = RealFft2::new(match boundary {
-            Boundary::Free => grid.shape.map(|n| good_size(2 * n - 1)),
-            Boundary::Periodic => grid.shape,
-        });
+        assert!(boundary.repeats(0) == boundary.repeats(1), "one boundary along both axes");
+        let fft = RealFft2::new(boundary.padded(grid.shape));
         let transform = |(traction, field): (Traction, &Field)| {
             assert_eq!(field.shape(), grid.shape, "shape of the tractions");
             (traction, fft.forward(field))
@@ -146,32 +144,28 @@ impl Subsurface {
     /// imaginary part: one of them is even in both directions or odd in both, the other odd in one.
     fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
         let shape @ [nx, ny] = self.fft.shape();
-        match self.boundary {
-            Boundary::Free => {
-                let mut influence = Field::zeros(shape);
-                for traction in pair.into_iter().flatten() {
-                    let Grid { shape: offsets, pitch } = self.grid;
-                    let table = stress_table(offsets, depth, pitch, self.poisson, component, traction);
-                    add_folded(&mut influence, &table, traction.odd(component));
-                }
-                self.fft.forward(&influence)
+        if !self.boundary.leaves_mean_free() {
+            let mut influence = Field::zeros(shape);
+            for traction in pair.into_iter().flatten() {
+                let Grid { shape: offsets, pitch } = self.grid;
+                let table = stress_table(offsets, depth, pitch, self.poisson, component, traction);
+                add_folded(&mut influence, &table, traction.odd(component));
             }
-            Boundary::Periodic => Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
-                let q = [
-                    angular_frequency(k, nx, self.grid.pitch[0]),
-                    angular_frequency(l, ny, self.grid.pitch[1]),
-                ];
-                // Half of what alternates from cell to cell runs either way: what is odd in it cancels.
-                let alternates = [2 * k == nx, 2 * l == ny];
-                let part = |traction: Option<Traction>| match traction {
-                    Some(traction) if !cancels(alternates, traction.odd(component)) => {
-                        harmonic_stress(q, depth, self.poisson, component, traction)
-                    }
-                    _ => 0.0,
-                };
-                Complex64::new(part(pair[0]), part(pair[1]))
-            }),
+            return self.fft.forward(&influence);
         }
+        Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
+            let q =
+                [angular_frequency(k, nx, self.grid.pitch[0]), angular_frequency(l, ny, self.grid.pitch[1])];
+            // Half of what alternates from cell to cell runs either way: what is odd in it cancels.
+            let alternates = [2 * k == nx, 2 * l == ny];
+            let part = |traction: Option<Traction>| match traction {
+                Some(traction) if !cancels(alternates, traction.odd(component)) => {
+                    harmonic_stress(q, depth, self.poisson, component, traction)
+                }
+                _ => 0.0,
+            };
+            Complex64::new(part(pair[0]), part(pair[1]))
+        })
     }
 }
 
@@ -255,7 +249,7 @@ mod tests {
             ([1, 1], [1.0, 1.0]),
         ] {
             let (grid, tractions) = (Grid::new(shape, pitch).unwrap(), all_three(shape));
-            let body = Subsurface::new(grid, Boundary::Free, 0.3, &tractions);
+            let body = Subsurface::new(grid, Boundary::FREE, 0.3, &tractions);
             for depth in [0.0, 0.2 * pitch[0], 4.0 * pitch[1]] {
                 let plane = body.plane(depth);
                 let most = plane.stress.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
@@ -286,7 +280,7 @@ mod tests {
         let [sine, cosine] = [wave(0.0), wave(std::f64::consts::FRAC_PI_2)];
         let decay = (-k * depth).exp();
         let tractions = Tractions { pressure: 5.0 + &sine, shear: [Some(2.0 + &sine), None] };
-        let plane = Subsurface::new(grid, Boundary::Periodic, poisson, &tractions).plane(depth);
+        let plane = Subsurface::new(grid, Boundary::PERIODIC, poisson, &tractions).plane(depth);
         // Plane strain: Johnson (1985), section 13.2, and the mean; σyy = ν(σxx + σzz) of the wave.
         let (s, c) = (&sine * decay, &cosine * decay);
         let kz = k * depth;
@@ -321,7 +315,7 @@ mod tests {
                 shear: [Some(only(Traction::X)), Some(only(Traction::Y))],
             };
             let plane = |boundary| Subsurface::new(grid, boundary, 0.3, &tractions).plane(3.0);
-            let (free, periodic) = (plane(Boundary::Free), plane(Boundary::Periodic));
+            let (free, periodic) = (plane(Boundary::FREE), plane(Boundary::PERIODIC));
             for component in Component::ALL {
                 let (free, periodic) =
                     (&free.stress[component as usize], &periodic.stress[component as usize]);
@@ -338,11 +332,11 @@ mod tests {
         let pressure = patchy(grid.shape, 0);
         let zeros = Tractions { pressure: pressure.clone(), shear: [Some(grid.zeros()), Some(grid.zeros())] };
         let (with, without) = [zeros, Tractions::frictionless(pressure)]
-            .map(|tractions| Subsurface::new(grid, Boundary::Free, 0.3, &tractions))
+            .map(|tractions| Subsurface::new(grid, Boundary::FREE, 0.3, &tractions))
             .into();
         assert_eq!(with.tractions.len(), 1);
         assert_eq!(with.plane(0.5), without.plane(0.5));
-        let none = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions::frictionless(grid.zeros()));
+        let none = Subsurface::new(grid, Boundary::FREE, 0.3, &Tractions::frictionless(grid.zeros()));
         assert!(none.plane(1.0).von_mises().iter().all(|v| *v == 0.0));
     }
 
@@ -351,7 +345,7 @@ mod tests {
         let grid = Grid::new([9, 8], [1.0, 1.0]).unwrap();
         let (pressure, shear) = (patchy(grid.shape, 0).mapv(f64::abs), patchy(grid.shape, 1));
         let tractions = Tractions { pressure: pressure.clone(), shear: [Some(shear.clone()), None] };
-        let plane = |tractions: &Tractions| Subsurface::new(grid, Boundary::Free, 0.3, tractions).plane(0.8);
+        let plane = |tractions: &Tractions| Subsurface::new(grid, Boundary::FREE, 0.3, tractions).plane(0.8);
         let (lower, upper) = (plane(&tractions), plane(&tractions.clone().on_upper()));
         let pressed = plane(&Tractions::frictionless(pressure));
         for ((lower, upper), pressed) in lower.stress.iter().zip(&upper.stress).zip(&pressed.stress) {

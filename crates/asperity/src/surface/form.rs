@@ -18,6 +18,12 @@ pub enum Form {
         /// Radius of curvature R, > 0.
         radius: Metre,
     },
+    /// z = −x²/2Rx − y²/2Ry: the paraboloid in place of an ellipsoid, or of a crowned roller.
+    Ellipsoid {
+        /// Principal radii of curvature Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0. An ellipsoid of semi-axes
+        /// a, b in the plane and c across it has a²/c and b²/c.
+        radius: [Metre; 2],
+    },
     /// z = −s²/2R, s the distance from the line of the apex: the parabolic cylinder of line contact.
     Cylinder {
         /// Radius of curvature R, > 0.
@@ -106,6 +112,7 @@ impl Form {
         match *self {
             Self::Flat => 0.0,
             Self::Sphere { radius } => -(x * x + y * y) / (2.0 * radius),
+            Self::Ellipsoid { radius: [rx, ry] } => -x * x / (2.0 * rx) - y * y / (2.0 * ry),
             Self::Cylinder { radius, axis: Axis::Y } => -x * x / (2.0 * radius),
             Self::Cylinder { radius, axis: Axis::X } => -y * y / (2.0 * radius),
             Self::Cone { angle } => -x.hypot(y) * angle.tan(),
@@ -131,6 +138,9 @@ impl Form {
             Self::Sphere { radius } | Self::Cylinder { radius, .. } => {
                 check_in(Dimension::Length, "radius", radius, positive(radius), "a radius above 0")
             }
+            Self::Ellipsoid { radius } => radius.into_iter().try_for_each(|radius| {
+                check_in(Dimension::Length, "radius", radius, positive(radius), "a radius above 0")
+            }),
             Self::Cone { angle } => {
                 let good = angle > 0.0 && angle < std::f64::consts::FRAC_PI_2;
                 check_in(
@@ -186,6 +196,7 @@ mod tests {
         let forms = [
             Form::Flat,
             Form::Sphere { radius: 3.0 },
+            Form::Ellipsoid { radius: [3.0, 5.0] },
             Form::Cylinder { radius: 3.0, axis: Axis::X },
             Form::Cone { angle: 0.1 },
             Form::Sinusoid { amplitude: 0.2, wavelength: [3.0, 4.0] },
@@ -202,6 +213,8 @@ mod tests {
     fn curvatures_and_slopes_are_those_asked_for() {
         let sphere = Form::Sphere { radius: 4.0 }.on(&grid()).unwrap();
         assert_eq!(sphere.heights()[[8, 4]], -(4.0 + 4.0) / 8.0);
+        let ellipsoid = Form::Ellipsoid { radius: [4.0, 8.0] }.on(&grid()).unwrap();
+        assert_eq!(ellipsoid.heights()[[8, 4]], -(4.0 / 8.0 + 4.0 / 16.0));
         let rolling = Form::Cylinder { radius: 4.0, axis: Axis::default() }.on(&grid()).unwrap();
         assert_eq!(rolling.heights()[[8, 4]], -4.0 / 8.0);
         let cone = Form::Cone { angle: 0.1 }.on(&grid()).unwrap();
@@ -251,6 +264,7 @@ mod tests {
         let bad = [
             (Form::Sphere { radius: 0.0 }, "radius is 0 m"),
             (Form::Cylinder { radius: -1.0, axis: Axis::Y }, "radius is -1 m"),
+            (Form::Ellipsoid { radius: [1.0, f64::INFINITY] }, "radius is inf"),
             (Form::Cone { angle: 2.0 }, "angle is 114.6°"),
             (Form::Sinusoid { amplitude: f64::NAN, wavelength: [3.0, 3.0] }, "amplitude is NaN"),
             (Form::Sinusoid { amplitude: 1.0, wavelength: [3.0, 1.5] }, "wavelength is 1.5 m"),

@@ -29,8 +29,8 @@ fn identical() -> Result<Vec<Check>> {
         let grid = Grid::new([n; 2], [1.0; 2])?;
         let gap = rough::rough_gap(&grid)?;
         let load = 0.05 * pair.modulus() * rough::SLOPE * grid.area();
-        let [free, periodic] = [Boundary::Free, Boundary::Periodic].map(|boundary| -> Result<_> {
-            let mut operator = Operators::new(grid.pitch, pair, boundary).coupled_on(grid.shape);
+        let [free, periodic] = [Boundary::FREE, Boundary::PERIODIC].map(|boundary| -> Result<_> {
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
             let alone = press(operator.normal(), &gap, f64::INFINITY, Control::Load(load))?;
             let pushed = Loading {
                 normal: Control::Load(load),
@@ -63,7 +63,7 @@ pub(super) const ALMOST_IDENTICAL: Case = Case {
         ];
         study("1/β", &[10, 20, 40, 80], checks, |inverse| {
             let pair = under_rigid(1.0 / inverse as f64)?;
-            let mut operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+            let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
             let alone = press(operator.normal(), &gap, f64::INFINITY, Control::Load(load))?;
             let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) };
             let solution = hold(operator.as_mut(), &gap, &Friction::coulomb(0.3)?, loading, None)?;
@@ -180,8 +180,7 @@ fn punch(
     coupling: Coupling,
 ) -> Result<(FrictionalSolution, Newton)> {
     let (grid, gap) = smooth::flat_end(n)?;
-    let mut operator =
-        Operators::new(grid.pitch, under_rigid(dundurs)?, Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, under_rigid(dundurs)?, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction { coupling, ..Friction::coulomb(coefficient)? };
     let solution = hold(operator.as_mut(), &gap, &friction, down(APPROACH), None)?;
     let load = solution.normal.load(grid.cell_area());
@@ -192,8 +191,7 @@ fn punch(
 fn indent(n: usize, dundurs: f64, coefficient: f64) -> Result<(FrictionalSolution, Newton)> {
     let grid = Grid::new([2 * n + 4; 2], [1.0 / n as f64; 2])?;
     let gap = smooth::sphere_gap(&grid)?;
-    let mut operator =
-        Operators::new(grid.pitch, under_rigid(dundurs)?, Boundary::Free).coupled_on(grid.shape);
+    let mut operator = Operators::new(grid, under_rigid(dundurs)?, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(coefficient)?;
     let mut to = |radius: usize, before: Option<&FrictionalSolution>| {
         let approach = (radius as f64 / n as f64).powi(2) / smooth::RADIUS;

@@ -1,11 +1,11 @@
 //! Pressure in, displacement out: exact but for round-off.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::{Case, Check, Expected, relative, relative_max, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
+use crate::operator::{Boundary, DirectSum, Edge, FreeFamily, FreeFft, Operator, PeriodicFft};
 use crate::reference::cell::{corner_displacement, mean_displacement};
 
 const MODULUS: f64 = 115e9;
@@ -87,3 +87,37 @@ fn oblique_sinusoid() -> Result<Vec<Check>> {
         Ok([relative_max(&computed, &(2e9 / (MODULUS * q) * wave))])
     })
 }
+
+/// An endless strip under uniform pressure, made of cells that repeat themselves along it: superposition gives the
+/// displacement of every cell without error, against the distance r₀, the width of the grid.
+pub(super) const LOADED_STRIP: Case = Case {
+    name: "Flamant: uniformly loaded strip",
+    source: "Flamant (1892); Johnson (1985), section 2.4",
+    checks: || {
+        let checks = ["strip along y", "strip along x"].map(|name| (name, Expected::RoundOff(1e-13)));
+        study("cells a side", &[4, 10, 16, 32], checks, |n| {
+            let errors = [1, 0].map(|axis| -> Result<f64> {
+                let turned =
+                    |[across, along]: [f64; 2]| if axis == 1 { [across, along] } else { [along, across] };
+                let mut edges = [Edge::Free; 2];
+                edges[axis] = Edge::Periodic;
+                let shape = if axis == 1 { [4 * n, n] } else { [n, 4 * n] };
+                let grid = Grid::new(shape, turned([1e-6, 1.7e-6]))?;
+                let (width, half, pressure) = (grid.extent()[1 - axis], n as f64 * 0.5e-6, 1e9);
+                let across = |i: usize, j: usize| grid.centre(1 - axis, [i, j][1 - axis]) - 0.5 * width;
+                let loaded = |i, j| if across(i, j).abs() < half { pressure } else { 0.0 };
+                let family = FreeFamily::new(&grid, MODULUS, Boundary(edges));
+                let found =
+                    displacement(family.operator(shape), &Field::from_shape_fn(shape, |(i, j)| loaded(i, j)));
+                let exact = Field::from_shape_fn(shape, |(i, j)| {
+                    let term = |s: f64| if s == 0.0 { 0.0 } else { s * ((s.abs() / width).ln() - 1.0) };
+                    let x = across(i, j);
+                    -2.0 * pressure / (PI * MODULUS) * (term(x + half) - term(x - half))
+                });
+                Ok(relative_max(&found, &exact))
+            });
+            let [along_y, along_x] = errors;
+            Ok([along_y?, along_x?])
+        })
+    },
+};

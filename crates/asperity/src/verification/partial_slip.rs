@@ -38,7 +38,7 @@ impl Pushed {
         };
         let grid = Grid::new([2 * n + 4; 2], [normal.contact_radius() / n as f64; 2])?;
         let pair = Compliances::new(&body, &body)?;
-        let operator = Operators::new(grid.pitch, pair, Boundary::Free).coupled_on(grid.shape);
+        let operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
         Ok(Self { contact, grid, gap: smooth::sphere_gap(&grid)?, operator })
     }
 
@@ -104,8 +104,8 @@ pub(super) const MINDLIN: Case = Case {
         let checks = [("force", first(1e-2)), ("shear on the axis", first(1e-2))];
         study("a/Δx", &[8, 16, 32, 64], checks, |n| {
             let (grid, gap) = smooth::flat_end(n)?;
-            let mut operator = Operators::new(grid.pitch, Compliances::new(&body, &body)?, Boundary::Free)
-                .coupled_on(grid.shape);
+            let mut operator =
+                Operators::new(grid, Compliances::new(&body, &body)?, Boundary::FREE).coupled_on(grid.shape);
             let normal = Control::Approach(1e-3);
             let loading = Loading { normal, tangential: Tangential::Displacement(DIRECTION) };
             let solution = hold(operator.as_mut(), &gap, &Friction::coulomb(f64::INFINITY)?, loading, None)?;

@@ -37,7 +37,7 @@ fn carter() -> Result<Vec<Check>> {
     ];
     study("a/Δx", &[4, 8, 16, 32], checks, |n| {
         let (grid, gap) = smooth::line_gap(n)?;
-        let mut operator = Operators::new(grid.pitch, pair, Boundary::Periodic).coupled_on(grid.shape);
+        let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
         let width = grid.pitch[1];
         let force = FRICTION * (contact.load_per_length - stick.load_per_length) * width;
         let mut roll = |rolling| {

@@ -129,9 +129,9 @@ pub(super) const FREE_TRANSFORM: Case = Case {
     source: "convolution theorem",
     checks: || {
         let pair = dissimilar()?;
-        let operators = Operators::new(PITCH, pair, Boundary::Free);
         study("cells a side", &[5, 16, 31, 48], AXES, |n| {
             let grid = Grid::new([n, 2 * n / 3], PITCH)?;
+            let operators = Operators::new(grid, pair, Boundary::FREE);
             let traction = patchy(grid.shape);
             let exact = displacement(&mut CoupledSum::new(grid, pair), &traction);
             Ok(differences(&displacement(operators.coupled_on(grid.shape).as_mut(), &traction), &exact))
@@ -154,7 +154,6 @@ pub(super) const PERIODIC_TRANSFORM: Case = Case {
 
 fn oblique_sinusoids() -> Result<Vec<Check>> {
     let pair = dissimilar()?;
-    let operators = Operators::new(PITCH, pair, Boundary::Periodic);
     let checks = ["shear across crests", "shear along crests", "pressure"];
     study("cells a side", &[8, 15, 32, 64], checks.map(|name| (name, Expected::RoundOff(1e-14))), |n| {
         let grid = Grid::new([n, n + 1], PITCH)?;
@@ -172,7 +171,7 @@ fn oblique_sinusoids() -> Result<Vec<Check>> {
             ([-s * &cos, c * &cos, none.clone()], [-s * along * &cos, c * along * &cos, none.clone()]),
             ([none.clone(), none, cos.clone()], [-c * coupling * &sin, -s * coupling * &sin, normal * &cos]),
         ];
-        let mut operator = operators.coupled_on(grid.shape);
+        let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
         Ok(waves.map(|(traction, exact)| {
             largest(&differences(&displacement(operator.as_mut(), &traction), &exact))
         }))

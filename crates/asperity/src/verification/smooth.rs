@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use super::{Case, Check, Expected, press, relative, relative_rms, study};
+use super::{Case, Check, Expected, PARAMS, largest, press, relative, relative_rms, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::operator::{FreeFft, PeriodicFft};
-use crate::reference::{FlatPunch, HertzLine, HertzSphere};
-use crate::solver::Control;
+use crate::operator::{Boundary, Edge, FreeFamily, FreeFft, PeriodicFft};
+use crate::reference::{FlatPunch, HertzEllipse, HertzLine, HertzSphere};
+use crate::solver::{Control, Method, Params, solve_normal};
 use crate::surface::{Axis, Form};
 use crate::units::Metre;
 
@@ -56,7 +56,83 @@ pub(super) fn sphere_gap(grid: &Grid) -> Result<Field> {
     Ok(-Form::Sphere { radius: RADIUS }.on(grid)?.into_heights())
 }
 
-/// A cylinder on a periodic grid one cell wide, because a free line of contact has an end and an unbounded approach.
+/// An ellipsoid whose radii of curvature are as 1 to 4, cells as long along each semi-axis of the contact.
+pub(super) const ELLIPSOID: Case = Case {
+    name: "Hertz: ellipsoid, radii 1 : 4",
+    source: "Hertz (1882); Johnson (1985), eqs. 4.25–4.32",
+    checks: ellipsoid,
+};
+
+fn ellipsoid() -> Result<Vec<Check>> {
+    let radii = [0.5 * RADIUS, 2.0 * RADIUS];
+    let hertz = HertzEllipse::new(radii, MODULUS, 7.0);
+    let second = |finest| Expected::Order { order: 1.8..=2.2, finest };
+    let checks = [
+        ("peak pressure", second(1e-4)),
+        ("approach", second(1e-4)),
+        ("pressure, rms", Expected::Order { order: 0.8..=1.2, finest: 1e-2 }),
+        ("contact area", Expected::Counted(1.0)),
+    ];
+    study("a/Δx", &[8, 16, 32, 64], checks, |n| {
+        let grid = Grid::new([3 * n; 2], hertz.semi_axes.map(|a| a / n as f64))?;
+        let gap = -Form::Ellipsoid { radius: radii }.on(&grid)?.into_heights();
+        let solution = press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Load(hertz.load))?;
+        let [x0, y0] = grid.extent().map(|length| 0.5 * length);
+        let exact = Field::from_shape_fn(grid.shape, |(i, j)| {
+            hertz.pressure(grid.centre(0, i) - x0, grid.centre(1, j) - y0)
+        });
+        let area = solution.contact_cells() as f64 * grid.cell_area();
+        Ok([
+            relative(solution.max_pressure(), hertz.peak_pressure),
+            relative(solution.approach, hertz.approach),
+            relative_rms(&solution.pressure, &exact),
+            relative(area, hertz.contact_area()),
+        ])
+    })
+}
+
+/// A cylinder on a boundary that is periodic along it and free across: a line of contact without ends or neighbours. The
+/// approach is that against r₀, the width of the grid, and along the line all is the same.
+pub(super) const LINE_ALONE: Case = Case {
+    name: "Hertz: cylinder, periodic along it alone",
+    source: "Johnson (1985), eqs. 4.43–4.45",
+    checks: line_alone,
+};
+
+fn line_alone() -> Result<Vec<Check>> {
+    let a = LINE_HALF_WIDTH;
+    let load_per_length = PI * MODULUS * a * a / (4.0 * RADIUS);
+    let hertz = HertzLine { radius: RADIUS, modulus: MODULUS, load_per_length };
+    let second = |finest| Expected::Order { order: 1.8..=2.2, finest };
+    let checks = [
+        ("peak pressure", second(1e-4)),
+        ("approach", second(1e-4)),
+        ("pressure, rms", Expected::Order { order: 0.8..=1.2, finest: 1e-2 }),
+        ("contact width", Expected::Counted(1.0)),
+        ("pressure along the line", Expected::RoundOff(1e-12)),
+    ];
+    study("a/Δx", &[16, 32, 64, 128], checks, |n| {
+        let grid = Grid::new([3 * n, 3], [a / n as f64; 2])?;
+        let gap = -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights();
+        let load = Control::Load(load_per_length * grid.extent()[1]);
+        let boundary = Boundary([Edge::Free, Edge::Periodic]);
+        let mut operator = FreeFamily::new(&grid, MODULUS, boundary).operator(grid.shape);
+        let params = Params { method: Method::Direct, ..PARAMS };
+        let solution = solve_normal(&mut operator, &gap, ELASTIC, load, None, &params)?;
+        let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
+        let width = solution.contact_cells() as f64 * grid.cell_area() / grid.extent()[1];
+        let along = solution.pressure.outer_iter().flat_map(|row| row.mapv(|p| p - row[0]));
+        Ok([
+            relative(solution.max_pressure(), hertz.peak_pressure()),
+            relative(solution.approach, hertz.approach(grid.extent()[0])),
+            relative_rms(&solution.pressure, &exact),
+            relative(width, 2.0 * a),
+            largest(&along.collect::<Vec<_>>()) / hertz.peak_pressure(),
+        ])
+    })
+}
+
+/// A cylinder on a periodic grid one cell wide, whose neighbours it feels.
 ///
 /// The other lines of contact, a period L away, are felt as a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, and
 /// the second term is linear in x whatever the pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), but for

@@ -33,7 +33,7 @@ fn rectangle() -> Result<Vec<Check>> {
         let grid = Grid::new([n, n], sides.map(|side| side / n as f64))?;
         let uniform = |value: f64| grid.zeros() + value;
         let tractions = Tractions { pressure: uniform(p), shear: [Some(uniform(qx)), Some(uniform(qy))] };
-        let plane = Subsurface::new(grid, Boundary::Free, poisson, &tractions).plane(depth);
+        let plane = Subsurface::new(grid, Boundary::FREE, poisson, &tractions).plane(depth);
         let [mut by_cells, mut by_points] = [0.0f64; 2];
         for (i, j) in ndarray::indices(grid.shape) {
             let at = [grid.centre(0, i) - 0.5 * sides[0], grid.centre(1, j) - 0.5 * sides[1]];
@@ -107,7 +107,7 @@ fn sliding(friction: f64, its_depth: Expected) -> Result<Vec<Check>> {
             press(&mut FreeFft::new(grid, MODULUS), &gap, f64::INFINITY, Control::Load(hertz.load))?;
         let pressure = solution.pressure;
         let shear = (friction > 0.0).then(|| friction * &pressure);
-        let body = Subsurface::new(grid, Boundary::Free, 0.3, &Tractions { pressure, shear: [shear, None] });
+        let body = Subsurface::new(grid, Boundary::FREE, 0.3, &Tractions { pressure, shear: [shear, None] });
         let rms = |depth: f64| {
             let plane = body.plane(depth);
             let [mut error, mut scale] = [0.0; 2];

@@ -25,7 +25,7 @@ use super::regular;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
-pub use crate::operator::Boundary;
+pub use crate::operator::{Boundary, Edge};
 use crate::solver;
 pub use crate::solver::Method;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};

@@ -8,7 +8,7 @@ use super::friction::friction;
 use super::subsurface::subsurface;
 use super::sweep::{self, sweep};
 use super::{
-    Body, Boundary, Case, Contact, ControlKind, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
+    Body, Boundary, Case, Contact, ControlKind, Edge, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
     Prescribed, Source, StageSpec, TopographySpec,
 };
 use crate::error::Result;
@@ -73,7 +73,7 @@ const TABLES: [(&str, &[&str]); 7] = [
 ];
 
 /// The keys that each kind of topography has beyond the common ones.
-const SOURCES: [(&str, &[&str]); 10] = [
+const SOURCES: [(&str, &[&str]); 11] = [
     ("file", &["file", "channel", "unit", "despike", "fill"]),
     ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
     (
@@ -85,6 +85,7 @@ const SOURCES: [(&str, &[&str]); 10] = [
         &["generate", "shape", "seed", "sq", "sdq", "hurst", "rolloff", "shortest"],
     ),
     ("form = \"sphere\"", &["form", "shape", "radius"]),
+    ("form = \"ellipsoid\"", &["form", "shape", "radius"]),
     ("form = \"cylinder\"", &["form", "shape", "radius", "axis"]),
     ("form = \"cone\"", &["form", "shape", "angle"]),
     ("form = \"flat\"", &["form", "shape"]),
@@ -151,6 +152,13 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     }
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
+    if let (Some(_), Some(entry)) = (&subsurface, contact_table.get("boundary"))
+        && contact.boundary.repeats(0) != contact.boundary.repeats(1)
+    {
+        let message = "a boundary periodic along one axis alone has no [subsurface] yet";
+        let hint = "leave [subsurface] out, or use \"free\" or \"periodic\"".to_owned();
+        return Err(entry.error(message.to_owned(), Some(hint)));
+    }
     let output = output(root.table("output")?.as_ref())?;
     Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
 }
@@ -427,6 +435,7 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
     #[derive(Clone, Copy)]
     enum Kind {
         Sphere,
+        Ellipsoid,
         Cylinder,
         Cone,
         Flat,
@@ -435,6 +444,7 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
     }
     let kinds = [
         ("sphere", Kind::Sphere),
+        ("ellipsoid", Kind::Ellipsoid),
         ("cylinder", Kind::Cylinder),
         ("cone", Kind::Cone),
         ("flat", Kind::Flat),
@@ -447,6 +457,15 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
     let radius = || table.required("radius", "\"1 mm\"")?.positive(Dimension::Length);
     Ok(match kind {
         Kind::Sphere => Form::Sphere { radius: radius()? },
+        Kind::Ellipsoid => {
+            const RADII: &str = "two radii of curvature, along x and along y, such as [\"1 mm\", \"2 mm\"]";
+            let radii = table.required("radius", "[\"1 mm\", \"2 mm\"]")?;
+            if !radii.is_array() {
+                let hint = "a body of one radius is a `form = \"sphere\"`".to_owned();
+                return Err(radii.unexpected(RADII, Some(hint)));
+            }
+            Form::Ellipsoid { radius: radii.array(RADII, |item| item.positive(Dimension::Length))? }
+        }
         Kind::Cylinder => Form::Cylinder {
             radius: radius()?,
             axis: match table.get("axis") {
@@ -486,7 +505,6 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
 
 fn contact(table: &Table<'_>) -> Result<Contact> {
     known_in(table)?;
-    let boundaries = [("free", Boundary::Free), ("periodic", Boundary::Periodic)];
     let methods = [
         ("auto", Method::Auto),
         ("direct", Method::Direct),
@@ -500,10 +518,17 @@ fn contact(table: &Table<'_>) -> Result<Contact> {
     Ok(Contact {
         prescribed: sweep.as_ref().map_or_else(|| prescribed(table), |sweep| Ok(sweep.largest()))?,
         sweep,
-        boundary: choice_or(table, "boundary", &boundaries, Boundary::Free)?,
+        boundary: table.get("boundary").map_or(Ok(Boundary::FREE), |entry| boundary(&entry))?,
         method: choice_or(table, "method", &methods, Method::Auto)?,
         tolerance: fraction_or(table, "tolerance", 1e-6)?,
     })
+}
+
+/// A word for both axes, or one for each.
+fn boundary(entry: &Entry<'_>) -> Result<Boundary> {
+    const EXPECTED: &str = "\"free\", \"periodic\", or one of them for x and one for y";
+    let words = [("free", Edge::Free), ("periodic", Edge::Periodic)];
+    Ok(Boundary(entry.pair(EXPECTED, |word| word.choice(&words))?))
 }
 
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
@@ -522,9 +547,10 @@ pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
 fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Result<MotionSpec> {
     known_in(table)?;
     let is_shift = choice_or(table, "strategy", &[("overlap", false), ("shift", true)], false)?;
-    if contact.boundary == Boundary::Periodic && !is_shift {
-        let message = "a periodic boundary has no overlap, where a finite body passes over another";
-        let hint = "use `boundary = \"free\"`, or `strategy = \"shift\"` under [motion]".to_owned();
+    if contact.boundary.repeats(0) && !is_shift {
+        let message = "a boundary periodic along x has no overlap, where a finite body passes over another";
+        let hint = "use `boundary = \"free\"` or `[\"free\", \"periodic\"]`, or `strategy = \"shift\"` under [motion]"
+            .to_owned();
         let place = table.get("strategy").or(contact_table.get("boundary"));
         return Err(place.map_or_else(
             || table.error(message.to_owned(), Some(hint.clone())),

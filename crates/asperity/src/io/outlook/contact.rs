@@ -88,6 +88,11 @@ impl Paraboloid {
         self.curvatures[1] <= 1e-6 * self.curvatures[0]
     }
 
+    /// The axis that a line contact lies along: that of the smaller curvature.
+    fn line(&self) -> usize {
+        usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
+    }
+
     /// Hertz' contact of the paraboloid under `control`, whose approach counts from the gap `touch`; none where the gap
     /// does not open outwards in all directions, or nothing presses.
     fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
@@ -103,18 +108,18 @@ impl Paraboloid {
         (load > 0.0 && load.is_finite()).then(|| contact(load))
     }
 
-    /// Of the four sides of the grid that on which a contact of these semi-axes along the principal directions presses
+    /// Of the free sides of the grid that on which a contact of these semi-axes along the principal directions presses
     /// hardest at the rim: the axis, how far the contact reaches from the apex, how far the rim is, and the pressure at the
     /// rim over that at the centre.
     ///
     /// A contact that would reach a and is cut off at w presses on the last cells, of pitch h, with about
     /// p₀ (√(h/w) + 1.1 (a/w − 1) √(w/h)): what an edge at w adds to Hertz' pressure grows as the root of the distance
     /// from it, here averaged over a cell; 1.1 by computations of spheres and ellipsoids on 32 to 128 cells.
-    fn hardest_side(&self, semi_axes: [Metre; 2]) -> (usize, Metre, Metre, f64) {
+    fn hardest_side(&self, semi_axes: [Metre; 2], boundary: Boundary) -> Option<(usize, Metre, Metre, f64)> {
         let [c, s] = self.direction;
         let [along, across] = semi_axes;
         let reach = [(along * c).hypot(across * s), (along * s).hypot(across * c)];
-        let sides = [0, 1].into_iter().flat_map(|axis| {
+        let sides = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis)).flat_map(|axis| {
             [self.apex[axis], self.extent[axis] - self.apex[axis]].map(|rim| (axis, reach[axis], rim))
         });
         let pressures = sides.map(|(axis, reach, rim)| {
@@ -126,7 +131,7 @@ impl Paraboloid {
                 cells.sqrt().recip() + 1.1 * (reach / rim.max(self.pitch[axis]) - 1.0) * cells.sqrt(),
             )
         });
-        pressures.max_by(|one, other| one.3.total_cmp(&other.3)).expect("a grid has sides")
+        pressures.max_by(|one, other| one.3.total_cmp(&other.3))
     }
 }
 
@@ -151,13 +156,12 @@ pub(super) fn foreseen(
     }
     let length = |value| units::format(value, Dimension::Length);
     let Some(contact) = paraboloid.hertz(modulus, control, touch) else {
-        if boundary == Boundary::Free {
-            foreseen.rim = Some(endless(&paraboloid));
-        }
+        foreseen.rim = endless(&paraboloid, boundary);
         return foreseen;
     };
-    let (axis, reach, rim, pressure) = paraboloid.hardest_side(contact.semi_axes);
-    if boundary == Boundary::Free && pressure >= 1.0 {
+    if let Some((axis, reach, rim, pressure)) = paraboloid.hardest_side(contact.semi_axes, boundary)
+        && pressure >= 1.0
+    {
         foreseen.rim = Some(format!(
             "the rim of the grid cuts the contact off along {}: by Hertz it reaches {} from the apex, the rim is {} away; \
              take a larger `shape` or a lower load",
@@ -187,23 +191,34 @@ pub(super) struct Foreseen {
     pub(super) coarse: Option<String>,
 }
 
-/// A gap that does not open towards the rim.
-fn endless(paraboloid: &Paraboloid) -> String {
+/// A gap that does not open towards a free rim.
+fn endless(paraboloid: &Paraboloid, boundary: Boundary) -> Option<String> {
     let [large, small] = paraboloid.curvatures;
-    let axis = ["x", "y"][usize::from(paraboloid.direction[0].abs() > 1.0 / SQRT_2)];
+    let axis = paraboloid.line();
     let length = |value| units::format(value, Dimension::Length);
     if large <= 0.0 || -small > large {
-        return format!(
-            "the gap is hollow, of radius {}: the bodies touch at the rim of the grid, where pressures rise without \
-             bound; `level = \"quadratic\"` removes the curvature of a measurement",
-            length(1.0 / small.abs())
-        );
+        return (boundary != Boundary::PERIODIC).then(|| {
+            format!(
+                "the gap is hollow, of radius {}: the bodies touch at the rim of the grid, where pressures rise without \
+                 bound; `level = \"quadratic\"` removes the curvature of a measurement",
+                length(1.0 / small.abs())
+            )
+        });
     }
-    format!(
-        "the line contact ends at the rim of the grid along {axis}, where its pressure rises, nor is it in plane strain: \
-         the radius is {} across; `boundary = \"periodic\"` gives it no ends",
-        length(1.0 / large)
-    )
+    (!boundary.repeats(axis)).then(|| {
+        format!(
+            "the line contact ends at the rim of the grid along {}, where its pressure rises, nor is it in plane strain: \
+             the radius is {} across; {} gives it no ends",
+            ["x", "y"][axis],
+            length(1.0 / large),
+            boundary_of_a_line(axis)
+        )
+    })
+}
+
+/// The boundary of a line contact along an axis, as a case file has it.
+fn boundary_of_a_line(axis: usize) -> &'static str {
+    ["`boundary = [\"periodic\", \"free\"]`", "`boundary = [\"free\", \"periodic\"]`"][axis]
 }
 
 /// The gap at which the bodies first touch, if they do not at this `approach` at any of the `positions`.
@@ -253,7 +268,7 @@ pub(in crate::io) fn too_few_cells(across: usize) -> Option<String> {
     }
 }
 
-/// That the rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the outermost cells, or with a
+/// That a free rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the outermost cells, or with a
 /// load on a side of them that is not much below that of the fullest line inside.
 ///
 /// A sphere or an ellipsoid whose Hertzian contact reaches a little over the rim has its largest pressure to 1 % still;
@@ -262,21 +277,22 @@ pub(in crate::io) fn cut_off(
     pressure: &Field,
     gap: impl FnOnce() -> Field,
     pitch: [Metre; 2],
+    boundary: Boundary,
 ) -> Option<String> {
     const SHARE_OF_A_LINE: f64 = 0.75;
     let sides = [0, 1].map(|axis| Sides::of(pressure, axis));
     let (axis, side) = sides
         .iter()
         .enumerate()
-        .filter(|(_, side)| side.rim > 0.0)
+        .filter(|(axis, side)| !boundary.repeats(*axis) && side.rim > 0.0)
         .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
         .max_by(|one, other| one.1.rim.total_cmp(&other.1.rim))?;
     let paraboloid = Paraboloid::of(&gap(), pitch)?;
     let value = |value| units::format(value, Dimension::Pressure);
     let way_out = if paraboloid.is_endless() {
-        "`boundary = \"periodic\"` gives a line contact no ends"
+        format!("{} gives a line contact no ends", boundary_of_a_line(paraboloid.line()))
     } else {
-        "take a larger `shape` or a lower load"
+        "take a larger `shape` or a lower load".to_owned()
     };
     Some(format!(
         "the rim of the grid cuts the contact off along {}: the largest pressure there is {}, inside {}, and the outermost \
@@ -284,15 +300,15 @@ pub(in crate::io) fn cut_off(
         ["x", "y"][axis],
         value(side.rim),
         value(side.inside),
-        100.0 * outermost(pressure) / pressure.sum()
+        100.0 * outermost(pressure, boundary) / pressure.sum()
     ))
 }
 
-/// What the outermost cells of a field add up to.
-fn outermost(field: &Field) -> f64 {
-    let [nx, ny] = [field.nrows(), field.ncols()];
-    let is_rim = |i: usize, n: usize| i == 0 || i + 1 == n;
-    field.indexed_iter().filter(|((i, j), _)| is_rim(*i, nx) || is_rim(*j, ny)).map(|(_, p)| p).sum()
+/// What the outermost cells of a field at its free sides add up to.
+fn outermost(field: &Field, boundary: Boundary) -> f64 {
+    let shape = [field.nrows(), field.ncols()];
+    let is_rim = |axis: usize, i: usize| !boundary.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
+    field.indexed_iter().filter(|((i, j), _)| is_rim(0, *i) || is_rim(1, *j)).map(|(_, p)| p).sum()
 }
 
 /// Pressures at the two sides of the grid across an axis.
@@ -328,5 +344,5 @@ impl Sides {
 /// Cells across the largest contact spot of a pressure field.
 pub(in crate::io) fn spot(pressure: &Field, boundary: Boundary) -> usize {
     let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
-    largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary == Boundary::Periodic)
+    largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary.wraps())
 }

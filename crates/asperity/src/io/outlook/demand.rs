@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::io::case::{Body, Boundary, Case, Course, Layer, Source};
+use crate::io::case::{Body, Case, Course, Layer, Source};
 use crate::io::prepare::grids;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness};
@@ -136,14 +136,14 @@ impl Sizes<'_> {
         let [nx, ny] = self.facing();
         // Eight numbers of the iteration for each cell; of the padded transform half is stored, and its real kernel, in
         // double and in single precision.
-        let padded = if case.contact.boundary == Boundary::Free { 2.0 } else { 1.0 };
-        let transforms = 1.5 * padded * nx * (padded * ny + 2.0) * (1.0 + 0.5 / padded);
+        let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
+        let padded = padded_x * nx * (padded_y * ny + 2.0);
+        let transforms = 1.5 * padded * (1.0 + 0.5 / padded_x);
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
         let normal = 8.0 * nx * ny + transforms + dense;
         // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
         // iteration some thirty numbers for each cell.
-        let coupled =
-            1.5 * padded * nx * (padded * ny + 2.0) + 3.0 * nx * (padded * ny + 2.0) + 32.0 * nx * ny;
+        let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         let positions = super::positions(case, self.lower.shape[0], self.upper.shape[0]);
         if let Ok(Some(plan)) = Plan::new(case, &self.lower, &positions) {
@@ -183,7 +183,8 @@ impl Sizes<'_> {
         let case = self.case;
         let ny = self.lower.shape[1] as f64;
         let work = |columns: f64| columns * ny * (columns * ny).max(2.0).log2();
-        let boundary = if case.contact.boundary == Boundary::Free { 1.0 } else { 0.6 };
+        let boundary: f64 =
+            case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
         let method = match case.contact.method {
             Method::PolonskyKeer => 10.0,
             _ => 1.0,

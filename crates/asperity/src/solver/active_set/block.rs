@@ -80,7 +80,8 @@ impl<'a> Block<'a> {
             let near = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
                 operator.influence(i, j.abs_diff(reach[1])) as f32
             });
-            let local = if operator.periodic() { operator.influence(0, 0).abs() } else { 0.0 };
+            let local =
+                if operator.boundary().leaves_mean_free() { operator.influence(0, 0).abs() } else { 0.0 };
             made = Some((Preconditioner::new(operator), near, local));
         });
         let (preconditioner, near, local) = made.expect("a site lends its operator");

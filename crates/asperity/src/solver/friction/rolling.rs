@@ -49,7 +49,7 @@ pub fn solve_rolling(
     params: &Params,
 ) -> Result<(FrictionalSolution, [f64; 2])> {
     let pitch = operator.grid().pitch[0];
-    let periodic = operator.normal().periodic();
+    let periodic = operator.normal().boundary().repeats(0);
     let tangential = match rolling {
         Rolling::Creepage(creepage) => {
             for xi in creepage {

@@ -1,0 +1,133 @@
+//! What lies beyond the edges of a contact.
+
+use serde::{Deserialize, Serialize};
+
+use crate::grid::Grid;
+use crate::kernel::Line;
+use crate::math::good_size;
+use crate::units::Metre;
+
+/// What lies beyond the edges of the contact along one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edge {
+    /// An unloaded half-space.
+    #[default]
+    Free,
+    /// The contact itself, over and over.
+    Periodic,
+}
+
+/// What lies beyond the edges of the contact along x and along y.
+///
+/// Where one axis is free and the other periodic, the contact is a line of itself, and a load on it sinks without bound
+/// with the distance at which it is looked at: the displacement that is uniform along the line is −(2/πE*) ln(r/r₀) under
+/// a unit force per length, 0 at the distance r₀ of the [`super::Operators`], to which the approach refers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(from = "Words", into = "Words")]
+pub struct Boundary(pub [Edge; 2]);
+
+impl Boundary {
+    /// An unloaded half-space all around.
+    pub const FREE: Self = Self([Edge::Free; 2]);
+    /// The contact itself, over and over along both axes.
+    pub const PERIODIC: Self = Self([Edge::Periodic; 2]);
+
+    /// Whether the surface repeats itself along an axis.
+    pub fn repeats(self, axis: usize) -> bool {
+        self.0[axis] == Edge::Periodic
+    }
+
+    /// Along which axes it repeats itself.
+    pub fn wraps(self) -> [bool; 2] {
+        self.0.map(|edge| edge == Edge::Periodic)
+    }
+
+    /// Whether it repeats itself along both axes, so that a uniform pressure moves it without any resistance.
+    pub fn leaves_mean_free(self) -> bool {
+        self == Self::PERIODIC
+    }
+
+    /// The axis along which alone it repeats itself.
+    fn single_period(self) -> Option<usize> {
+        match self.0 {
+            [Edge::Periodic, Edge::Free] => Some(0),
+            [Edge::Free, Edge::Periodic] => Some(1),
+            _ => None,
+        }
+    }
+
+    /// The r₀ of operators on grids no larger than this one: its length along the free axis.
+    pub(super) fn datum(self, largest: &Grid) -> Metre {
+        self.single_period().map_or(0.0, |axis| largest.extent()[1 - axis])
+    }
+
+    /// The line of its images that a cell of `grid` stands in, for a given r₀.
+    pub(super) fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
+        self.single_period().map(|axis| Line { axis, period: grid.extent()[axis], datum })
+    }
+
+    /// Size of transforms on which the cyclic convolution of fields of `shape` is that of this boundary.
+    pub(crate) fn padded(self, shape: [usize; 2]) -> [usize; 2] {
+        [0, 1].map(|axis| if self.repeats(axis) { shape[axis] } else { good_size(2 * shape[axis] - 1) })
+    }
+
+    /// The grid of about half as many cells along each axis: along a free one its cells are two cells of `grid`, the last
+    /// one hanging over where their number is odd; along a periodic one the period stays.
+    pub(super) fn coarse(self, grid: &Grid) -> Grid {
+        let shape = grid.shape.map(|n| n.div_ceil(2));
+        let pitch = [0, 1].map(|axis| {
+            if self.repeats(axis) { grid.extent()[axis] / shape[axis] as f64 } else { 2.0 * grid.pitch[axis] }
+        });
+        Grid { shape, pitch }
+    }
+}
+
+/// As it is written: a word for both axes, or one for each.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Words {
+    Both(Edge),
+    Each([Edge; 2]),
+}
+
+impl From<Words> for Boundary {
+    fn from(words: Words) -> Self {
+        match words {
+            Words::Both(edge) => Self([edge; 2]),
+            Words::Each(edges) => Self(edges),
+        }
+    }
+}
+
+impl From<Boundary> for Words {
+    fn from(Boundary(edges): Boundary) -> Self {
+        if edges[0] == edges[1] { Self::Both(edges[0]) } else { Self::Each(edges) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MIXED: Boundary = Boundary([Edge::Free, Edge::Periodic]);
+
+    #[test]
+    fn one_word_is_both_axes() {
+        for (boundary, words) in [
+            (Boundary::FREE, "\"free\""),
+            (Boundary::PERIODIC, "\"periodic\""),
+            (MIXED, "[\"free\",\"periodic\"]"),
+        ] {
+            assert_eq!(serde_json::to_string(&boundary).unwrap(), words);
+            assert_eq!(serde_json::from_str::<Boundary>(words).unwrap(), boundary);
+        }
+    }
+
+    #[test]
+    fn only_free_axes_are_padded_and_a_period_stays_on_the_coarse_grid() {
+        assert_eq!(MIXED.padded([7, 7]), [good_size(13), 7]);
+        let coarse = MIXED.coarse(&Grid::new([7, 7], [1.0, 1.0]).unwrap());
+        assert_eq!((coarse.shape, coarse.pitch), ([4, 4], [2.0, 7.0 / 4.0]));
+    }
+}
