@@ -7,7 +7,7 @@ use asperity::io::outlook::{Demand, Outlook, outlook};
 use asperity::io::prepare::{Bodies, Prepared, bodies};
 use asperity::io::subsurface::Plan;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
-use asperity::solver::{self, Coupling, Friction, Rolling, Tangential};
+use asperity::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -210,11 +210,12 @@ fn friction(friction: &Friction, outlook: &Outlook) -> String {
     }
 }
 
-fn rolling(rolling: Rolling) -> String {
+fn rolling(Rolling { creep, spin }: Rolling) -> String {
     let force = |value| units::format(value, Dimension::Force);
-    match rolling {
-        Rolling::Creepage([x, y]) => format!("rolling at the creepage {x}, {y}"),
-        Rolling::Force([x, y]) => format!("rolling under the force {}, {}", force(x), force(y)),
+    let spin = if spin == 0.0 { String::new() } else { format!(" and a spin of {spin} 1/m") };
+    match creep {
+        Creep::Creepage([x, y]) => format!("rolling at the creepage {x}, {y}{spin}"),
+        Creep::Force([x, y]) => format!("rolling under the force {}, {}{spin}", force(x), force(y)),
     }
 }
 

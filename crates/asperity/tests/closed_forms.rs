@@ -45,6 +45,7 @@ cases! {
     less_sticks_where_shear_lifts: "Spence's punch: β = 0.5",
     a_sphere_sticks_over_the_same_share_as_a_punch: "Spence's sphere, in increments: β = 0.3",
     a_driven_wheel_creeps: "Carter: cylinder, period 32 a, c = 5/8 a",
+    what_creeps_and_spins_without_slip_is_linear: "Kalker: creepage and spin without slip, ν = 1/4",
     stresses_under_a_rectangle_are_those_of_its_parts: "Love: stress under a loaded rectangle",
     a_sphere_yields_below_its_contact: "Hertz: stress under a sphere",
     a_sliding_sphere_yields_nearer_to_the_surface: "Hamilton: stress under a sliding sphere, friction 0.25",

@@ -4,15 +4,14 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::io::case::{
-    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source,
-    Sweep,
+    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
 };
 use asperity::io::identity;
 use asperity::io::outlook::demand;
 use asperity::io::prepare::bodies;
 use asperity::io::topography::x3p;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
-use asperity::solver::{self, Coupling, Friction, Loading, Rolling, Tangential};
+use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
     Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
@@ -266,8 +265,9 @@ fn what_a_stage_does_not_name_stays() {
 #[test]
 fn what_rolls_has_a_creepage_or_a_force() {
     let rolling = |name| load(name).course(1.0).unwrap();
-    assert_eq!(rolling("rolled"), Course::Rolling(Rolling::Creepage([1e-3, -5e-4])));
-    assert_eq!(rolling("driven"), Course::Rolling(Rolling::Force([0.2, 0.0])));
+    let course = |creep, spin| Course::Rolling(Rolling { creep, spin });
+    assert_eq!(rolling("rolled"), course(Creep::Creepage([1e-3, -5e-4]), -20.0));
+    assert_eq!(rolling("driven"), course(Creep::Force([0.2, 0.0]), 0.0));
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
     assert!(approaches.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-22), "{approaches:?}");
 
     let Some(Course::Sweep(points)) = load("swept_rolling").course(1.0) else { panic!() };
-    let rolling = Some(Rolling::Creepage([1e-3, 0.0]));
+    let rolling = Some(Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 });
     let point = |load| Point { control: solver::Control::Load(load), rolling };
     assert_eq!(points, [point(2.0), point(4.0)]);
 }

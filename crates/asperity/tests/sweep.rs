@@ -10,7 +10,7 @@ use asperity::io::summary::Outcome;
 use asperity::material::Material;
 use asperity::motion::{LoadedContact, Pair, Point, Progress, SweepRecord, Watch, press, roll, sweep};
 use asperity::operator::Boundary;
-use asperity::solver::{Control, Friction, Method, Params, Rolling};
+use asperity::solver::{Control, Creep, Friction, Method, Params, Rolling};
 use asperity::surface::{Amplitude, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
 use rand::seq::SliceRandom;
@@ -161,7 +161,7 @@ fn what_does_not_touch_has_no_stiffness_and_what_closes_a_period_gives_nowhere()
 fn what_rolls_is_swept_as_it_rolls_alone() {
     let pair = ball(24, 1e-6);
     let friction = Friction::coulomb(0.3).unwrap();
-    let rolling = Rolling::Creepage([5e-4, 0.0]);
+    let rolling = Rolling { creep: Creep::Creepage([5e-4, 0.0]), spin: 0.0 };
     let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling) });
     let params = Params { tolerance: 1e-4, ..Params::default() };
     let (records, _) =

@@ -65,6 +65,10 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
         if let Some([x, y]) = shear.creepage {
             rows.push(("creepage", format!("{}, {}", format_number(x), format_number(y))));
         }
+        if let (Some(spin), Some(moment)) = (shear.spin.filter(|spin| *spin != 0.0), shear.moment) {
+            rows.push(("spin", format!("{} 1/m", format_number(spin))));
+            rows.push(("moment", format!("{} N m", format_number(moment))));
+        }
     }
     rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
 }

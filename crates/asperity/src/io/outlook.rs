@@ -13,9 +13,9 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::subsurface::Plan;
 use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Point, Position, Stage, Strategy, initial_gap};
+use crate::motion::{Control, Position, Stage, Strategy, initial_gap};
 use crate::reference::HertzSphere;
-use crate::solver::{self, Coupling, Friction, Rolling, Tangential};
+use crate::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
@@ -174,13 +174,14 @@ fn holds(
     control: solver::Control,
     apparent_area: SquareMetre,
 ) -> Result<()> {
-    let ends = match course {
+    let ends: Vec<_> = match course {
         Course::Stages(stages) => {
             stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
         }
-        Course::Rolling(Rolling::Force(force)) => vec![(control, Tangential::Force(*force))],
-        Course::Rolling(Rolling::Creepage(_)) => Vec::new(),
-        Course::Sweep(points) => points.iter().filter_map(pushed).collect(),
+        Course::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
+        Course::Sweep(points) => {
+            points.iter().filter_map(|point| pushed(point.control, point.rolling?)).collect()
+        }
     };
     for end in ends {
         if let (solver::Control::Load(load), Tangential::Force([x, y])) = end {
@@ -194,11 +195,11 @@ fn holds(
     Ok(())
 }
 
-/// What is prescribed at a point that rolls under a force.
-fn pushed(point: &Point) -> Option<(solver::Control, Tangential)> {
-    match point.rolling {
-        Some(Rolling::Force(force)) => Some((point.control, Tangential::Force(force))),
-        _ => None,
+/// What is prescribed of what rolls under a force.
+fn pushed(control: solver::Control, rolling: Rolling) -> Option<(solver::Control, Tangential)> {
+    match rolling.creep {
+        Creep::Force(force) => Some((control, Tangential::Force(force))),
+        Creep::Creepage(_) => None,
     }
 }
 

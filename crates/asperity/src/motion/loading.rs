@@ -201,7 +201,12 @@ impl LoadedContact {
             solve_rolling(operator, gap, pair.hardness(), friction, control, rolling, params)?;
         let plastic = solution.plastic_interference(gap);
         let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
-        let shear = shear_record(&solution, area * (work(0) + work(1)), Some(creepage), area);
+        let shear = ShearRecord {
+            creepage: Some(creepage),
+            spin: Some(rolling.spin),
+            moment: Some(solution.moment(&pair.lower_grid())),
+            ..shear_record(&solution, area * (work(0) + work(1)), area)
+        };
         let slip = Some(solution.slip.clone());
         let solution = Equilibrium::Frictional(Box::new(solution));
         let record = StaticRecord { shear: Some(shear), ..static_record(pair, &solution, &plastic) };
@@ -353,9 +358,8 @@ impl<'a> Bodies<'a> {
         let now = solution.plastic_interference(&flattening.open(&self.gap), self.hardness);
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
-        let shear = solution
-            .frictional()
-            .map(|solution| shear_record(solution, sum(|i| i.dissipation), None, self.area));
+        let shear =
+            solution.frictional().map(|solution| shear_record(solution, sum(|i| i.dissipation), self.area));
         let record = StaticRecord {
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
             convolutions: sum(|increment| increment.convolutions),
@@ -493,12 +497,7 @@ fn static_record(pair: &Pair, contact: &Equilibrium, plastic: &Field) -> StaticR
     }
 }
 
-fn shear_record(
-    solution: &FrictionalSolution,
-    dissipation: Joule,
-    creepage: Option<[f64; 2]>,
-    area: SquareMetre,
-) -> ShearRecord {
+fn shear_record(solution: &FrictionalSolution, dissipation: Joule, area: SquareMetre) -> ShearRecord {
     let force = solution.force(area);
     let load = solution.normal.load(area);
     let force_ratio = if load > 0.0 { force[0].hypot(force[1]) / load } else { 0.0 };
@@ -511,6 +510,8 @@ fn shear_record(
         stick_area: area * sticks,
         max_shear: solution.max_shear(),
         dissipation,
-        creepage,
+        creepage: None,
+        spin: None,
+        moment: None,
     }
 }

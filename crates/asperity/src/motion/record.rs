@@ -58,6 +58,12 @@ pub struct ShearRecord {
     /// Velocity of the upper body against the lower one over the rolling velocity, along x and y.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub creepage: Option<[f64; 2]>,
+    /// Angular velocity of the upper body against the lower one over the rolling velocity, 1/m; in rolling.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin: Option<f64>,
+    /// Moment of the upper body on the lower one about z through the middle of the grid, N·m; in rolling.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment: Option<f64>,
 }
 
 /// One increment of the loading of a static contact: a row of `increments.csv`.

@@ -17,7 +17,7 @@ mod together;
 
 pub(crate) use friction::solve_sliding;
 pub use friction::{
-    Coupling, Friction, FrictionalSolution, Loading, Rolling, Sliding, Tangential, solve_frictional,
+    Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, Sliding, Tangential, solve_frictional,
     solve_rolling,
 };
 pub use residual::{Residual, residual};

@@ -18,7 +18,8 @@ use crate::units::NewtonPerMetre;
 ///
 /// These are the cells with 0 < p < H: a cell at the hardness bears no more, one that is open none. Under a periodic
 /// boundary δ is the approach of the mean planes of the surfaces, the mean displacement being 0; where all of a period is
-/// elastic nothing gives, and there is no stiffness. K comes to within about a tenth of the tolerance of `params`.
+/// elastic nothing gives, and there is no stiffness; under one that is periodic along one axis δ is that against the datum
+/// of the line. K comes to within about a tenth of the tolerance of `params`.
 ///
 /// Sneddon, Int. J. Eng. Sci. 3, 47 (1965): K = 2 E* a for any axisymmetric contact of radius a.
 ///
@@ -92,7 +93,7 @@ mod tests {
 
     use super::*;
     use crate::grid::Grid;
-    use crate::operator::{DirectSum, PeriodicFft};
+    use crate::operator::{Boundary, DirectSum, Edge, FreeFamily, PeriodicFft};
 
     const FINE: Params =
         Params { method: crate::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 1000 };

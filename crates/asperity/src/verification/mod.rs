@@ -139,6 +139,7 @@ pub const CASES: &[Case] = &[
     dissimilar::SPENCE,
     dissimilar::SPHERE,
     rolling::CARTER,
+    rolling::KALKER,
     subsurface::LOADED_RECTANGLE,
     subsurface::SPHERE,
     subsurface::SLIDING_SPHERE,

@@ -1,11 +1,13 @@
 //! Steady rolling.
 
+use std::f64::consts::PI;
+
 use super::{Case, Check, Expected, PARAMS, relative, relative_rms, smooth, study};
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{Field, Grid};
 use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Friction, Rolling, solve_rolling};
+use crate::solver::{Control, Creep, Friction, Params, Rolling, solve_rolling};
 
 /// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact less that of a
 /// line of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images
@@ -40,13 +42,14 @@ fn carter() -> Result<Vec<Check>> {
         let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
         let width = grid.pitch[1];
         let force = FRICTION * (contact.load_per_length - stick.load_per_length) * width;
-        let mut roll = |rolling| {
+        let mut roll = |creep| {
+            let rolling = Rolling { creep, spin: 0.0 };
             let (friction, load) =
                 (Friction::coulomb(FRICTION)?, Control::Load(contact.load_per_length * width));
             solve_rolling(operator.as_mut(), &gap, f64::INFINITY, &friction, load, rolling, &PARAMS)
         };
-        let (driven, found) = roll(Rolling::Force([force, 0.0]))?;
-        let across = Rolling::Creepage([0.0, creepage * (1.0 + pair.lateral / pair.normal)]);
+        let (driven, found) = roll(Creep::Force([force, 0.0]))?;
+        let across = Creep::Creepage([0.0, creepage * (1.0 + pair.lateral / pair.normal)]);
         let (steered, _) = roll(across)?;
         let exact = Field::from_shape_fn(grid.shape, |(i, _)| {
             let x = grid.centre(0, i) - 0.5 * grid.extent()[0];
@@ -59,4 +62,97 @@ fn carter() -> Result<Vec<Check>> {
             relative(steered.force(grid.cell_area())[1], force),
         ])
     })
+}
+
+/// Infinite friction: nothing slips, and force and moment are linear in creepage and spin, c = √(ab) with the semi-axes a
+/// along the rolling and b across it:
+///
+/// ```text
+/// Q_x = c² G C11 ξx      Q_y = c² G (C22 ξy + c C23 φ)      M = c³ G (−C23 ξy + c C33 φ)
+/// ```
+///
+/// Kalker's table has three digits, and the shear at the trailing edge is infinite: order 1.
+pub(super) const KALKER: Case = Case {
+    name: "Kalker: creepage and spin without slip, ν = 1/4",
+    source: "Kalker (1967); Kalker (1990), table E3",
+    checks: kalker,
+};
+
+/// a/b and C11, C22, C23, C33 at ν = 1/4.
+const COEFFICIENTS: [(f64, [f64; 4]); 3] =
+    [(1.0, [4.12, 3.67, 1.47, 1.19]), (0.5, [3.62, 3.01, 0.929, 1.93]), (2.0, [5.10, 4.90, 2.62, 0.819])];
+
+fn kalker() -> Result<Vec<Check>> {
+    let (ratio, [c11, c22, c23, c33]) = COEFFICIENTS[0];
+    let first = |finest| Expected::Order { order: 0.7..=1.3, finest };
+    let checks = [
+        ("C11", first(1e-2)),
+        ("C22", first(1e-2)),
+        ("C23", first(3e-2)),
+        ("C33", first(5e-2)),
+        ("C32 = −C23", first(3e-2)),
+    ];
+    study("a/Δx", &[4, 8, 16], checks, |n| {
+        let found = creep_coefficients(ratio, 0.25, n)?;
+        let exact = [c11, c22, c23, c33, c23];
+        Ok(std::array::from_fn(|k| relative(found[k], exact[k])))
+    })
+}
+
+/// C11, C22, C23, C33 and −C32 of an ellipse of semi-axes as a/b = `ratio`, `n` cells along each.
+fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 5]> {
+    let semi_axes = [ratio.sqrt(), 1.0 / ratio.sqrt()];
+    let body = Material::elastic(2.0 * (1.0 + poisson), poisson)?;
+    // A column ahead of the contact, where the bodies are not strained yet.
+    let grid = Grid::new([2 * n + 2, 2 * n], semi_axes.map(|a| a / n as f64))?;
+    let inside = |i: usize, j: usize| {
+        let [x, y] = [i as f64 + 0.5 - n as f64 - 1.0, j as f64 + 0.5 - n as f64];
+        x * x + y * y <= (n * n) as f64
+    };
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| if inside(i, j) { 0.0 } else { 10.0 });
+    let mut operator =
+        Operators::new(grid, Compliances::new(&body, &body)?, Boundary::FREE).coupled_on(grid.shape);
+    let friction = Friction::coulomb(f64::INFINITY)?;
+    let params = Params { tolerance: 1e-6, ..PARAMS };
+    let mut roll = |creepage, spin| -> Result<([f64; 2], f64)> {
+        let rolling = Rolling { creep: Creep::Creepage(creepage), spin };
+        let control = Control::Approach(1.0);
+        let (solution, _) =
+            solve_rolling(operator.as_mut(), &gap, f64::INFINITY, &friction, control, rolling, &params)?;
+        Ok((solution.force(grid.cell_area()), solution.moment(&grid)))
+    };
+    let ([c11, _], _) = roll([1.0, 0.0], 0.0)?;
+    let ([_, c22], across) = roll([0.0, 1.0], 0.0)?;
+    let ([_, c23], c33) = roll([0.0, 0.0], 1.0)?;
+    // Over those of an ellipse of the area that the cells have.
+    let cells = gap.iter().filter(|h| **h == 0.0).count() as f64;
+    let c = (cells * grid.cell_area() / PI).sqrt();
+    Ok([c11 / c.powi(2), c22 / c.powi(2), c23 / c.powi(3), c33 / c.powi(4), -across / c.powi(3)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What falls as the cells is taken away: the rest is the scatter of the edge, and the table's third digit.
+    #[test]
+    fn other_ellipses_have_kalkers_coefficients_too() {
+        #[rustfmt::skip]
+        let table = [
+            (COEFFICIENTS[1], 0.25),
+            (COEFFICIENTS[2], 0.25),
+            ((1.0, [3.40, 3.40, 1.33, 1.21]), 0.0),
+            ((1.0, [5.20, 3.98, 1.63, 1.16]), 0.5),
+        ];
+        for ((ratio, [c11, c22, c23, c33]), poisson) in table {
+            let [coarse, fine] = [6, 12].map(|n| creep_coefficients(ratio, poisson, n).unwrap());
+            for (k, exact) in [c11, c22, c23, c33, c23].into_iter().enumerate() {
+                let found = 2.0 * fine[k] - coarse[k];
+                assert!(
+                    (found / exact - 1.0).abs() < 0.02,
+                    "a/b = {ratio}, ν = {poisson}: {k}: {found}, {exact}"
+                );
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use super::parse::{belongs, choice_or, known_in, prescribed};
 use super::{Case, Number, Prescribed};
 use crate::error::Result;
 use crate::motion::{Point, Stage};
-use crate::solver::{Coupling, Friction, Loading, Rolling, Tangential};
+use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use crate::units::{Dimension, SquareMetre};
 
 /// Friction, and what it resists.
@@ -19,6 +19,9 @@ pub struct FrictionSpec {
     /// What is prescribed in the plane of a static contact; no force where there is nothing.
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
+    /// Spin of a rolling contact, 1/m; 0 of any other.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub spin: f64,
     /// Equal steps in which a static contact is loaded, ≥ 1; of a rolling contact and of a motion 1.
     #[serde(skip_serializing_if = "is_one")]
     pub increments: usize,
@@ -87,7 +90,8 @@ impl Case {
             return None;
         }
         let in_plane = self.friction.and_then(|friction| friction.prescribed);
-        let rolling = in_plane.and_then(InPlane::rolling);
+        let spin = self.friction.map_or(0.0, |friction| friction.spin);
+        let rolling = in_plane.and_then(InPlane::creep).map(|creep| Rolling { creep, spin });
         if let Some(sweep) = &self.contact.sweep {
             let point =
                 |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
@@ -126,10 +130,10 @@ impl InPlane {
     }
 
     /// What is prescribed to bodies that roll.
-    fn rolling(self) -> Option<Rolling> {
+    fn creep(self) -> Option<Creep> {
         match self {
-            Self::Creepage(creepage) => Some(Rolling::Creepage(creepage)),
-            Self::RollingForce(force) => Some(Rolling::Force(force)),
+            Self::Creepage(creepage) => Some(Creep::Creepage(creepage)),
+            Self::RollingForce(force) => Some(Creep::Force(force)),
             Self::Force(_) | Self::Displacement(_) | Self::Sliding(_) => None,
         }
     }
@@ -162,7 +166,9 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         Ok(alpha)
     };
     let junction_growth = table.get("junction_growth").map_or(Ok(0.0), weight)?;
-    if moves && let Some(entry) = IN_PLANE.iter().chain(&["increments"]).find_map(|key| table.get(key)) {
+    if moves
+        && let Some(entry) = IN_PLANE.iter().chain(&["spin", "increments"]).find_map(|key| table.get(key))
+    {
         let hint = "in a [motion] the upper body slides over the lower one".to_owned();
         return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
     }
@@ -178,7 +184,8 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         let message = "'increments' has no meaning in rolling".to_owned();
         return Err(entry.error(message, Some(STEADY.to_owned())));
     }
-    Ok(FrictionSpec { law, prescribed, increments: increments(table)? })
+    let spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, prescribed))?;
+    Ok(FrictionSpec { law, prescribed, spin, increments: increments(table)? })
 }
 
 /// An error at `entry`, which makes the bodies slide, if they cannot.
@@ -190,8 +197,17 @@ fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
     Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
 }
 
+/// In 1/m, which only what rolls has.
+fn spin(entry: &Entry<'_>, prescribed: Option<InPlane>) -> Result<f64> {
+    if !rolls(prescribed) {
+        let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
+        return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
+    }
+    entry.number(f64::is_finite, "a number, in 1/m")
+}
+
 pub(super) fn rolls(prescribed: Option<InPlane>) -> bool {
-    prescribed.and_then(InPlane::rolling).is_some()
+    prescribed.and_then(InPlane::creep).is_some()
 }
 
 /// The stages after the first, in the plane only where there is friction.
@@ -272,6 +288,10 @@ fn vector<'a>(
     read: impl Fn(&Entry<'a>) -> Result<f64>,
 ) -> Result<[f64; 2]> {
     if entry.is_array() { entry.array(expected, read) } else { read(entry).map(|x| [x, 0.0]) }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn is_one(count: &usize) -> bool {

@@ -64,6 +64,7 @@ const TABLES: [(&str, &[&str]); 7] = [
             "displacement",
             "sliding",
             "creepage",
+            "spin",
             "rolling_force",
             "increments",
         ],
@@ -152,6 +153,14 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     }
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
+    if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
+        && contact.boundary != Boundary::FREE
+    {
+        let hint = "use `boundary = \"free\"`, or leave 'spin' out".to_owned();
+        return Err(
+            entry.error("what spins does not repeat itself: its boundary is free".to_owned(), Some(hint))
+        );
+    }
     if let (Some(_), Some(entry)) = (&subsurface, contact_table.get("boundary"))
         && contact.boundary.repeats(0) != contact.boundary.repeats(1)
     {

@@ -9,7 +9,7 @@ mod shear;
 mod yielding;
 
 pub use law::{Coupling, Friction};
-pub use rolling::{Rolling, solve_rolling};
+pub use rolling::{Creep, Rolling, solve_rolling};
 
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;

@@ -1,15 +1,25 @@
 //! Steady tractive rolling.
 
 use crate::error::{Error, Result, check};
-use crate::grid::Field;
-use crate::operator::CoupledOperator;
+use crate::grid::{Field, Grid};
+use crate::operator::{Boundary, CoupledOperator};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional};
 use crate::solver::{Control, Params};
 use crate::units::{Newton, Pascal};
 
-/// What is prescribed of the rolling, along x and y. The contact moves towards +x over both bodies.
+/// What is prescribed of steady rolling. The contact moves towards +x over both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Rolling {
+pub struct Rolling {
+    /// In the plane.
+    pub creep: Creep,
+    /// Spin φ, 1/m: angular velocity of the upper body against the lower one over the rolling velocity, about z through the
+    /// middle of the grid, positive from +x towards +y.
+    pub spin: f64,
+}
+
+/// What is prescribed of the rolling in the plane, along x and y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Creep {
     /// Creepage ξ: velocity of the upper body against the lower one, as a share of the rolling velocity.
     Creepage([f64; 2]),
     /// Force of the upper body on the lower one.
@@ -27,15 +37,15 @@ const SHARPER: f64 = 0.1;
 /// In the time in which the contact moves on by a cell, material that was a cell ahead arrives, and slips by
 ///
 /// ```text
-/// Δs = ξ Δx − u(x) + u₀(x + Δx)
+/// Δs = [ξ + φ (−y, x)] Δx − u(x) + u₀(x + Δx)
 /// ```
 ///
-/// with u₀ the displacement before. From the state without creepage this is repeated until the shear changes by less than
+/// with u₀ the displacement before, and x and y from the middle of the grid. From the state without creepage this is repeated until the shear changes by less than
 /// the tolerance, as a share of the largest, which takes a few lengths of the contact. The traction grows from the leading edge, where the bodies stick.
 /// Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
-/// Those of [`solve_frictional`].
+/// Those of [`solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -48,16 +58,23 @@ pub fn solve_rolling(
     rolling: Rolling,
     params: &Params,
 ) -> Result<(FrictionalSolution, [f64; 2])> {
-    let pitch = operator.grid().pitch[0];
-    let periodic = operator.normal().boundary().repeats(0);
-    let tangential = match rolling {
-        Rolling::Creepage(creepage) => {
+    let grid = *operator.grid();
+    let pitch = grid.pitch[0];
+    let boundary = operator.normal().boundary();
+    check("spin", rolling.spin, rolling.spin.is_finite(), "a finite number")?;
+    if rolling.spin != 0.0 && boundary != Boundary::FREE {
+        return Err(Error::Unsupported("what spins does not repeat itself: its boundary is free"));
+    }
+    // What the spin turns the upper body by while the contact moves on by a cell.
+    let turn = [-lever(&grid, 1), lever(&grid, 0)].map(|arm| arm * (rolling.spin * pitch));
+    let tangential = match rolling.creep {
+        Creep::Creepage(creepage) => {
             for xi in creepage {
                 check("creepage", xi, xi.is_finite(), "a finite number")?;
             }
             Tangential::Displacement(creepage.map(|xi| xi * pitch))
         }
-        Rolling::Force(force) => Tangential::Force(force),
+        Creep::Force(force) => Tangential::Force(force),
     };
     let mut solve = |tangential, before: Option<&FrictionalSolution>, tolerance| {
         let loading = Loading { normal, tangential };
@@ -70,7 +87,7 @@ pub fn solve_rolling(
     let most = MOST_LENGTHS * initial_gap.nrows();
     for _ in 0..most {
         let arrived = FrictionalSolution {
-            displacement: state.displacement.each_ref().map(|u| a_cell_ahead(u, periodic)),
+            displacement: [0, 1].map(|axis| a_cell_ahead(&state.displacement[axis], boundary) + &turn[axis]),
             shift: [0.0; 2],
             ..state.clone()
         };
@@ -97,14 +114,28 @@ pub fn solve_rolling(
 const MOST_LENGTHS: usize = 50;
 
 /// Values of the next column, of the last for the last (periodic: of the first).
-fn a_cell_ahead(field: &Field, periodic: bool) -> Field {
+fn a_cell_ahead(field: &Field, boundary: Boundary) -> Field {
     let last = field.nrows() - 1;
-    let ahead = |i: usize| match (i < last, periodic) {
+    let ahead = |i: usize| match (i < last, boundary.repeats(0)) {
         (true, _) => i + 1,
         (false, true) => 0,
         (false, false) => last,
     };
     Field::from_shape_fn(field.raw_dim(), |(i, j)| field[[ahead(i), j]])
+}
+
+/// Coordinate of each cell along an axis, from the middle of the grid.
+fn lever(grid: &Grid, axis: usize) -> Field {
+    let middle = 0.5 * grid.extent()[axis];
+    Field::from_shape_fn(grid.shape, |(i, j)| grid.centre(axis, [i, j][axis]) - middle)
+}
+
+impl FrictionalSolution {
+    /// Moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle of the `grid`, N·m.
+    pub fn moment(&self, grid: &Grid) -> f64 {
+        let [x, y] = [0, 1].map(|axis| lever(grid, axis));
+        grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())
+    }
 }
 
 /// Largest change of the shear, as a share of the largest.
