@@ -36,7 +36,8 @@ fn solve(
     method: Method,
 ) -> Solution {
     let params = Params { method, tolerance: 1e-9, max_convolutions: 5000 };
-    solve_normal(operator, gap, hardness, control, None, &params).unwrap()
+    solve_normal(operator, gap, hardness, control, None, &params)
+        .unwrap_or_else(|error| panic!("{error}: {method:?}, {hardness}, {control:?}, {:?}", operator.grid()))
 }
 
 /// Largest difference over largest value.

@@ -21,12 +21,12 @@ pub(super) struct Rows {
 
 impl Rows {
     pub(super) fn new(case: &Case) -> Self {
-        let is_free = case.contact.boundary == asperity::operator::Boundary::Free;
+        let has_ends = case.contact.boundary != asperity::operator::Boundary::PERIODIC;
         Self {
             columns: Columns::default(),
             planes: planes(case),
             apart: false,
-            rim: if is_free && case.motion.is_some() { case.output.rim } else { 0.0 },
+            rim: if has_ends && case.motion.is_some() { case.output.rim } else { 0.0 },
             slides: case.friction.is_some(),
             yields: [&case.lower, &case.upper].iter().any(|body| body.material.hardness.is_finite()),
         }

@@ -6,6 +6,12 @@ use crate::operator::Operator;
 use crate::solver::bounds::make_feasible;
 use crate::solver::{Control, Params, Problem, Solution, Stats, finite};
 
+/// Part of the hardness that rounding takes.
+const ROUNDING: f64 = 1e-12;
+/// Convolutions without a new least residual after which steps are halved: the printed ones, cut off at two bounds, may go
+/// back and forth for ever.
+const PATIENCE: f64 = 100.0;
+
 /// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at the hardness
 /// leave the conjugate directions as those at zero do.
 pub(super) fn solve(
@@ -30,11 +36,14 @@ pub(super) fn solve(
     let mut response = Field::zeros(pressure.raw_dim());
     let mut stats = Stats::default();
     let mut squared_before = f64::INFINITY;
+    let (mut caution, mut least, mut least_at) = (1.0, f64::INFINITY, 0.0);
     loop {
         operator.apply(&pressure, &mut displacement);
         stats.convolutions += 1.0;
         let state = problem.residual(&pressure, &displacement);
         if state.eta < params.tolerance {
+            // A cell that only rounding has taken off the hardness is at it.
+            pressure.mapv_inplace(|p| if hardness - p < ROUNDING * hardness { hardness } else { p });
             return Ok(Solution {
                 pressure,
                 displacement,
@@ -51,12 +60,17 @@ pub(super) fn solve(
                 tolerance: params.tolerance,
             });
         }
+        if state.eta < least {
+            (least, least_at) = (state.eta, stats.convolutions);
+        } else if stats.convolutions - least_at > PATIENCE {
+            (caution, least_at) = (0.5 * caution, stats.convolutions);
+        }
         let between = |p: f64| 0.0 < p && p < hardness;
         let free = pressure.iter().filter(|p| between(**p)).count();
         if free == 0 {
             // Every cell at a bound and not in equilibrium: one step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
-                *p += 0.5 * (state.approach - h - u) / terms.self_influence;
+                *p += 0.5 * caution * (state.approach - h - u) / terms.self_influence;
             });
             make_feasible(&mut pressure, &terms);
             continue;
@@ -81,7 +95,7 @@ pub(super) fn solve(
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
         // A single free cell under load cannot move, but the cells at the bounds can.
-        let step = if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
+        let step = caution * if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
         let mut reentered = false;
         ndarray::Zip::from(&mut pressure).and(&direction).and(&gap).for_each(|p, t, g| {
             *p = (*p - step * t).clamp(0.0, hardness);

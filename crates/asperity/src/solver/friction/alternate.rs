@@ -67,9 +67,13 @@ pub(super) fn alternate(
     let mut softer = pressure.as_ref().and_then(|pressure| increment.softer(pressure, &shear));
     let alternates = increment.bodies.shear_lifts() || softens;
     let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
-    let (mut last, mut share) = (f64::INFINITY, 1.0);
+    let (mut last, mut share, mut sharpen) = (f64::INFINITY, 1.0, 1.0);
     for _ in 0..MOST_ROUNDS {
         let mut normal = increment.press(lift.as_ref(), pressure.as_ref(), softer, &mut cap, tolerance)?;
+        if normal.stats.iterations == 0 {
+            // Good enough by its own displacement, which may be much more than what the shear leaves of it.
+            sharpen *= SHARPER;
+        }
         let bound = normal.pressure.mapv(|p| increment.friction.bound(p));
         let answer = increment.push(&normal, &bound, &shear, tolerance)?;
         shear = answer.shear;
@@ -93,7 +97,7 @@ pub(super) fn alternate(
         if let (Some(lift), Some(supposed)) = (&mut lift, supposed) {
             *lift = &supposed + share * (&*lift - &supposed);
         }
-        tolerance = (SHARPER * reached).min(FIRST).max(LAST * params.tolerance);
+        tolerance = sharpen * (SHARPER * reached).min(FIRST).max(LAST * params.tolerance);
         pressure = Some(normal.pressure);
     }
     let (iterations, tolerance) = (increment.stats.iterations, params.tolerance);
