@@ -98,7 +98,7 @@ fn about_file(table: &mut Table, file: &Read) {
     let mean = file.topography.mean();
     // What rounding leaves of a mean that was subtracted.
     let mean = if mean.abs() < 1e-9 * (high - low) { 0.0 } else { mean };
-    let heights = Unit::Length.multiple([low, high]);
+    let heights = Unit::Length.multiple([low.abs().max(high.abs())]);
     for (name, value) in [("min", low), ("max", high), ("mean", mean)] {
         table.numbers(name, [value], &heights, "");
     }
