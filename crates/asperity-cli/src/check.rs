@@ -36,7 +36,7 @@ fn text(case: &Case, bodies: &Bodies, outlook: &Outlook, demand: &Demand) -> Str
         ("memory", memory(demand)),
         ("time", format!("about {}, without figures", units::format_time(demand.time()))),
     ];
-    let friction = case.friction.map(|spec| ("friction", friction(&spec.law, outlook)));
+    let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, outlook)));
     let history = match &outlook.course {
         Some(Course::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
             Some(("history", course(stages)))
@@ -125,7 +125,7 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
         Method::ActiveSet => "active-set",
     };
     let mut text = match &outlook.course {
-        Some(Course::Sweep(points)) => swept(points),
+        Some(Course::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
         _ => control,
     };
     if let (Control::PassLoad(load) | Control::StepLoad(load), true) =
@@ -206,17 +206,35 @@ fn friction(friction: &Friction, outlook: &Outlook) -> String {
         None => "sliding at each position".to_owned(),
         Some(Course::Rolling(at)) => rolling(*at),
         Some(Course::Stages(stages)) => course(stages),
-        Some(Course::Sweep(points)) => points[0].rolling.map_or_else(String::new, rolling),
+        Some(Course::Sweep(points)) => rolling_through(points),
+    }
+}
+
+/// How the points of a sweep roll: all alike, or from one creepage to another.
+fn rolling_through(points: &[Point]) -> String {
+    let [Some(first), Some(last)] = [points[0].rolling, points[points.len() - 1].rolling] else {
+        return String::new();
+    };
+    match (first.creep, last.creep) {
+        (Creep::Creepage([x, y]), Creep::Creepage([to_x, to_y])) if first != last => {
+            let count = plural(points.len(), "creepage", "creepages");
+            format!("rolling at {count}, {x}, {y} to {to_x}, {to_y}{}", with_spin(first.spin))
+        }
+        _ => rolling(first),
     }
 }
 
 fn rolling(Rolling { creep, spin }: Rolling) -> String {
     let force = |value| units::format(value, Dimension::Force);
-    let spin = if spin == 0.0 { String::new() } else { format!(" and a spin of {spin} 1/m") };
-    match creep {
-        Creep::Creepage([x, y]) => format!("rolling at the creepage {x}, {y}{spin}"),
-        Creep::Force([x, y]) => format!("rolling under the force {}, {}{spin}", force(x), force(y)),
-    }
+    let at = match creep {
+        Creep::Creepage([x, y]) => format!("at the creepage {x}, {y}"),
+        Creep::Force([x, y]) => format!("under the force {}, {}", force(x), force(y)),
+    };
+    format!("rolling {at}{}", with_spin(spin))
+}
+
+fn with_spin(spin: f64) -> String {
+    if spin == 0.0 { String::new() } else { format!(" and a spin of {spin} 1/m") }
 }
 
 fn course(stages: &[Stage]) -> String {

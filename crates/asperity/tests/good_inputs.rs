@@ -244,7 +244,7 @@ fn what_is_wanted_of_the_stress_is_read_in_si() {
 #[test]
 fn what_a_stage_does_not_name_stays() {
     let case = load("pushed");
-    let friction = case.friction.unwrap();
+    let friction = case.friction.as_ref().unwrap();
     let coupling = Coupling::Goodman;
     let law = Friction { coefficient: 0.3, shear_strength: 20e6, coupling, junction_growth: 9.0 };
     assert_eq!((friction.law, friction.prescribed), (law, None));
@@ -293,6 +293,42 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
     let rolling = Some(Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 });
     let point = |load| Point { control: solver::Control::Load(load), rolling };
     assert_eq!(points, [point(2.0), point(4.0)]);
+}
+
+#[test]
+fn creepages_are_points_of_a_sweep_under_one_load() {
+    let case = load("swept_creepages");
+    assert!(case.is_swept() && load("swept_rolling").friction.unwrap().creepages.is_empty());
+    let Some(Course::Sweep(points)) = case.course(1.0) else { panic!() };
+    assert!(points.iter().all(|point| point.control == solver::Control::Load(2.0)));
+    let creepages = |points: &[Point]| -> Vec<[f64; 2]> {
+        let creepage = |point: &Point| match point.rolling.unwrap().creep {
+            Creep::Creepage(creepage) => creepage,
+            Creep::Force(_) => panic!(),
+        };
+        points.iter().map(creepage).collect()
+    };
+    assert!(points.iter().all(|point| point.rolling.unwrap().spin == 3.0));
+    let by_ratio = creepages(&points);
+    for (k, [x, y]) in by_ratio.into_iter().enumerate() {
+        assert!((x / 10f64.powf(-4.0 + 0.5 * k as f64) - 1.0).abs() < 1e-12 && y == 0.0, "{k}: {x}, {y}");
+    }
+    let text = std::fs::read_to_string(inputs("good").join("swept_creepages.toml")).unwrap();
+    let through = |value: &str| {
+        let line = text.lines().find(|line| line.starts_with("creepages")).unwrap();
+        let text = text.replace(line, &format!("creepages = {value}"));
+        let Some(Course::Sweep(points)) =
+            Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap().course(1.0)
+        else {
+            panic!()
+        };
+        creepages(&points)
+    };
+    assert_eq!(through("[1e-3, [0, -2e-3], [1e-3, 1e-3]]"), [[1e-3, 0.0], [0.0, -2e-3], [1e-3, 1e-3]]);
+    assert_eq!(
+        through("{ from = [-2e-3, 1e-3], to = [2e-3, 1e-3], points = 3 }"),
+        [[-2e-3, 1e-3], [0.0, 1e-3], [2e-3, 1e-3]]
+    );
 }
 
 #[test]

@@ -10,6 +10,7 @@ use asperity::io::summary::Outcome;
 use asperity::material::Material;
 use asperity::motion::{LoadedContact, Pair, Point, Progress, SweepRecord, Watch, press, roll, sweep};
 use asperity::operator::Boundary;
+use asperity::reference::HertzLine;
 use asperity::solver::{Control, Creep, Friction, Method, Params, Rolling};
 use asperity::surface::{Amplitude, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
@@ -224,6 +225,72 @@ impl Watch for StopAfter {
     fn stop(&self) -> bool {
         self.1.load(Relaxed) >= self.0
     }
+}
+
+/// A cylinder that rolls, of which little is looked at, through creepages.
+const ROLLING: &str = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "flat", shape = [84, 2], pitch = "1 um" }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "cylinder", radius = "5 mm", shape = [84, 2], pitch = "1 um" }
+[contact]
+load = "40 mN"
+boundary = ["free", "periodic"]
+tolerance = 1e-4
+[friction]
+coefficient = 0.2
+creepages = [2e-3, 4e-4, 0, -1e-3]
+"#;
+
+/// Carter, Proc. R. Soc. A 112, 151 (1926): Q/μW = 1 − (1 − ξR/μa)², full sliding from ξ = μa/R on.
+#[test]
+fn through_creepages_a_cylinder_draws_carters_curve() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse(ROLLING, "case.toml".as_ref(), "".as_ref()).unwrap();
+    let out = folder.path().join("out");
+    let (summary, _) = engine::run(&case, &out, Existing::Keep, &()).unwrap();
+    let Outcome::Sweep(points) = &summary.outcome else { panic!() };
+    let modulus = 210e9 / (2.0 * (1.0 - 0.09));
+    let hertz = HertzLine { radius: 5e-3, modulus, load_per_length: 0.04 / 2e-6 };
+    let (a, friction) = (hertz.half_width(), 0.2);
+    for (point, creepage) in points.iter().zip([2e-3f64, 4e-4, 0.0, -1e-3]) {
+        let share = (creepage.abs() * 5e-3 / (friction * a)).min(1.0);
+        let expected = creepage.signum() * friction * (1.0 - (1.0 - share).powi(2));
+        let found = point.tangential_force_x / point.load;
+        assert!((found - expected).abs() < 0.03 * friction, "{creepage}: {found}, Carter {expected}");
+        assert_eq!((point.creepage_x, point.creepage_y), (creepage, 0.0));
+        // As it comes out alone, to the bit.
+        let one = ROLLING
+            .replace("[2e-3, 4e-4, 0, -1e-3]", &format!("{creepage:e}"))
+            .replace("creepages", "creepage");
+        let case = Case::parse(&one, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let alone = folder.path().join(format!("alone-{}", point.point));
+        let Outcome::Static(alone) = engine::run(&case, &alone, Existing::Keep, &()).unwrap().0.outcome
+        else {
+            panic!()
+        };
+        assert_eq!(point.tangential_force_x, alone.shear.unwrap().tangential_force[0]);
+    }
+    // Interrupted after any point it goes on to the same bytes.
+    for count in 1..4 {
+        let broken = folder.path().join(format!("broken-{count}"));
+        let stopped = engine::run(&case, &broken, Existing::Keep, &StopAfter::points(count));
+        assert!(matches!(stopped, Err(Error::Interrupted)));
+        engine::run(&case, &broken, Existing::Resume, &()).unwrap();
+        for file in ["sweep.csv", "fields.h5"] {
+            assert_eq!(
+                fs::read(broken.join(file)).unwrap(),
+                fs::read(out.join(file)).unwrap(),
+                "{count}: {file}"
+            );
+        }
+    }
+    let written = fs::read_to_string(out.join("case.json")).unwrap();
+    assert!(written.contains("\"creepages\"") && !written.contains("\"creepage\""), "{written}");
 }
 
 #[test]

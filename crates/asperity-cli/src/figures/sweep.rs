@@ -27,6 +27,9 @@ const DRAWN: [(&str, &str, Unit, bool, Number); 4] = [
 ];
 
 pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> Outcome {
+    if case["friction"].get("creepages").is_some() {
+        return traction(points, &case["friction"], sheet);
+    }
     let given = |(key, ..): &&(&str, &str, Unit, Number)| case["contact"].get(*key).is_some();
     let (_, swept, unit, x) = *SWEPT.iter().find(given).unwrap_or(&SWEPT[0]);
     // The points in the order of what is swept, whatever order they were given in.
@@ -48,6 +51,63 @@ pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> O
         })?;
     }
     Ok(())
+}
+
+/// The force ratio over the creepage, along x and along y, under what all that slides bears.
+///
+/// Over the creepage with its sign where that has one direction, over its amount elsewhere.
+fn traction(points: &[SweepRecord], friction: &Value, sheet: &mut Sheet) -> Outcome {
+    const ALONG: [(&str, Number, Number); 2] = [
+        ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
+        ("along y", |p| p.creepage_y, |p| p.tangential_force_y / p.load),
+    ];
+    /// What rounding leaves of a component that is not there.
+    const NOTHING: f64 = 1e-6;
+    let largest = |value: Number| points.iter().map(|p| value(p).abs()).fold(0.0, f64::max);
+    let one_direction = ALONG.iter().position(|(_, creepage, _)| largest(*creepage) == 0.0);
+    let x = |point: &SweepRecord| match one_direction {
+        Some(across) => ALONG[1 - across].1(point),
+        None => point.creepage_x.hypot(point.creepage_y),
+    };
+    let mut ordered: Vec<&SweepRecord> = points.iter().collect();
+    ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
+    let strongest = ALONG.map(|(.., ratio)| largest(ratio));
+    let shown = ALONG.iter().zip(strongest);
+    let shown: Vec<_> = shown
+        .filter(|(_, most)| *most > NOTHING * strongest[0].max(strongest[1]))
+        .map(|(of, _)| of)
+        .collect();
+    let of = format!("load {}", format(points[0].load, Dimension::Force));
+    sheet.add("traction", "tangential force over creepage", &of, || {
+        let curve = |ratio: Number| ordered.iter().map(|point| [x(point), ratio(point)]).collect::<Vec<_>>();
+        let mut series: Vec<Series> = shown
+            .iter()
+            .map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints))
+            .collect();
+        // Under a film's shear strength what slides bears less.
+        if let (Some(coefficient), None) =
+            (friction["coefficient"].as_f64(), friction["shear_strength"].as_f64())
+        {
+            let signs = [1.0, -1.0].into_iter().filter(|sign| {
+                points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
+            });
+            let ends = [ordered.first(), ordered.last()].into_iter().flatten();
+            let ends: Vec<f64> = ends.map(|point| x(point)).collect();
+            series.extend(signs.enumerate().map(|(k, sign)| {
+                let name = if k == 0 { "full sliding" } else { "" };
+                let limit = ends.iter().map(|x| [*x, sign * coefficient]).collect();
+                Series::new(name, limit, Mark::Dashed)
+            }));
+        }
+        let across = match one_direction {
+            Some(0) => "creepage along y",
+            Some(_) => "creepage along x",
+            None => "creepage",
+        };
+        let [horizontal, vertical] =
+            [across, "tangential force over load"].map(|l| Axis::linear(l, Unit::Number));
+        Ok(Charts::from(Chart::new("", horizontal, vertical, series)))
+    })
 }
 
 /// From such a ratio of the largest to the least on what is swept is drawn by its logarithm.

@@ -40,9 +40,11 @@ impl Cell {
         let of = |factor, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
         match self.kind {
             Kind::Of(dimension) => {
-                // A volume of 0 may be followed by one that is not.
+                // What begins with 0 may go on with more.
                 let value = self.value.filter(|value| *value != 0.0).unwrap_or(match dimension {
                     Dimension::Volume => 1e-18,
+                    Dimension::Force => 1e-3,
+                    Dimension::Pressure => 1e6,
                     _ => 0.0,
                 });
                 // Four digits have room: 104.2 nm rather than 0.104 µm.

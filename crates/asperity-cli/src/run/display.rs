@@ -36,10 +36,10 @@ impl Display {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
-        let step = match (&case.motion, &case.contact.sweep) {
+        let step = match (&case.motion, case.is_swept()) {
             (Some(_), _) => "pass",
-            (None, Some(_)) => "point",
-            (None, None) => "increment",
+            (None, true) => "point",
+            (None, false) => "increment",
         };
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
         Self { bar, quiet, step, stop, table: Mutex::new(table) }

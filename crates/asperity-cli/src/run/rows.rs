@@ -70,11 +70,13 @@ impl Rows {
         let approach = self.approach(first, point.approach);
         let mut cells = vec![Cell::of("load", Force, point.load)];
         if self.slides {
+            // What rounding leaves of a force that is not there.
+            let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
             cells.extend([
                 Cell::number("creep x", point.creepage_x),
                 Cell::number("creep y", point.creepage_y),
-                Cell::of("force x", Force, point.tangential_force_x),
-                Cell::of("force y", Force, point.tangential_force_y),
+                Cell::of("force x", Force, force(point.tangential_force_x)),
+                Cell::of("force y", Force, force(point.tangential_force_y)),
                 Cell::of("shear", Pressure, point.max_shear),
                 Cell::share("stick", point.stick_area / point.contact_area),
                 Cell::share("area", point.contact_fraction),

@@ -292,7 +292,7 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], outlook: &mut 
     let pitch = bodies.lower.topography.grid().pitch;
     let foreseen = contact::foreseen(&gap, pitch, outlook.modulus, case.contact.boundary, control);
     // Of a motion and of a sweep only tables are left, which do not tell where in a contact the pressure is.
-    let tabled = case.motion.is_some() || case.contact.sweep.is_some();
+    let tabled = case.motion.is_some() || case.is_swept();
     let warnings = if tabled { &mut outlook.warnings } else { &mut outlook.foreseen };
     warnings.extend(foreseen.rim);
     outlook.foreseen.extend(foreseen.coarse);

@@ -4,6 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
 use super::parse::{belongs, choice_or, known_in, prescribed};
+use super::sweep::creepages;
 use super::{Case, Number, Prescribed};
 use crate::error::Result;
 use crate::motion::{Point, Stage};
@@ -11,14 +12,17 @@ use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use crate::units::{Dimension, SquareMetre};
 
 /// Friction, and what it resists.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrictionSpec {
     /// The law.
     #[serde(flatten, serialize_with = "with_infinities")]
     pub law: Friction,
-    /// What is prescribed in the plane of a static contact; no force where there is nothing.
+    /// What is prescribed in the plane of a static contact; no force where there is nothing, nor `creepages`.
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
+    /// Creepages of a contact that rolls, one after the other, each on virgin bodies; none of a contact that is no sweep.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub creepages: Vec<[f64; 2]>,
     /// Spin of a rolling contact, 1/m; 0 of any other.
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,
@@ -67,6 +71,20 @@ pub enum Course {
     Sweep(Vec<Point>),
 }
 
+impl FrictionSpec {
+    /// Whether the contact rolls.
+    pub(super) fn rolls(&self) -> bool {
+        self.rolling().next().is_some()
+    }
+
+    /// How the contact rolls: at each of `creepages`, or once.
+    fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
+        let one = self.prescribed.and_then(InPlane::creep);
+        let creeps = self.creepages.iter().copied().map(Creep::Creepage).chain(one);
+        creeps.map(|creep| Rolling { creep, spin: self.spin })
+    }
+}
+
 impl Course {
     /// What rolls steadily.
     pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
@@ -89,9 +107,14 @@ impl Case {
         if self.motion.is_some() {
             return None;
         }
-        let in_plane = self.friction.and_then(|friction| friction.prescribed);
-        let spin = self.friction.map_or(0.0, |friction| friction.spin);
-        let rolling = in_plane.and_then(InPlane::creep).map(|creep| Rolling { creep, spin });
+        let friction = self.friction.as_ref();
+        let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
+        let normal = self.contact.prescribed.control(apparent_area);
+        if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
+            let point = |rolling| Point { control: normal, rolling: Some(rolling) };
+            return Some(Course::Sweep(rolling.map(point).collect()));
+        }
+        let rolling = rolling.next();
         if let Some(sweep) = &self.contact.sweep {
             let point =
                 |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
@@ -100,10 +123,9 @@ impl Case {
         if let Some(rolling) = rolling {
             return Some(Course::Rolling(rolling));
         }
-        let tangential = in_plane.and_then(InPlane::tangential);
-        let normal = self.contact.prescribed.control(apparent_area);
+        let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
-        let increments = self.friction.map_or(1, |friction| friction.increments);
+        let increments = friction.map_or(1, |friction| friction.increments);
         let mut stages = vec![Stage { loading, increments }];
         for stage in &self.history {
             if let Some(normal) = stage.normal {
@@ -115,6 +137,11 @@ impl Case {
             stages.push(Stage { loading, increments: stage.increments });
         }
         Some(Course::Stages(stages))
+    }
+
+    /// Whether it is a static contact at one point after another.
+    pub fn is_swept(&self) -> bool {
+        matches!(self.course(1.0), Some(Course::Sweep(_)))
     }
 }
 
@@ -140,7 +167,7 @@ impl InPlane {
 }
 
 /// What a static contact may be told in its plane.
-const IN_PLANE: [&str; 5] = ["force", "displacement", "sliding", "creepage", "rolling_force"];
+const IN_PLANE: [&str; 6] = ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
 /// What a stage may be told.
 const STAGE: [&str; 7] =
     ["load", "mean_pressure", "approach", "force", "displacement", "sliding", "increments"];
@@ -177,15 +204,21 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
     if moves {
         slides(&law, &table.required("coefficient", "0.3")?)?;
     }
-    let prescribed = in_plane(table, &IN_PLANE, &law)?;
-    if rolls(prescribed)
+    let mut spec = FrictionSpec { law, prescribed: None, creepages: Vec::new(), spin: 0.0, increments: 1 };
+    match in_plane_key(table, &IN_PLANE)? {
+        Some("creepages") => spec.creepages = creepages(table.required("creepages", "[0.001]")?)?,
+        Some(key) => spec.prescribed = Some(in_plane(table, key, &law)?),
+        None => {}
+    }
+    if spec.rolls()
         && let Some(entry) = table.get("increments")
     {
         let message = "'increments' has no meaning in rolling".to_owned();
         return Err(entry.error(message, Some(STEADY.to_owned())));
     }
-    let spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, prescribed))?;
-    Ok(FrictionSpec { law, prescribed, spin, increments: increments(table)? })
+    spec.spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, spec.rolls()))?;
+    spec.increments = increments(table)?;
+    Ok(spec)
 }
 
 /// An error at `entry`, which makes the bodies slide, if they cannot.
@@ -198,16 +231,12 @@ fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
 }
 
 /// In 1/m, which only what rolls has.
-fn spin(entry: &Entry<'_>, prescribed: Option<InPlane>) -> Result<f64> {
-    if !rolls(prescribed) {
+fn spin(entry: &Entry<'_>, rolls: bool) -> Result<f64> {
+    if !rolls {
         let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
         return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
     }
     entry.number(f64::is_finite, "a number, in 1/m")
-}
-
-pub(super) fn rolls(prescribed: Option<InPlane>) -> bool {
-    prescribed.and_then(InPlane::creep).is_some()
 }
 
 /// The stages after the first, in the plane only where there is friction.
@@ -215,7 +244,7 @@ pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> 
     tables
         .iter()
         .map(|table| {
-            if friction.is_some_and(|friction| rolls(friction.prescribed)) {
+            if friction.is_some_and(FrictionSpec::rolls) {
                 let message = "a rolling contact has no [[history]]".to_owned();
                 return Err(table.error(message, Some(STEADY.to_owned())));
             }
@@ -236,7 +265,9 @@ pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> 
             Ok(StageSpec {
                 normal: given(normal).is_some().then(|| prescribed(table)).transpose()?,
                 in_plane: match friction {
-                    Some(friction) => in_plane(table, plane, &friction.law)?,
+                    Some(friction) => in_plane_key(table, plane)?
+                        .map(|key| in_plane(table, key, &friction.law))
+                        .transpose()?,
                     None => None,
                 },
                 increments: increments(table)?,
@@ -249,15 +280,19 @@ fn increments(table: &Table<'_>) -> Result<usize> {
     table.get("increments").map_or(Ok(1), |entry| entry.count(1))
 }
 
-fn in_plane(table: &Table<'_>, keys: &[&'static str], law: &Friction) -> Result<Option<InPlane>> {
+/// The one of `keys` that is given, if any is.
+fn in_plane_key(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<&'static str>> {
     if keys.iter().all(|key| table.get(key).is_none()) {
         return Ok(None);
     }
-    let key = table.exactly_one(keys, "give one of them, or none")?;
+    table.exactly_one(keys, "give one of them, or none").map(Some)
+}
+
+fn in_plane(table: &Table<'_>, key: &str, law: &Friction) -> Result<InPlane> {
     let entry = table.required(key, "\"0.1 N\"")?;
     let quantity = |dimension, expected| vector(&entry, expected, |item| item.quantity(dimension));
     let number = |expected| vector(&entry, expected, |item| item.number(f64::is_finite, "a finite number"));
-    Ok(Some(match key {
+    Ok(match key {
         "force" => InPlane::Force(quantity(Dimension::Force, "a force along x, or two along x and y")?),
         "rolling_force" => {
             InPlane::RollingForce(quantity(Dimension::Force, "a force along x, or two along x and y")?)
@@ -275,14 +310,14 @@ fn in_plane(table: &Table<'_>, keys: &[&'static str], law: &Friction) -> Result<
             }
             InPlane::Sliding([x / length, y / length])
         }
-    }))
+    })
 }
 
 /// Why a rolling contact has neither stages nor increments.
 const STEADY: &str = "its steady state does not depend on how it was reached";
 
 /// A component along x, or an array of two along x and y.
-fn vector<'a>(
+pub(super) fn vector<'a>(
     entry: &Entry<'a>,
     expected: &str,
     read: impl Fn(&Entry<'a>) -> Result<f64>,

@@ -232,7 +232,7 @@ impl Case {
             control,
             plastic_update: spec.plastic_update,
             load_tolerance: spec.load_tolerance,
-            friction: self.friction.map(|friction| friction.law),
+            friction: self.friction.as_ref().map(|friction| friction.law),
         })
     }
 

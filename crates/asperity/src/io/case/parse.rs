@@ -64,6 +64,7 @@ const TABLES: [(&str, &[&str]); 7] = [
             "displacement",
             "sliding",
             "creepage",
+            "creepages",
             "spin",
             "rolling_force",
             "increments",
@@ -144,7 +145,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let stages = root.get("history");
     sweep::stands_alone(&contact_table, friction.as_ref(), motion.is_some(), stages.is_some())?;
     let history = history(stages.as_ref(), motion.is_some(), friction.as_ref())?;
-    if let (Some(_), Some(motion)) = (friction, motion)
+    if let (Some(_), Some(motion)) = (&friction, motion)
         && motion.strategy.direction() == 0.0
     {
         let hint = "give the speeds different values, or leave [friction] out".to_owned();

@@ -1,10 +1,10 @@
-//! A load in `[contact]` that takes one value after another.
+//! A load in `[contact]`, or a creepage in `[friction]`, that takes one value after another.
 
 use serde::Serialize;
 
 use super::Prescribed;
 use super::cursor::{Entry, Table};
-use super::friction::{FrictionSpec, rolls};
+use super::friction::{FrictionSpec, vector};
 use super::parse::choice_or;
 use crate::error::Result;
 use crate::units::{Dimension, Metre, Newton, Pascal};
@@ -49,17 +49,27 @@ pub(super) fn sweep(table: &Table<'_>) -> Result<Option<Sweep>> {
     let Some((key, entry)) = KEYS.iter().find_map(|key| Some((*key, table.get(key)?))) else {
         return Ok(None);
     };
-    let positive = |dimension| move |entry: &Entry<'_>| entry.positive(dimension);
+    let positive = |dimension| move |entry: &Entry<'_>| entry.positive(dimension).map(|value| [value]);
     Ok(Some(match key {
-        "loads" => Sweep::Loads(values(entry, "\"0.1 N\"", true, positive(Dimension::Force))?),
+        "loads" => {
+            Sweep::Loads(values(entry, "\"0.1 N\"", true, positive(Dimension::Force))?.into_flattened())
+        }
         "mean_pressures" => {
-            Sweep::MeanPressures(values(entry, "\"1 MPa\"", true, positive(Dimension::Pressure))?)
+            let pressures = values(entry, "\"1 MPa\"", true, positive(Dimension::Pressure))?;
+            Sweep::MeanPressures(pressures.into_flattened())
         }
         _ => {
-            let length = |entry: &Entry<'_>| entry.quantity(Dimension::Length);
-            Sweep::Approaches(values(entry, "\"10 nm\"", false, length)?)
+            let length = |entry: &Entry<'_>| entry.quantity(Dimension::Length).map(|value| [value]);
+            Sweep::Approaches(values(entry, "\"10 nm\"", false, length)?.into_flattened())
         }
     }))
+}
+
+/// The creepages of a sweep along x and y.
+pub(super) fn creepages(entry: Entry<'_>) -> Result<Vec<[f64; 2]>> {
+    let number = |entry: &Entry<'_>| entry.number(f64::is_finite, "a finite number");
+    let expected = "a number along x, or two along x and y";
+    values(entry, "[0.001, 0]", false, |entry| vector(entry, expected, number))
 }
 
 /// An error if the bodies of a sweep have a past, or a future.
@@ -80,7 +90,11 @@ pub(super) fn stands_alone(
         let hint = "each of its values presses virgin bodies, in a history what is flattened stays flat";
         return refused("'{}' and [[history]] are both given, expected one of them", hint);
     }
-    if friction.is_some_and(|friction| !rolls(friction.prescribed)) {
+    if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
+        let hint = "a sweep goes through loads at one `creepage`, or through creepages under one `load`";
+        return refused("'{}' and 'creepages' are both given, expected one of them", hint);
+    }
+    if friction.is_some_and(|friction| !friction.rolls()) {
         let message = "with [friction] only what rolls has '{}'";
         let hint = "what sticks and slips depends on how a load came about: give a `creepage`, a `rolling_force`, or \
                     stages in a [[history]]";
@@ -92,13 +106,14 @@ pub(super) fn stands_alone(
 /// The most points of a sweep.
 const MOST_POINTS: usize = 10_000;
 
-/// A list of values, or a table of `from`, `to`, `points` and `spacing`; `by_ratio`: by default in equal ratios.
-fn values<'a>(
+/// A list of values of N components, or a table of `from`, `to`, `points` and `spacing`; `by_ratio`: by default in equal
+/// ratios.
+fn values<'a, const N: usize>(
     entry: Entry<'a>,
     example: &str,
     by_ratio: bool,
-    read: impl Fn(&Entry<'a>) -> Result<f64>,
-) -> Result<Vec<f64>> {
+    read: impl Fn(&Entry<'a>) -> Result<[f64; N]>,
+) -> Result<Vec<[f64; N]>> {
     let expected = format!(
         "a list of at least one value such as [{example}], or a table with `from`, `to` and `points`"
     );
@@ -119,17 +134,19 @@ fn values<'a>(
         return Err(points.unexpected("a whole number of at most 10000", None));
     }
     let by_ratio = choice_or(&table, "spacing", &[("log", true), ("linear", false)], by_ratio)?;
-    if by_ratio
-        && let Some((entry, _)) = [(from, first), (to, last)].into_iter().find(|(_, value)| *value <= 0.0)
-    {
+    // A component that is 0 at both ends stays so.
+    let has_ratio = |k: usize| first[k] * last[k] > 0.0 || (N > 1 && first[k] == 0.0 && last[k] == 0.0);
+    if by_ratio && let Some(k) = (0..N).find(|k| !has_ratio(*k)) {
+        let entry = if first[k] <= 0.0 { from } else { to };
         let hint = "or `spacing = \"linear\"`".to_owned();
-        return Err(entry.unexpected("a value above 0, as equal ratios need", Some(hint)));
+        return Err(entry.unexpected("the sign of the other end, as equal ratios need", Some(hint)));
     }
-    let value = |k: usize| match k as f64 / (count - 1) as f64 {
-        0.0 => first,
-        1.0 => last,
-        share if by_ratio => first * (last / first).powf(share),
-        share => first + share * (last - first),
+    let component = |k: usize, share: f64| match (first[k], last[k]) {
+        (first, _) if share == 0.0 => first,
+        (_, last) if share == 1.0 => last,
+        (first, last) if by_ratio && first != 0.0 => first * (last / first).powf(share),
+        (first, last) => first + share * (last - first),
     };
+    let value = |n: usize| std::array::from_fn(|k| component(k, n as f64 / (count - 1) as f64));
     Ok((0..count).map(value).collect())
 }

@@ -175,7 +175,7 @@ impl Sizes<'_> {
         let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
         let lifts =
             |friction| self.compliances().is_some_and(|compliances| sliding(friction).lifts(&compliances));
-        self.case.friction.is_some_and(|friction| self.case.motion.is_none() || lifts(friction.law))
+        self.case.friction.as_ref().is_some_and(|friction| self.case.motion.is_none() || lifts(friction.law))
     }
 
     /// The work, in units of a cell times the binary logarithm of the cells of its contact.
@@ -192,7 +192,7 @@ impl Sizes<'_> {
         let digits = (-case.contact.tolerance.log10() / 6.0).max(0.3);
         let normal = SOLVE * boundary * method * digits;
         let all: f64 = self.overlaps.iter().map(|columns| work(*columns as f64)).sum();
-        let mut effort = match (case.motion, case.friction) {
+        let mut effort = match (case.motion, &case.friction) {
             (Some(motion), _) => {
                 let searches = match case.motion(1.0).map(|motion| motion.control) {
                     Some(Control::PassLoad(_)) if motion.plastic_update == PlasticUpdate::Step => 5.0,
@@ -211,7 +211,7 @@ impl Sizes<'_> {
                         let increments: usize = stages.iter().map(|stage| stage.increments).sum();
                         let unlike =
                             self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
-                        let shear = friction.map_or(0.0, |friction| match friction.law.coupling {
+                        let shear = friction.as_ref().map_or(0.0, |friction| match friction.law.coupling {
                             Coupling::Full | Coupling::Goodman if unlike => SHEAR,
                             _ => SHEAR_ALIKE,
                         });
