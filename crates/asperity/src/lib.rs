@@ -37,7 +37,7 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 
-// A module may use those above it, never those below: `tests/module_order.rs` holds it.
+// A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
 pub mod units;
 pub mod error;
 pub mod grid;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-#[path = "../../../fuzz/src/lib.rs"]
+#[path = "../../../../fuzz/src/lib.rs"]
 #[expect(unreachable_pub, reason = "a crate of its own elsewhere")]
 mod fuzz;
 

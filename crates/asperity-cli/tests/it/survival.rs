@@ -1,8 +1,6 @@
 //! Results that survive: directories that killed and refused runs leave, a second run, damage, full disks, closed
 //! streams, and kills at any moment.
 
-#![cfg(unix)]
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};

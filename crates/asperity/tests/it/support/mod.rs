@@ -1,5 +1,7 @@
 //! What several tests share.
 
+pub(crate) mod cell_by_cell;
+
 /// Numbers that agree to `tolerance` of the largest expected.
 #[track_caller]
 pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {

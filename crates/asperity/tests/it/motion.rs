@@ -2,8 +2,6 @@
 //!
 //! Two generated steel surfaces, 24 or 32 cells along a side, whose highest contacts yield.
 
-mod support;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::error::LoadLimit;
@@ -16,7 +14,8 @@ use asperity::operator::Boundary;
 use asperity::solver::{Friction, Params};
 use asperity::surface::{Amplitude, Generator, LowPass, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
-use support::assert_close;
+
+use crate::support::assert_close;
 
 const STEEL: [f64; 2] = [210e9, 0.3];
 const HARDNESS: f64 = 4e9;

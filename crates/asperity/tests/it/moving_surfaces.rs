@@ -3,8 +3,6 @@
 //! `data/moving_surfaces_12.json` holds its numbers, computed with exact active sets and pass-mean loads to
 //! 1e-12.
 
-mod support;
-
 use asperity::material::Material;
 use asperity::motion::{
     Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
@@ -14,13 +12,14 @@ use asperity::solver::{Method, Params};
 use asperity::surface::Topography;
 use asperity::{Field, Grid};
 use serde_json::Value;
-use support::assert_close;
+
+use crate::support::assert_close;
 
 /// How close each method must come, relative to the largest value of its kind.
 const METHODS: [(Method, f64); 2] = [(Method::Direct, 1e-8), (Method::ActiveSet, 1e-5)];
 
 fn case() -> Value {
-    serde_json::from_str(include_str!("data/moving_surfaces_12.json")).unwrap()
+    serde_json::from_str(include_str!("../data/moving_surfaces_12.json")).unwrap()
 }
 
 fn field(value: &Value, scale: f64) -> Field {

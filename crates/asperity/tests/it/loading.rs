@@ -1,8 +1,5 @@
 //! Static contacts loaded stage after stage: what has flowed does not flow back, and an interruption leaves no trace.
 
-#[path = "support/cell_by_cell.rs"]
-mod cell_by_cell;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -19,9 +16,10 @@ use asperity::operator::{Boundary, CoupledSum};
 use asperity::solver::{Control, Coupling, Friction, Loading, Method, Params, Tangential};
 use asperity::surface::Topography;
 use asperity::{Error, Field, Grid};
-use cell_by_cell::CellByCell;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::support::cell_by_cell::CellByCell;
 
 const FINE: Params = Params { method: Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };
 
@@ -277,7 +275,7 @@ fn what_flows_bears_its_cap_and_never_flows_back() {
     (100..112).for_each(keeps_the_law);
 }
 
-/// `cargo test -p asperity --test loading -- --ignored`
+/// `cargo test -p asperity --test it loading -- --ignored`
 #[test]
 #[ignore = "some minutes"]
 fn many_loadings() {

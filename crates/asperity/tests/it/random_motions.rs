@@ -1,6 +1,6 @@
 //! Motions of all combinations of options at random, each position solved again by an independent way.
 //!
-//! `CASES=1000 cargo test -p asperity --test random_motions` tries so many, from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity --test it random_motions` tries so many, from the seed `SEED`.
 
 use asperity::error::LoadLimit;
 use asperity::material::Material;

@@ -1,8 +1,5 @@
 //! The contact with friction against an independent method on small grids, and against what must hold of every answer.
 
-#[path = "support/cell_by_cell.rs"]
-mod cell_by_cell;
-
 use asperity::material::{Compliances, Material};
 use asperity::operator::{Boundary, CoupledSum, Operators};
 use asperity::solver::{
@@ -10,7 +7,8 @@ use asperity::solver::{
     solve_normal,
 };
 use asperity::{Error, Field, Grid};
-use cell_by_cell::CellByCell;
+
+use crate::support::cell_by_cell::CellByCell;
 
 const PARAMS: Params =
     Params { method: asperity::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };

@@ -398,7 +398,7 @@ fn extreme_values_are_refused_at_their_line_or_foreseen() {
 
 #[test]
 fn what_is_computed_of_extreme_values_are_numbers() {
-    // In CI one of so many; by hand all: `ASPERITY_EXTREMES=1 cargo test --test extremes`.
+    // In CI one of so many; by hand all: `ASPERITY_EXTREMES=1 cargo test --test it extremes`.
     let stride = if std::env::var_os("ASPERITY_EXTREMES").is_some() { 1 } else { 17 };
     let told = Mutex::new([0; 3]);
     let chosen: Vec<_> = mutations().into_iter().step_by(stride).collect();

@@ -1,0 +1,7 @@
+//! The command as its users meet it, as one program: a module for each subject.
+
+mod command;
+mod documents;
+mod run;
+#[cfg(unix)]
+mod survival;

@@ -1,0 +1,23 @@
+//! What crosses the modules of the library, as one program: a module for each subject.
+
+mod bad_inputs;
+mod closed_forms;
+mod convergence;
+mod documents;
+mod extremes;
+mod friction;
+mod good_inputs;
+mod line;
+mod loading;
+mod module_order;
+mod motion;
+mod moving_surfaces;
+mod random_motions;
+mod real_surface;
+mod sliding;
+mod solver;
+mod subsurface;
+mod sweep;
+mod topography_corpus;
+mod warnings;
+mod support;
