@@ -17,7 +17,8 @@
 //!
 //! # Program
 //!
-//! A solver asks of an operator its displacements, its coefficients, and itself on a coarser grid. All methods, the cap on the
+//! A solver asks of an operator its displacements, its coefficients, those of
+//! harmonics, and itself on a coarser grid. All methods, the cap on the
 //! pressure and loads prescribed then work as for a half-space.
 //!
 //! `cargo run --release -p asperity --example own_operator`
@@ -54,12 +55,12 @@ impl Operator for Coated {
         self.half_space.grid()
     }
 
-    fn modulus(&self) -> f64 {
-        self.half_space.modulus()
-    }
-
     fn boundary(&self) -> Boundary {
         self.half_space.boundary()
+    }
+
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.half_space.harmonic_displacement(qx, qy) + self.compliance
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {

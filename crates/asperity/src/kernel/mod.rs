@@ -2,12 +2,16 @@
 
 mod cell;
 pub mod coupled;
+mod half_spaces;
 pub mod line;
 pub mod normal;
+mod response;
 pub mod spectral;
 pub mod subsurface;
 
 pub use coupled::{Coefficients, CoupledTable, coupled_displacement, coupled_matrix};
+pub use half_spaces::HalfSpaces;
 pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement};
+pub use response::{CoupledResponse, Influence, Response, SharedResponse};
 pub use subsurface::{Traction, cell_stress, harmonic_stress, stress_table};

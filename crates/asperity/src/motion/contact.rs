@@ -48,7 +48,7 @@ impl Contact {
         let shape = [position.columns, gap.ncols()];
         let cap = pair.cap();
         let solution = match sliding {
-            Some(sliding) if sliding.lifts(pair.compliances()) => {
+            Some(sliding) if sliding.lifts(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
                 solve_sliding(operator.as_mut(), &gap, cap, sliding, control, start, params)?.normal
             }
@@ -185,7 +185,7 @@ pub fn press(
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
     let grid: Grid = pair.lower_grid();
     let gap = &pair.upper - &pair.lower;
-    let mut operator = Operators::new(grid, *pair.compliances(), boundary).on(grid.shape);
+    let mut operator = pair.operators(grid, boundary)?.on(grid.shape);
     let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
     Ok((StaticRecord::new(pair, &solution), solution))
 }

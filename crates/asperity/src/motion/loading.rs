@@ -120,7 +120,7 @@ pub fn load_in_stages(
     watch: &dyn Watch,
     output: &mut dyn LoadingOutput,
 ) -> Result<LoadedContact> {
-    let mut bodies = Bodies::new(pair, boundary, friction, params);
+    let mut bodies = Bodies::new(pair, boundary, friction, params)?;
     let area = pair.cell_area();
     let positions = stages.iter().map(|stage| stage.increments).sum();
     let done = under_way.as_ref().map_or(0, |state| state.increments.len());
@@ -165,7 +165,8 @@ pub fn roll(
     rolling: Rolling,
     params: &Params,
 ) -> Result<LoadedContact> {
-    let (operators, gap) = facing(pair, boundary);
+    let (operators, gap) = facing(pair, boundary)?;
+    pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
     LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params)
 }
@@ -273,14 +274,22 @@ enum Solver<'a> {
 const GONE_BACK: f64 = 4.0;
 
 impl<'a> Bodies<'a> {
-    fn new(pair: &Pair, boundary: Boundary, friction: Option<&'a Friction>, params: &'a Params) -> Self {
-        let (operators, gap) = facing(pair, boundary);
+    fn new(
+        pair: &Pair,
+        boundary: Boundary,
+        friction: Option<&'a Friction>,
+        params: &'a Params,
+    ) -> Result<Self> {
+        let (operators, gap) = facing(pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = match friction {
             None => Solver::Frictionless(operators.on(shape)),
-            Some(friction) => Solver::Frictional(operators.coupled_on(shape), friction),
+            Some(friction) => {
+                pair.check_shear()?;
+                Solver::Frictional(operators.coupled_on(shape), friction)
+            }
         };
-        Self { gap, solver, hardness: pair.hardness(), area: pair.cell_area(), params }
+        Ok(Self { gap, solver, hardness: pair.hardness(), area: pair.cell_area(), params })
     }
 
     /// The state after an increment that begins with the state `before`.
@@ -433,9 +442,9 @@ impl Flattening {
 }
 
 /// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
-pub(super) fn facing(pair: &Pair, boundary: Boundary) -> (Operators, Field) {
+pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
     assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
-    (Operators::new(pair.lower_grid(), *pair.compliances(), boundary), &pair.upper - &pair.lower)
+    Ok((pair.operators(pair.lower_grid(), boundary)?, &pair.upper - &pair.lower))
 }
 
 /// Where a stage begins, in each quantity that it may prescribe.

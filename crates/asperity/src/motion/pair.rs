@@ -2,8 +2,10 @@
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::kernel::SharedResponse;
 use crate::material::{Compliances, Material, composite_hardness, plastic_share};
 use crate::motion::path::Position;
+use crate::operator::{Boundary, Operators};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 
@@ -16,6 +18,7 @@ pub struct Pair {
     pub upper: Field,
     pitch: [Metre; 2],
     compliances: Compliances,
+    response: SharedResponse,
     hardness: Pascal,
     cap: Pascal,
     share: f64,
@@ -49,12 +52,14 @@ impl Pair {
                 return Err(Error::UndefinedSamples { undefined, samples: body.grid().cells() });
             }
         }
+        let compliances = Compliances::new(materials[0], materials[1])?;
         let hardness = composite_hardness(materials[0], materials[1]);
         Ok(Self {
             pitch: a.pitch,
             lower: lower.into_heights(),
             upper: upper.into_heights(),
-            compliances: Compliances::new(materials[0], materials[1])?,
+            compliances,
+            response: compliances.into(),
             hardness,
             cap: hardness,
             share: plastic_share(materials[0], materials[1]),
@@ -71,6 +76,14 @@ impl Pair {
         Self { cap, ..self }
     }
 
+    /// The same surfaces on bodies of another `response` than that of the materials.
+    ///
+    /// Hardness and plastic share stay those of the materials; so do [`Pair::modulus`] and [`Pair::compliances`], which no
+    /// contact depends on then.
+    pub fn with_response(self, response: impl Into<SharedResponse>) -> Self {
+        Self { response: response.into(), ..self }
+    }
+
     /// Size of a cell.
     pub fn pitch(&self) -> [Metre; 2] {
         self.pitch
@@ -84,6 +97,35 @@ impl Pair {
     /// The elastic constants of the pair.
     pub fn compliances(&self) -> &Compliances {
         &self.compliances
+    }
+
+    /// What the bodies answer to a traction.
+    pub fn response(&self) -> &SharedResponse {
+        &self.response
+    }
+
+    /// Whether a pressure displaces tangentially and a shear normally, as far as that is known.
+    pub(super) fn couples(&self) -> bool {
+        self.response.coupled().is_some_and(|coupled| coupled.couples())
+    }
+
+    /// [`Error::Unsupported`] where what shear does is not known.
+    pub(super) fn check_shear(&self) -> Result<()> {
+        self.response.coupled().map(|_| ()).ok_or(Error::Unsupported(
+            "what shear does to these bodies is not known: their friction is that of full sliding without coupling",
+        ))
+    }
+
+    /// The operators of contacts on the cells of a `largest` grid; [`Error::Unsupported`] where the response knows no such
+    /// boundary.
+    pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {
+        let line = boundary.line(&largest, boundary.datum(&largest));
+        if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
+            return Err(Error::Unsupported(
+                "these bodies have no boundary that is periodic along one axis alone",
+            ));
+        }
+        Ok(Operators::new(largest, self.response.clone(), boundary))
     }
 
     /// Hardness of the pair, infinite where both bodies are elastic.

@@ -16,7 +16,7 @@ use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
 use crate::motion::{Control, Motion, Strategy};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{self, Params};
+use crate::solver::{self, Coupling, Params};
 use crate::units::{Dimension, Metre, Newton};
 
 /// Two bodies that pass over each other.
@@ -50,7 +50,10 @@ impl Simulation {
         let limit = motion.control.plastic_limit(&columns, pair.grid(1).area(), cap);
         motion.control.check_limit(limit)?;
         let largest = pair.grid(pair.lower.nrows().min(pair.upper.nrows()));
-        let operators = Operators::new(largest, *pair.compliances(), boundary);
+        let operators = pair.operators(largest, boundary)?;
+        if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
+            pair.check_shear()?;
+        }
         let together = memory_together(&motion, params.method, cap, &columns, pair.lower.ncols()).is_some();
         Ok(Self {
             together,

@@ -60,10 +60,14 @@ pub fn sweep(
     watch: &dyn Watch,
     output: &mut dyn SweepOutput,
 ) -> Result<(Vec<SweepRecord>, LoadedContact)> {
-    let (operators, gap) = facing(pair, boundary);
+    let (operators, gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
     let mut normal = operators.on(shape);
-    let mut coupled = points.iter().any(|point| point.rolling.is_some()).then(|| operators.coupled_on(shape));
+    let rolls = points.iter().any(|point| point.rolling.is_some());
+    if rolls {
+        pair.check_shear()?;
+    }
+    let mut coupled = rolls.then(|| operators.coupled_on(shape));
     let mut records = done;
     records.truncate(points.len().saturating_sub(1));
     records.iter().for_each(|record| watch.point(record));

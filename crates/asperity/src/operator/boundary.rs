@@ -58,12 +58,12 @@ impl Boundary {
     }
 
     /// The r₀ of operators on grids no larger than this one: its length along the free axis.
-    pub(super) fn datum(self, largest: &Grid) -> Metre {
+    pub(crate) fn datum(self, largest: &Grid) -> Metre {
         self.single_period().map_or(0.0, |axis| largest.extent()[1 - axis])
     }
 
     /// The line of its images that a cell of `grid` stands in, for a given r₀.
-    pub(super) fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
+    pub(crate) fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
         self.single_period().map(|axis| Line { axis, period: grid.extent()[axis], datum })
     }
 

@@ -3,22 +3,19 @@
 use std::sync::Arc;
 
 use crate::grid::{Field, Grid};
-use crate::kernel::{
-    Coefficients, CoupledTable, Line, coupled_displacement, spectral::harmonic_displacements,
-};
-use crate::material::Compliances;
+use crate::kernel::{Coefficients, CoupledResponse, CoupledTable, Line, SharedResponse};
 use crate::math::fft::angular_frequency;
 use crate::math::{TensorConvolution, TensorKernel};
 use crate::operator::{DirectSum, Operator};
 
-/// The displacement of a half-space pair under normal and tangential traction, in the order x, y, z of
+/// The displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of
 /// [`Coefficients`]: in the plane that of the lower body less that of the upper one, along z what opens the gap.
 pub trait CoupledOperator: Send {
     /// The grid that it acts on.
     fn grid(&self) -> &Grid;
 
-    /// The elastic constants of the pair.
-    fn compliances(&self) -> &Compliances;
+    /// Whether a pressure displaces tangentially and a shear normally.
+    fn couples(&self) -> bool;
 
     /// Displacement of a cell per unit traction on itself, m/Pa.
     fn self_influence(&self) -> Coefficients;
@@ -34,15 +31,20 @@ pub trait CoupledOperator: Send {
 /// The free boundary by direct summation of the nine influence coefficients: what the transforms are measured against.
 pub struct CoupledSum {
     normal: DirectSum,
-    compliances: Compliances,
+    couples: bool,
     table: CoupledTable,
 }
 
 impl CoupledSum {
-    /// The operator on `grid`.
-    pub fn new(grid: Grid, compliances: Compliances) -> Self {
-        let table = CoupledTable::new(grid.shape, grid.pitch, &compliances);
-        Self { normal: DirectSum::new(grid, compliances.modulus()), compliances, table }
+    /// The operator on `grid` for bodies of this `response`, such as the [`crate::material::Compliances`] of two half-spaces.
+    ///
+    /// # Panics
+    /// If the response is known in the normal direction only.
+    pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
+        let response = response.into();
+        let coupled = response.coupled().expect("a response to shear");
+        let (couples, table) = (coupled.couples(), CoupledTable::new(grid.shape, grid.pitch, coupled));
+        Self { normal: DirectSum::new(grid, response), couples, table }
     }
 }
 
@@ -51,8 +53,8 @@ impl CoupledOperator for CoupledSum {
         self.normal.grid()
     }
 
-    fn compliances(&self) -> &Compliances {
-        &self.compliances
+    fn couples(&self) -> bool {
+        self.couples
     }
 
     fn self_influence(&self) -> Coefficients {
@@ -94,14 +96,16 @@ impl CoupledKernel {
     pub(super) fn free(
         padded: [usize; 2],
         pitch: [f64; 2],
-        compliances: &Compliances,
+        response: &dyn CoupledResponse,
         line: Option<&Line>,
     ) -> Arc<Self> {
         let at = |i: usize, j: usize| {
             let (x, y) = (i as f64 * pitch[0], j as f64 * pitch[1]);
             match line {
-                None => coupled_displacement(x, y, pitch, compliances),
-                Some(line) => line.coupled_displacement(x, y, pitch, compliances),
+                None => response.displacement(x, y, pitch),
+                Some(line) => {
+                    response.line_displacement(line, x, y, pitch).expect("a response that knows lines")
+                }
             }
         };
         let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
@@ -109,10 +113,10 @@ impl CoupledKernel {
     }
 
     /// For the periodic `grid`.
-    pub(super) fn periodic(grid: &Grid, compliances: &Compliances) -> Arc<Self> {
+    pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
         let kernel = Arc::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
-            in_order(harmonic_displacements(q(kx, 0), q(ky, 1), compliances))
+            in_order(response.harmonic_displacements(q(kx, 0), q(ky, 1)))
         }));
         let mut convolution = TensorConvolution::new(Arc::clone(&kernel), grid.shape);
         let mut unit = grid.zeros();
@@ -128,14 +132,9 @@ impl CoupledKernel {
     }
 
     /// The operator on `grid`, beside its `normal` part.
-    pub(super) fn operator(
-        &self,
-        grid: Grid,
-        compliances: Compliances,
-        normal: Box<dyn Operator>,
-    ) -> CoupledFft {
+    pub(super) fn operator(&self, grid: Grid, couples: bool, normal: Box<dyn Operator>) -> CoupledFft {
         let convolution = TensorConvolution::new(Arc::clone(&self.kernel), grid.shape);
-        CoupledFft { grid, compliances, self_influence: self.self_influence, normal, convolution }
+        CoupledFft { grid, couples, self_influence: self.self_influence, normal, convolution }
     }
 }
 
@@ -149,7 +148,7 @@ fn in_order(at: Coefficients) -> [f64; 6] {
 /// With a periodic boundary the mean displacement is free in all directions, and taken as zero.
 pub struct CoupledFft {
     grid: Grid,
-    compliances: Compliances,
+    couples: bool,
     self_influence: Coefficients,
     normal: Box<dyn Operator>,
     convolution: TensorConvolution,
@@ -160,8 +159,8 @@ impl CoupledOperator for CoupledFft {
         &self.grid
     }
 
-    fn compliances(&self) -> &Compliances {
-        &self.compliances
+    fn couples(&self) -> bool {
+        self.couples
     }
 
     fn self_influence(&self) -> Coefficients {
@@ -180,7 +179,7 @@ impl CoupledOperator for CoupledFft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
+    use crate::material::{Compliances, Material};
     use crate::operator::{Boundary, Operators};
     use std::f64::consts::TAU;
 

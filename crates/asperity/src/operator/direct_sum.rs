@@ -1,23 +1,24 @@
 //! The sum over all pairs of cells, without any transform.
 
 use crate::grid::{Field, Grid};
-use crate::kernel::influence_table;
+use crate::kernel::SharedResponse;
 use crate::operator::{Boundary, Operator};
-use crate::units::Pascal;
 
 /// The free boundary by direct summation of the influence coefficients: O(n²) for n cells, exact to round-off.
 ///
 /// What the transforms are measured against, and the fastest for a handful of cells.
 pub struct DirectSum {
     grid: Grid,
-    modulus: Pascal,
+    response: SharedResponse,
     table: Field,
 }
 
 impl DirectSum {
-    /// The operator on `grid` for the composite `modulus`.
-    pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        Self { grid, modulus, table: influence_table(grid.shape, grid.pitch, modulus) }
+    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces.
+    pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
+        let response = response.into();
+        let table = response.influence(grid.pitch).table(grid.shape, grid.pitch);
+        Self { grid, response, table }
     }
 }
 
@@ -26,12 +27,12 @@ impl Operator for DirectSum {
         &self.grid
     }
 
-    fn modulus(&self) -> Pascal {
-        self.modulus
-    }
-
     fn boundary(&self) -> Boundary {
         Boundary::FREE
+    }
+
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.response.harmonic_displacement(qx, qy)
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
@@ -51,6 +52,6 @@ impl Operator for DirectSum {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        Box::new(Self::new(Boundary::FREE.coarse(&self.grid), self.modulus))
+        Box::new(Self::new(Boundary::FREE.coarse(&self.grid), self.response.clone()))
     }
 }

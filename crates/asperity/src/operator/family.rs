@@ -3,19 +3,18 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-use crate::grid::Grid;
-use crate::kernel::{Line, normal_displacement};
-use crate::material::Compliances;
+use crate::grid::{Field, Grid};
+use crate::kernel::{CoupledResponse, SharedResponse};
 use crate::operator::coupled::CoupledKernel;
 use crate::operator::{Boundary, CoupledOperator, FreeFamily, Operator, PeriodicKernel};
 
-/// Makes operators of one cell size, pair of materials and boundary, which share the spectra of their coefficients.
+/// Makes operators of one cell size, pair of bodies and boundary, which share the spectra of their coefficients.
 ///
 /// Along a free axis the coefficients of a smaller contact are the leading block of those of the larger one, so
 /// that the operators of all overlaps need but a few spectra; a period has its own.
 pub struct Operators {
     largest: Grid,
-    compliances: Compliances,
+    response: SharedResponse,
     boundary: Boundary,
     shared: Shared,
     /// By the size of the transforms.
@@ -28,15 +27,20 @@ enum Shared {
 }
 
 impl Operators {
-    /// For contacts on the cells of a `largest` grid, a pair's `compliances` and `boundary`. Where that is periodic along
-    /// one axis, r₀ is the length of the grid along the other, and smaller contacts share it.
-    pub fn new(largest: Grid, compliances: Compliances, boundary: Boundary) -> Self {
+    /// For contacts on the cells of a `largest` grid, bodies of this `response`, such as the
+    /// [`crate::material::Compliances`] of two half-spaces, and `boundary`. Where that is periodic along one axis, r₀ is the
+    /// length of the grid along the other, and smaller contacts share it.
+    ///
+    /// # Panics
+    /// An operator, if the boundary is periodic along one axis and the response knows no line.
+    pub fn new(largest: Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Self {
+        let response = response.into();
         let shared = if boundary.leaves_mean_free() {
             Shared::Periodic(Mutex::default())
         } else {
-            Shared::Free(FreeFamily::new(&largest, compliances.modulus(), boundary))
+            Shared::Free(FreeFamily::new(&largest, response.clone(), boundary))
         };
-        Self { largest, compliances, boundary, shared, coupled: Mutex::default() }
+        Self { largest, response, boundary, shared, coupled: Mutex::default() }
     }
 
     /// The normal operator on `shape` cells.
@@ -47,39 +51,40 @@ impl Operators {
                 let mut kernels = kernels.lock().expect("no holder panics");
                 let kernel = kernels
                     .entry(shape)
-                    .or_insert_with(|| PeriodicKernel::new(self.grid(shape), self.compliances.modulus()));
+                    .or_insert_with(|| PeriodicKernel::new(self.grid(shape), self.response.clone()));
                 Box::new(kernel.operator())
             }
         }
     }
 
     /// The coupled operator on `shape` cells.
+    ///
+    /// # Panics
+    /// If the response is known in the normal direction only.
     pub fn coupled_on(&self, shape: [usize; 2]) -> Box<dyn CoupledOperator> {
         let mut kernels = self.coupled.lock().expect("no holder panics");
         let grid = self.grid(shape);
         let padded = self.boundary.padded(shape);
+        let response = self.coupled_response();
         let kernel = kernels.entry(padded).or_insert_with(|| match &self.shared {
             Shared::Free(_) => {
-                CoupledKernel::free(padded, grid.pitch, &self.compliances, self.line(&grid).as_ref())
+                let line = self.boundary.line(&grid, self.boundary.datum(&self.largest));
+                CoupledKernel::free(padded, grid.pitch, response, line.as_ref())
             }
-            Shared::Periodic(_) => CoupledKernel::periodic(&grid, &self.compliances),
+            Shared::Periodic(_) => CoupledKernel::periodic(&grid, response),
         });
-        Box::new(kernel.operator(grid, self.compliances, self.on(shape)))
+        Box::new(kernel.operator(grid, response.couples(), self.on(shape)))
     }
 
-    /// Largest displacement, that in the middle, under a uniform unit pressure on `shape` cells, m/Pa.
+    /// Largest displacement under a uniform unit pressure on `shape` cells, m/Pa.
     pub(crate) fn most_under_uniform(&self, shape: [usize; 2]) -> f64 {
-        let (grid, modulus) = (self.grid(shape), self.compliances.modulus());
-        let extent = grid.extent();
-        match self.line(&grid) {
-            Some(line) => line.normal_displacement(0.0, 0.0, extent, modulus),
-            None if self.boundary.leaves_mean_free() => 0.0,
-            None => normal_displacement(0.0, 0.0, extent, modulus),
-        }
+        let mut displacement = Field::zeros(shape);
+        self.on(shape).apply(&Field::ones(shape), &mut displacement);
+        displacement.iter().fold(0.0, |most, u| most.max(*u))
     }
 
-    fn line(&self, grid: &Grid) -> Option<Line> {
-        self.boundary.line(grid, self.boundary.datum(&self.largest))
+    fn coupled_response(&self) -> &dyn CoupledResponse {
+        self.response.coupled().expect("a response to shear")
     }
 
     fn grid(&self, shape: [usize; 2]) -> Grid {

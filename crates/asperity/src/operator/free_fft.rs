@@ -1,46 +1,54 @@
 //! The boundary that is free along one axis or both, by transforms padded with zeros there, pruned to what is not zero.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::{Line, influence_table, normal_displacement};
+use crate::kernel::{Influence, SharedResponse};
 use crate::math::{Kernel, MixedConvolution, MixedKernel};
 use crate::operator::{Boundary, Operator};
-use crate::units::{Metre, Pascal};
+use crate::units::Metre;
 
-/// All operators of one pitch, modulus and boundary that is free along an axis: they share the spectra of the influence
+/// All operators of one pitch, response and boundary that is free along an axis: they share the spectra of the influence
 /// coefficients.
 ///
 /// A spectrum belongs to a padded size, and serves every grid that fits into it: the growing overlaps of a pass
 /// need only a few.
 pub struct FreeFamily {
     pitch: [Metre; 2],
-    modulus: Pascal,
+    response: SharedResponse,
     boundary: Boundary,
     datum: Metre,
+    /// Of a cell that stands alone.
+    influence: OnceLock<Arc<dyn Influence>>,
     kernels: Mutex<HashMap<[usize; 2], Arc<MixedKernel>>>,
     /// One for each coarse pitch, which depends on the number of cells along a periodic axis.
     coarse: Mutex<Vec<Arc<FreeFamily>>>,
 }
 
 impl FreeFamily {
-    /// The family of the cells of a `largest` grid, composite modulus E* and boundary. Where that is periodic along one
+    /// The family of the cells of a `largest` grid, bodies of this `response` and boundary. Where that is periodic along one
     /// axis, r₀ is the length of the grid along the other.
     ///
     /// # Panics
-    /// If the boundary is periodic along both axes.
-    pub fn new(largest: &Grid, modulus: Pascal, boundary: Boundary) -> Arc<Self> {
+    /// If the boundary is periodic along both axes; an operator, if it is so along one and the response knows no line.
+    pub fn new(largest: &Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Arc<Self> {
         assert!(boundary != Boundary::PERIODIC, "a free axis");
-        Self::with_datum(largest.pitch, modulus, boundary, boundary.datum(largest))
+        Self::with_datum(largest.pitch, response.into(), boundary, boundary.datum(largest))
     }
 
-    fn with_datum(pitch: [Metre; 2], modulus: Pascal, boundary: Boundary, datum: Metre) -> Arc<Self> {
+    fn with_datum(
+        pitch: [Metre; 2],
+        response: SharedResponse,
+        boundary: Boundary,
+        datum: Metre,
+    ) -> Arc<Self> {
         Arc::new(Self {
             pitch,
-            modulus,
+            response,
             boundary,
             datum,
+            influence: OnceLock::new(),
             kernels: Mutex::default(),
             coarse: Mutex::default(),
         })
@@ -49,38 +57,49 @@ impl FreeFamily {
     /// The operator on a grid of `shape` cells.
     pub fn operator(self: &Arc<Self>, shape: [usize; 2]) -> FreeFft {
         let grid = Grid { shape, pitch: self.pitch };
-        let line = self.boundary.line(&grid, self.datum);
-        let kernel = self.kernel(self.boundary.padded(shape), line.as_ref());
-        FreeFft { grid, line, convolution: MixedConvolution::new(kernel, shape), family: Arc::clone(self) }
+        let influence = self.influence(&grid);
+        let kernel = self.kernel(self.boundary.padded(shape), influence.as_ref());
+        FreeFft {
+            grid,
+            influence,
+            convolution: MixedConvolution::new(kernel, shape),
+            family: Arc::clone(self),
+        }
     }
 
-    fn kernel(&self, padded: [usize; 2], line: Option<&Line>) -> Arc<MixedKernel> {
+    fn influence(&self, grid: &Grid) -> Arc<dyn Influence> {
+        match self.boundary.line(grid, self.datum) {
+            None => Arc::clone(self.influence.get_or_init(|| self.response.influence(self.pitch).into())),
+            Some(line) => {
+                self.response.line_influence(&line, self.pitch).expect("a response that knows lines").into()
+            }
+        }
+    }
+
+    fn kernel(&self, padded: [usize; 2], influence: &dyn Influence) -> Arc<MixedKernel> {
         let mut kernels = self.kernels.lock().expect("no holder panics");
         let kernel = kernels.entry(padded).or_insert_with(|| {
             let shape = padded.map(|n| n / 2 + 1);
-            let table = match line {
-                None => influence_table(shape, self.pitch, self.modulus),
-                Some(line) => line.influence_table(shape, self.pitch, self.modulus),
-            };
-            MixedKernel::new(Kernel::from_values(padded, &table))
+            MixedKernel::new(Kernel::from_values(padded, &influence.table(shape, self.pitch)))
         });
         Arc::clone(kernel)
     }
 }
 
-/// A half-space pair loaded on a finite grid, or on one that repeats itself along one axis: the discrete convolution with
-/// Love's coefficients, or with their sums along a [`Line`], exact to round-off.
+/// A pair loaded on a finite grid, or on one that repeats itself along one axis: the discrete convolution with the
+/// influence of a cell, or of a [`crate::kernel::Line`] of them, exact to round-off.
 pub struct FreeFft {
     grid: Grid,
-    line: Option<Line>,
+    influence: Arc<dyn Influence>,
     convolution: MixedConvolution,
     family: Arc<FreeFamily>,
 }
 
 impl FreeFft {
-    /// The operator on `grid` for the composite `modulus`, free at all its edges.
-    pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        FreeFamily::new(&grid, modulus, Boundary::FREE).operator(grid.shape)
+    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces; free at all
+    /// its edges.
+    pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
+        FreeFamily::new(&grid, response, Boundary::FREE).operator(grid.shape)
     }
 }
 
@@ -89,21 +108,17 @@ impl Operator for FreeFft {
         &self.grid
     }
 
-    fn modulus(&self) -> Pascal {
-        self.family.modulus
-    }
-
     fn boundary(&self) -> Boundary {
         self.family.boundary
     }
 
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.family.response.harmonic_displacement(qx, qy)
+    }
+
     fn influence(&self, i: usize, j: usize) -> f64 {
         let [dx, dy] = self.grid.pitch;
-        let (x, y) = (i as f64 * dx, j as f64 * dy);
-        match &self.line {
-            None => normal_displacement(x, y, [dx, dy], self.family.modulus),
-            Some(line) => line.normal_displacement(x, y, [dx, dy], self.family.modulus),
-        }
+        self.influence.at(i as f64 * dx, j as f64 * dy)
     }
 
     fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
@@ -115,11 +130,11 @@ impl Operator for FreeFft {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        let FreeFamily { modulus, boundary, datum, ref coarse, .. } = *self.family;
+        let FreeFamily { ref response, boundary, datum, ref coarse, .. } = *self.family;
         let grid = boundary.coarse(&self.grid);
         let mut coarse = coarse.lock().expect("no holder panics");
         let family = coarse.iter().find(|family| family.pitch == grid.pitch).cloned().unwrap_or_else(|| {
-            coarse.push(FreeFamily::with_datum(grid.pitch, modulus, boundary, datum));
+            coarse.push(FreeFamily::with_datum(grid.pitch, response.clone(), boundary, datum));
             Arc::clone(&coarse[coarse.len() - 1])
         });
         Box::new(family.operator(grid.shape))

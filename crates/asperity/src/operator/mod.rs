@@ -15,20 +15,20 @@ pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::{PeriodicFft, PeriodicKernel};
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::units::Pascal;
 
-/// The composite normal displacement of a half-space pair under pressure: `u = C p`.
+/// The composite normal displacement of a pair of bodies under pressure: `u = C p`.
 ///
 /// An operator owns its scratch; its answer never depends on it.
 pub trait Operator: Send {
     /// The grid that it acts on.
     fn grid(&self) -> &Grid;
 
-    /// The composite modulus E*.
-    fn modulus(&self) -> Pascal;
-
     /// What lies beyond the edges of the grid.
     fn boundary(&self) -> Boundary;
+
+    /// Displacement per unit pressure of the harmonic of angular wavenumber `(qx, qy)` ≠ 0, m/Pa, > 0: what the solvers
+    /// precondition with. It need not be exact.
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64;
 
     /// Displacement of a cell per unit pressure on the one `i` and `j` cells away, m/Pa; `[i, j]` inside the grid.
     fn influence(&self, i: usize, j: usize) -> f64;

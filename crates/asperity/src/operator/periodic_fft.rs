@@ -3,15 +3,14 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::spectral::harmonic_displacement;
+use crate::kernel::SharedResponse;
 use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency};
 use crate::operator::{Boundary, Operator};
-use crate::units::Pascal;
 
 /// What all operators of one periodic grid share: the spectrum of the influence coefficients.
 pub struct PeriodicKernel {
     grid: Grid,
-    modulus: Pascal,
+    response: SharedResponse,
     kernel: Arc<MixedKernel>,
     /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
     influence: Field,
@@ -19,19 +18,20 @@ pub struct PeriodicKernel {
 }
 
 impl PeriodicKernel {
-    /// The coefficients of `grid` for the composite `modulus`.
-    pub fn new(grid: Grid, modulus: Pascal) -> Arc<Self> {
+    /// The coefficients of `grid` for bodies of this `response`.
+    pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Arc<Self> {
+        let response = response.into();
         let [nx, ny] = grid.shape;
         let kernel = MixedKernel::new(Kernel::from_transform(grid.shape, |k, l| {
             let qx = angular_frequency(k, nx, grid.pitch[0]);
             let qy = angular_frequency(l, ny, grid.pitch[1]);
-            harmonic_displacement(qx, qy, modulus)
+            response.harmonic_displacement(qx, qy)
         }));
-        let (mut unit, mut response) = (grid.zeros(), grid.zeros());
+        let (mut unit, mut displacement) = (grid.zeros(), grid.zeros());
         unit[[0, 0]] = 1.0;
-        MixedConvolution::new(Arc::clone(&kernel), grid.shape).apply(&unit, &mut response);
-        let influence = response.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
-        Arc::new(Self { grid, modulus, kernel, influence, coarse: OnceLock::new() })
+        MixedConvolution::new(Arc::clone(&kernel), grid.shape).apply(&unit, &mut displacement);
+        let influence = displacement.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
+        Arc::new(Self { grid, response, kernel, influence, coarse: OnceLock::new() })
     }
 
     /// An operator with these coefficients.
@@ -41,7 +41,7 @@ impl PeriodicKernel {
     }
 }
 
-/// A half-space pair that repeats itself beyond the grid: û(q) = 2 p̂(q)/(E*|q|).
+/// A pair that repeats itself beyond the grid: of half-spaces û(q) = 2 p̂(q)/(E*|q|).
 ///
 /// The mean displacement is free and taken as zero: under load it is part of the approach.
 pub struct PeriodicFft {
@@ -50,9 +50,9 @@ pub struct PeriodicFft {
 }
 
 impl PeriodicFft {
-    /// The operator on `grid` for the composite `modulus`.
-    pub fn new(grid: Grid, modulus: Pascal) -> Self {
-        PeriodicKernel::new(grid, modulus).operator()
+    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces.
+    pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
+        PeriodicKernel::new(grid, response).operator()
     }
 }
 
@@ -61,12 +61,12 @@ impl Operator for PeriodicFft {
         &self.shared.grid
     }
 
-    fn modulus(&self) -> Pascal {
-        self.shared.modulus
-    }
-
     fn boundary(&self) -> Boundary {
         Boundary::PERIODIC
+    }
+
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.shared.response.harmonic_displacement(qx, qy)
     }
 
     fn influence(&self, i: usize, j: usize) -> f64 {
@@ -83,10 +83,9 @@ impl Operator for PeriodicFft {
     }
 
     fn coarse(&self) -> Box<dyn Operator> {
-        let coarse = self
-            .shared
-            .coarse
-            .get_or_init(|| PeriodicKernel::new(Boundary::PERIODIC.coarse(self.grid()), self.modulus()));
+        let PeriodicKernel { grid, response, coarse, .. } = self.shared.as_ref();
+        let coarse =
+            coarse.get_or_init(|| PeriodicKernel::new(Boundary::PERIODIC.coarse(grid), response.clone()));
         Box::new(coarse.operator())
     }
 }

@@ -1,5 +1,6 @@
 //! What is wide: the stiffness of long waves, on a grid with a sixteenth of the cells along each axis.
 
+use std::f64::consts::{FRAC_PI_3, TAU};
 use std::sync::Arc;
 
 use crate::grid::SingleField;
@@ -12,7 +13,8 @@ const COARSENING: usize = 16;
 /// Keeps the weight of sparsely covered coarse cells finite; see [`CoarseCorrection`].
 const SPARSE: f32 = 0.2;
 
-/// P interpolates bilinearly from the coarse nodes, B is the stiffness E*|q|/2 of the coarse harmonics, D a weight.
+/// P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse harmonics, of half-spaces E*|q|/2, D a
+/// weight.
 ///
 /// A pressure that is uniform over the free cells of a coarse cell, a share θ of it, has θ of the mean pressure; a
 /// displacement that is uniform there has θ of the sum. Dividing by θ on the way there and back makes both right:
@@ -22,7 +24,7 @@ const SPARSE: f32 = 0.2;
 /// around valleys of width a, a share φ of the surface, displaces them by about −a p/E*, and the rest by φ of that. With
 /// a in proportion to φ, as for valleys at given distances, the stiffness of the mean goes as 1/φ².
 pub(super) struct CoarseCorrection {
-    /// E*|q|/2 of the coarse harmonics, divided by the fine cells in a coarse one.
+    /// Stiffness of the coarse harmonics, divided by the fine cells in a coarse one.
     stiffness: Convolution<f32>,
     /// That of the mean, where valleys are as wide as the grid, and the share of cells that are not free.
     mean_stiffness: f32,
@@ -44,29 +46,26 @@ impl CoarseCorrection {
         let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
         let cells = factor[0] * factor[1];
         let longest = grid.extent()[0].max(grid.extent()[1]);
-        let mean = if operator.boundary().leaves_mean_free() {
-            operator.modulus() * std::f64::consts::PI / longest
-        } else {
-            0.0
-        };
-        let stiffness = Kernel::from_transform(shape, |k, l| {
+        let stiffness = |qx: f64, qy: f64| 1.0 / operator.harmonic_displacement(qx, qy);
+        let mean = if operator.boundary().leaves_mean_free() { stiffness(TAU / longest, 0.0) } else { 0.0 };
+        let kernel = Kernel::from_transform(shape, |k, l| {
             let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
             let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
             let wide = match (k, l) {
                 (0, 0) => match operator.boundary().0 {
                     [Edge::Periodic, Edge::Periodic] => 0.0,
-                    // A uniform pressure on a free square of side L sinks it by 0.95 L p/E* in the mean,
-                    [Edge::Free, Edge::Free] => 1.0 / (0.95 * grid.area().sqrt()),
+                    // A uniform pressure on a free square of side L sinks a half-space by 0.95 L p/E* in the mean,
+                    [Edge::Free, Edge::Free] => stiffness(2.0 / (0.95 * grid.area().sqrt()), 0.0),
                     // on an endless strip of width L by 3/π L p/E* against the distance L.
-                    [Edge::Free, Edge::Periodic] => std::f64::consts::FRAC_PI_3 / grid.extent()[0],
-                    [Edge::Periodic, Edge::Free] => std::f64::consts::FRAC_PI_3 / grid.extent()[1],
+                    [Edge::Free, Edge::Periodic] => stiffness(2.0 * FRAC_PI_3 / grid.extent()[0], 0.0),
+                    [Edge::Periodic, Edge::Free] => stiffness(0.0, 2.0 * FRAC_PI_3 / grid.extent()[1]),
                 },
-                _ => 0.5 * qx.hypot(qy),
+                _ => stiffness(qx, qy),
             };
-            operator.modulus() * wide / cells
+            wide / cells
         });
         Self {
-            stiffness: Convolution::new(Arc::new(stiffness.to_single()), shape),
+            stiffness: Convolution::new(Arc::new(kernel.to_single()), shape),
             mean_stiffness: (mean / cells) as f32,
             open: 1.0,
             cells: cells as f32,

@@ -26,10 +26,10 @@ pub use stiffness::normal_stiffness;
 pub(crate) use together::solve_together;
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::Field;
-use crate::kernel::normal_displacement;
 use crate::operator::Operator;
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
@@ -295,11 +295,11 @@ fn solve_as_given(
 }
 
 /// Displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
-/// the free one serves, as a measure.
+/// a wave as long serves, as a measure.
 fn self_influence(operator: &dyn Operator) -> f64 {
     match operator.influence(0, 0) {
         c0 if c0 > 0.0 => c0,
-        _ => normal_displacement(0.0, 0.0, operator.grid().pitch, operator.modulus()),
+        _ => operator.harmonic_displacement(TAU / operator.grid().pitch[0], 0.0),
     }
 }
 

@@ -173,8 +173,9 @@ impl Sizes<'_> {
     /// Whether tractions along all directions are computed.
     fn is_coupled(&self) -> bool {
         let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
-        let lifts =
-            |friction| self.compliances().is_some_and(|compliances| sliding(friction).lifts(&compliances));
+        let lifts = |friction| {
+            self.compliances().is_some_and(|compliances| sliding(friction).lifts(compliances.coupling != 0.0))
+        };
         self.case.friction.as_ref().is_some_and(|friction| self.case.motion.is_none() || lifts(friction.law))
     }
 

@@ -14,11 +14,11 @@ pub(super) struct Bodies<'a> {
 
 impl Bodies<'_> {
     pub(super) fn shear_lifts(&self) -> bool {
-        self.coupling.lifts(self.operator.compliances())
+        self.coupling.lifts(self.operator.couples())
     }
 
     fn pressure_slips(&self) -> bool {
-        self.coupling.slips(self.operator.compliances())
+        self.coupling.slips(self.operator.couples())
     }
 
     /// Normal displacement under shear.

@@ -1,7 +1,6 @@
 //! How much shear a cell bears.
 
 use crate::error::{Result, check, check_in};
-use crate::material::Compliances;
 use crate::units::{Dimension, Pascal};
 
 /// How normal and tangential displacements are coupled where the bodies are dissimilar.
@@ -19,13 +18,13 @@ pub enum Coupling {
 
 impl Coupling {
     /// Whether shear displaces the surface normally.
-    pub(super) fn lifts(self, compliances: &Compliances) -> bool {
-        self == Self::Full && compliances.coupling != 0.0
+    pub(super) fn lifts(self, couples: bool) -> bool {
+        self == Self::Full && couples
     }
 
     /// Whether pressure displaces the surface tangentially.
-    pub(super) fn slips(self, compliances: &Compliances) -> bool {
-        self != Self::None && compliances.coupling != 0.0
+    pub(super) fn slips(self, couples: bool) -> bool {
+        self != Self::None && couples
     }
 }
 

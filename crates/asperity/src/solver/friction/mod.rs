@@ -13,7 +13,6 @@ pub use rolling::{Creep, Rolling, solve_rolling};
 
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
-use crate::material::Compliances;
 use crate::operator::CoupledOperator;
 use crate::solver::{Control, Params, Solution};
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
@@ -47,8 +46,8 @@ impl Sliding {
     }
 
     /// Whether the shear displaces these bodies normally.
-    pub(crate) fn lifts(&self, compliances: &Compliances) -> bool {
-        self.friction.coefficient > 0.0 && self.friction.coupling.lifts(compliances)
+    pub(crate) fn lifts(&self, couples: bool) -> bool {
+        self.friction.coefficient > 0.0 && self.friction.coupling.lifts(couples)
     }
 }
 

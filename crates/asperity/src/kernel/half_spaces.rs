@@ -1,0 +1,83 @@
+//! The response of homogeneous half-spaces.
+
+use crate::grid::Field;
+use crate::kernel::spectral::{harmonic_displacement, harmonic_displacements};
+use crate::kernel::{
+    Coefficients, CoupledResponse, Influence, Line, Response, coupled_displacement, normal_displacement,
+};
+use crate::material::Compliances;
+use crate::units::{Metre, Pascal};
+
+/// Two homogeneous half-spaces: Boussinesq's and Cerruti's solutions, summed over cells by Love.
+///
+/// Made of a composite modulus E* it answers to pressure alone, of the [`Compliances`] of a pair to shear too.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpaces {
+    modulus: Pascal,
+    compliances: Option<Compliances>,
+}
+
+impl From<Pascal> for HalfSpaces {
+    fn from(modulus: Pascal) -> Self {
+        Self { modulus, compliances: None }
+    }
+}
+
+impl From<Compliances> for HalfSpaces {
+    fn from(compliances: Compliances) -> Self {
+        Self { modulus: compliances.modulus(), compliances: Some(compliances) }
+    }
+}
+
+impl Response for HalfSpaces {
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        harmonic_displacement(qx, qy, self.modulus)
+    }
+
+    fn influence(&self, pitch: [Metre; 2]) -> Box<dyn Influence> {
+        let modulus = self.modulus;
+        Box::new(move |x, y| normal_displacement(x, y, pitch, modulus))
+    }
+
+    fn line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<dyn Influence>> {
+        Some(Box::new(LineOfCells { line: *line, pitch, modulus: self.modulus }))
+    }
+
+    fn coupled(&self) -> Option<&dyn CoupledResponse> {
+        self.compliances.as_ref().map(|compliances| compliances as &dyn CoupledResponse)
+    }
+}
+
+impl CoupledResponse for Compliances {
+    fn couples(&self) -> bool {
+        self.coupling != 0.0
+    }
+
+    fn harmonic_displacements(&self, qx: f64, qy: f64) -> Coefficients {
+        harmonic_displacements(qx, qy, self)
+    }
+
+    fn displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2]) -> Coefficients {
+        coupled_displacement(x, y, pitch, self)
+    }
+
+    fn line_displacement(&self, line: &Line, x: Metre, y: Metre, pitch: [Metre; 2]) -> Option<Coefficients> {
+        Some(line.coupled_displacement(x, y, pitch, self))
+    }
+}
+
+struct LineOfCells {
+    line: Line,
+    pitch: [Metre; 2],
+    modulus: Pascal,
+}
+
+impl Influence for LineOfCells {
+    fn at(&self, x: Metre, y: Metre) -> f64 {
+        self.line.normal_displacement(x, y, self.pitch, self.modulus)
+    }
+
+    fn table(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
+        self.line.influence_table(shape, pitch, self.modulus)
+    }
+}
