@@ -4,9 +4,9 @@
 //! (archives, compression, lengths), is put around it here.
 
 use std::io::{Cursor, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use asperity::io::topography::{self, Scan};
+use asperity::surface::{ReadOptions, Scan, Topography};
 use asperity::{Error, Field, Grid};
 
 /// Takes any bytes.
@@ -280,7 +280,11 @@ fn check(formats: &[&str], file: &[u8]) {
 
 fn check_in_unit(formats: &[&str], file: &[u8], unit: Option<f64>) {
     let is_one = |format: &str| formats.is_empty() || formats.contains(&format);
-    let read = |channel: Option<&str>| topography::from_bytes(Path::new("file"), file, channel, unit);
+    let read = |channel: Option<&str>| {
+        let mut options = ReadOptions::default();
+        (options.channel, options.unit) = (channel.map(str::to_owned), unit);
+        options.scan_bytes("file", file)
+    };
     match read(None) {
         Ok(scan) => {
             assert!(is_one(scan.format), "taken for {}", scan.format);
@@ -327,20 +331,19 @@ fn check_scan(scan: &Scan) {
 fn check_written(scan: &Scan) {
     let (nx, ny) = scan.heights.dim();
     let grid = Grid::new([nx, ny], scan.pitch.unwrap_or([1e-6; 2])).expect("a grid");
-    let path = temporary();
+    let topography = Topography::new(grid, scan.heights.clone()).expect("heights");
     let again = |format: &str| {
-        let again = topography::read(&path, None, None).expect("a topography");
+        let path = temporary(format);
+        topography.write(&path).expect("a file");
+        let again = ReadOptions::default().scan(&path).expect("a topography");
+        let _ = std::fs::remove_file(path);
         assert_eq!((again.format, again.channels.as_slice()), (format, &["height".to_owned()][..]));
         assert!(same(&again.heights, &scan.heights), "{format}: {} became {}", scan.heights, again.heights);
         again.pitch
     };
-    topography::npy::write(&path, &scan.heights).expect("a file");
     assert_eq!(again("npy"), None);
-    topography::sdf::write(&path, &grid, &scan.heights).expect("a file");
     assert_eq!(again("sdf"), Some(grid.pitch));
-    topography::x3p::write(&path, &grid, &scan.heights).expect("a file");
     assert_eq!(again("x3p"), Some(grid.pitch));
-    topography::gwy::write(&path, &grid, &scan.heights).expect("a file");
     let pitch = again("gwy");
     // The format has the lengths of the sides instead: rounded, and beyond the range of numbers for pitches near its end.
     if grid.pitch.iter().all(|pitch| (1e-300..1e+290).contains(pitch)) {
@@ -351,7 +354,6 @@ fn check_written(scan: &Scan) {
             );
         }
     }
-    let _ = std::fs::remove_file(path);
 }
 
 fn same(left: &Field, right: &Field) -> bool {
@@ -359,9 +361,9 @@ fn same(left: &Field, right: &Field) -> bool {
     left.dim() == right.dim() && left.iter().zip(right).all(same)
 }
 
-fn temporary() -> PathBuf {
+fn temporary(format: &str) -> PathBuf {
     std::env::temp_dir().join(format!(
-        "asperity-fuzz-{}-{:?}",
+        "asperity-fuzz-{}-{:?}.{format}",
         std::process::id(),
         std::thread::current().id()
     ))

@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use asperity::io::case::{Boundary, Case, Course, Edge, Method, Mount, Side};
-use asperity::io::outlook::{Demand, Outlook, outlook};
-use asperity::io::prepare::{Bodies, Prepared, bodies};
-use asperity::io::subsurface::Plan;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
+use asperity::study::Plan;
+use asperity::study::case::{Boundary, Case, Course, Edge, Method, Mount, Side};
+use asperity::study::{Bodies, Prepared, bodies};
+use asperity::study::{Demand, Estimate, estimate};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -18,32 +18,32 @@ pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = Case::load(&arguments.case)?;
     let demand = machine::demand(&case)?;
     let bodies = bodies(&case)?;
-    let outlook = outlook(&case, &bodies)?;
-    print(&text(&case, &bodies, &outlook, &demand))?;
-    for warning in outlook.warnings.iter().chain(&outlook.foreseen) {
+    let estimate = estimate(&case, &bodies)?;
+    print(&text(&case, &bodies, &estimate, &demand))?;
+    for warning in estimate.warnings.iter().chain(&estimate.foreseen) {
         note(&format!("warning: {}", clipped(warning)));
     }
     Ok(())
 }
 
-fn text(case: &Case, bodies: &Bodies, outlook: &Outlook, demand: &Demand) -> String {
+fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> String {
     let rows = [
         ("lower", body(&bodies.lower)),
         ("upper", body(&bodies.upper)),
-        ("pair", pair(outlook)),
-        ("contact", contact(case, outlook)),
-        ("motion", motion(case, outlook)),
+        ("pair", pair(estimate)),
+        ("contact", contact(case, estimate)),
+        ("motion", motion(case, estimate)),
         ("memory", memory(demand)),
         ("time", format!("about {}, without figures", units::format_time(demand.time()))),
     ];
-    let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, outlook)));
-    let history = match &outlook.course {
+    let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, estimate)));
+    let history = match &estimate.course {
         Some(Course::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
             Some(("history", course(stages)))
         }
         _ => None,
     };
-    let stress = outlook.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
+    let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
     for (name, value) in rows.into_iter().chain(friction).chain(history).chain(stress) {
         let _ = writeln!(page, "{name:<8} {value}");
@@ -88,23 +88,23 @@ fn body(body: &Prepared) -> String {
     text
 }
 
-fn pair(outlook: &Outlook) -> String {
+fn pair(estimate: &Estimate) -> String {
     let pressure = |value| units::format(value, Dimension::Pressure);
-    let modulus = format!("E* {}", pressure(outlook.modulus));
-    if outlook.hardness.is_infinite() {
+    let modulus = format!("E* {}", pressure(estimate.modulus));
+    if estimate.hardness.is_infinite() {
         return format!("{modulus}, elastic");
     }
-    let who = match outlook.lower_share {
+    let who = match estimate.lower_share {
         1.0 => "the lower body deforms",
         0.0 => "the upper body deforms",
         _ => "both deform alike",
     };
-    format!("{modulus}, pressure up to {}; {who} plastically", pressure(outlook.hardness))
+    format!("{modulus}, pressure up to {}; {who} plastically", pressure(estimate.hardness))
 }
 
-fn contact(case: &Case, outlook: &Outlook) -> String {
+fn contact(case: &Case, estimate: &Estimate) -> String {
     let force = |value| units::format(value, Dimension::Force);
-    let control = match outlook.control {
+    let control = match estimate.control {
         Control::PassLoad(load) => format!("mean load {} over a pass", force(load)),
         Control::StepLoad(load) if case.motion.is_some() => format!("load {} at each position", force(load)),
         Control::StepLoad(load) => format!("load {}", force(load)),
@@ -124,18 +124,18 @@ fn contact(case: &Case, outlook: &Outlook) -> String {
         Method::PolonskyKeer => "polonsky-keer",
         Method::ActiveSet => "active-set",
     };
-    let mut text = match &outlook.course {
+    let mut text = match &estimate.course {
         Some(Course::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
         _ => control,
     };
     if let (Control::PassLoad(load) | Control::StepLoad(load), true) =
-        (outlook.control, outlook.plastic_limit.is_finite())
+        (estimate.control, estimate.plastic_limit.is_finite())
     {
-        let share = 100.0 * load / outlook.plastic_limit;
-        let _ = write!(text, " ({share:.1} % of the plastic limit {})", force(outlook.plastic_limit));
+        let share = 100.0 * load / estimate.plastic_limit;
+        let _ = write!(text, " ({share:.1} % of the plastic limit {})", force(estimate.plastic_limit));
     }
-    if let Control::PassLoad(load) | Control::StepLoad(load) = outlook.control {
-        let mean = units::format(load / outlook.mean_facing_area, Dimension::Pressure);
+    if let Control::PassLoad(load) | Control::StepLoad(load) = estimate.control {
+        let mean = units::format(load / estimate.mean_facing_area, Dimension::Pressure);
         let at_most = if case.contact.sweep.is_some() { " at most" } else { "" };
         let _ = write!(text, ", mean pressure {mean} on what faces{at_most}");
     }
@@ -158,9 +158,9 @@ fn swept(points: &[Point]) -> String {
     format!("{}, {kind} {least} to {most}", plural(points.len(), "point", "points"))
 }
 
-fn motion(case: &Case, outlook: &Outlook) -> String {
+fn motion(case: &Case, estimate: &Estimate) -> String {
     let Some(motion) = case.motion else {
-        return match &outlook.course {
+        return match &estimate.course {
             Some(Course::Sweep(points)) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
@@ -177,17 +177,17 @@ fn motion(case: &Case, outlook: &Outlook) -> String {
     };
     let mut text = format!(
         "{strategy}, {} of {}, stride {}",
-        plural(outlook.passes, "pass", "passes"),
-        plural(outlook.positions, "position", "positions"),
+        plural(estimate.passes, "pass", "passes"),
+        plural(estimate.positions, "position", "positions"),
         plural(motion.stride, "cell", "cells")
     );
-    if outlook.hardness.is_finite() {
+    if estimate.hardness.is_finite() {
         let _ = write!(text, ", plastic deformation {update}");
     }
     text
 }
 
-fn friction(friction: &Friction, outlook: &Outlook) -> String {
+fn friction(friction: &Friction, estimate: &Estimate) -> String {
     let mut text = format!("coefficient {}", friction.coefficient);
     if friction.shear_strength.is_finite() {
         let strength = units::format(friction.shear_strength, Dimension::Pressure);
@@ -201,8 +201,8 @@ fn friction(friction: &Friction, outlook: &Outlook) -> String {
         Coupling::Goodman => "goodman",
         Coupling::None => "none",
     };
-    let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", outlook.dundurs);
-    text + &match &outlook.course {
+    let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", estimate.dundurs);
+    text + &match &estimate.course {
         None => "sliding at each position".to_owned(),
         Some(Course::Rolling(at)) => rolling(*at),
         Some(Course::Stages(stages)) => course(stages),

@@ -1,13 +1,13 @@
 //! The machine: how much memory there is, and whether it suffices.
 
-use asperity::io::case::Case;
-use asperity::io::outlook::{self, Demand};
+use asperity::study::Case;
+use asperity::study::{self, Demand};
 use asperity::{Error, Result};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// What the case takes on all threads, an error if there is not so much.
 pub(crate) fn demand(case: &Case) -> Result<Demand> {
-    let demand = outlook::demand(case, rayon::current_num_threads())?;
+    let demand = study::demand(case, rayon::current_num_threads())?;
     demand.fits(available())?;
     Ok(demand)
 }

@@ -1,6 +1,6 @@
 //! `asperity plot`: the figures of a results directory, drawn again.
 
-use asperity::io::results::Results;
+use asperity::study::Results;
 
 use crate::args::Plot;
 use crate::figures::{self, Wanted};

@@ -280,7 +280,7 @@ fn hint(error: &Error) -> Option<String> {
 mod tests {
     use std::path::Path;
 
-    use asperity::io::case::Case;
+    use asperity::study::Case;
 
     use super::*;
 

@@ -2,13 +2,12 @@
 
 use std::sync::LazyLock;
 
-use asperity::io::topography::{from_bytes, gwy, npy, x3p};
-use asperity::surface::{Amplitude, SelfAffine};
+use asperity::surface::{Amplitude, ReadOptions, SelfAffine, Topography};
 use asperity::{Field, Grid};
 use divan::counter::BytesCount;
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 
-#[path = "../src/io/topography/tests/files.rs"]
+#[path = "../src/surface/formats/tests/files.rs"]
 mod files;
 
 const SIDE: u32 = 2048;
@@ -39,7 +38,7 @@ fn plain_of_4096(bencher: divan::Bencher, kind: &str) {
 fn measure(bencher: divan::Bencher, file: &[u8]) {
     bencher
         .counter(BytesCount::of_slice(file))
-        .bench_local(|| from_bytes("file".as_ref(), file, None, None).expect("a topography"));
+        .bench_local(|| ReadOptions::default().scan_bytes("file", file).expect("a topography"));
 }
 
 fn file(kind: &str, side: u32) -> Vec<u8> {
@@ -58,10 +57,10 @@ fn file(kind: &str, side: u32) -> Vec<u8> {
         "bcr f32" => files::bcr("bcrf", false, shape, &f32s()),
         "frt u16" => files::frt(shape, 16, &[(0x0b, &i16s())]),
         "frt i32" => files::frt(shape, 32, &[(0x0b, &i32s())]),
-        "gwy" => written(gwy::write),
+        "gwy" => written("gwy"),
         "metropro" => files::metropro(short, &i32s_big()),
         "npy f4" => files::npy("'<f4'", false, &text_shape, &f32s()),
-        "npy f8" => written(|path, _, heights| npy::write(path, heights)),
+        "npy f8" => written("npy"),
         "npy f8 fortran" => files::npy("'<f8'", true, &text_shape, &f64s()),
         "opd i16" => files::opd(short, &[("Raw", 2, &i16s())]),
         "opd f32" => files::opd(short, &[("Raw", 4, &f32s())]),
@@ -85,7 +84,7 @@ fn file_compressed(kind: &str) -> Vec<u8> {
         "sur i16" => files::sur_compressed(&file(kind, SIDE)),
         "tiff f32 deflate" => tiff_of(Compression::Deflate(DeflateLevel::Balanced)),
         "tiff f32 lzw" => tiff_of(Compression::Lzw),
-        "x3p" => written(x3p::write),
+        "x3p" => written("x3p"),
         _ => unreachable!("no file of the kind {kind}"),
     }
 }
@@ -106,10 +105,10 @@ fn x_fastest<const N: usize>(side: u32, number: impl Fn(f64) -> [u8; N]) -> Vec<
     (0..side * side).flat_map(|cell| number(HEIGHTS[[cell % side % of, cell / side % of]])).collect()
 }
 
-fn written(write: impl Fn(&std::path::Path, &Grid, &Field) -> asperity::Result<()>) -> Vec<u8> {
+fn written(format: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("file");
-    write(&path, &grid(), &HEIGHTS).expect("a file");
+    let path = folder.path().join("file").with_extension(format);
+    Topography::new(grid(), HEIGHTS.clone()).expect("heights").write(&path).expect("a file");
     std::fs::read(&path).expect("a file")
 }
 

@@ -11,13 +11,12 @@
 
 use std::collections::HashMap;
 use std::error::Error;
-use std::path::Path;
 use std::time::Instant;
 
 use asperity::Grid;
-use asperity::io::topography;
 use asperity::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Control, Method, Params, solve_normal};
+use asperity::surface::{ReadOptions, Topography};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -27,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let word =
         |key: &str, default: &str| serde_json::Value::from(options.get(key).map_or(default, String::as_str));
 
-    let gap = topography::read(Path::new(&path), None, None)?.heights;
+    let gap = ReadOptions::default().scan(&path)?.heights;
     let pitch = number("pitch", 1.0)?;
     let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
     let hardness = number("hardness", f64::INFINITY)?;
@@ -57,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     seconds.sort_by(f64::total_cmp);
 
     if let Some(out) = options.get("pressure") {
-        topography::npy::write(Path::new(out), &solution.pressure)?;
+        Topography::new(grid, solution.pressure.clone())?.write(out)?;
     }
     let report = serde_json::json!({
         "load": solution.load(grid.cell_area()),

@@ -95,6 +95,20 @@ pub enum Error {
         /// The format it was recognised as.
         format: &'static str,
     },
+    /// A topography file without a pitch, where none is given.
+    #[error("{path} ({format}) has no pitch")]
+    NoPitch {
+        /// The file.
+        path: PathBuf,
+        /// The format it was recognised as.
+        format: &'static str,
+    },
+    /// A name of a file that tells no format to write a topography in.
+    #[error("no format to write `{path}` in")]
+    NoFormat {
+        /// The file.
+        path: PathBuf,
+    },
     /// A topography has undefined samples where every one is needed.
     #[error("{undefined} of {samples} samples are undefined: set fill = \"nearest\" or fill = \"harmonic\"")]
     UndefinedSamples {
@@ -343,6 +357,9 @@ impl Error {
                      export as one of these"
                     .into(),
             ),
+            Self::NoFormat { .. } => {
+                Some("the end of the name tells the format: .npy, .x3p, .sdf, .gwy or .vtk".into())
+            }
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
                 "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
             ),

@@ -15,7 +15,7 @@
 //!
 //! # Where to begin
 //!
-//! [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`io::engine::run`] for a case file;
+//! [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case file;
 //! [`solver::solve_normal`] for a contact of which only the gap is known.
 //!
 //! ```
@@ -41,6 +41,7 @@
 pub mod units;
 pub mod error;
 pub mod grid;
+pub mod io;
 pub mod math;
 pub mod stress;
 pub mod material;
@@ -52,7 +53,7 @@ pub mod solver;
 pub mod subsurface;
 pub mod motion;
 pub mod verification;
-pub mod io;
+pub mod study;
 
 pub use error::{Error, Result};
 pub use grid::{Field, Grid, SingleField};

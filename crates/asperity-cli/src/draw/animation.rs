@@ -5,7 +5,8 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::colour::{Colours, Image, MISSING, Rgb, Shading, mix};
+use super::colour::{Colours, MISSING, Shading, mix};
+use super::image::{Image, Rgb};
 use super::output::pixels;
 use super::scene::{INK, PAPER, Scene};
 use super::{Result, at, invalid, write};

@@ -1,8 +1,8 @@
 //! Curves, points and bars over one axis, with a second y axis on the right where there is need.
 
 use super::axis::{Scale, Unit, extremes, widened};
-use super::colour::Rgb;
 use super::frame::{BELOW, Frame, Side, beside};
+use super::image::Rgb;
 use super::legend::{Key, Legend, arrow, marker};
 use super::output::{Figure, Paper};
 use super::scene::{Anchor, FAINT, Rect, Scene, Stroke};

@@ -1,7 +1,7 @@
 //! What the colours, lines and signs of a sheet mean: names with their keys, in rows.
 
-use super::colour::Rgb;
 use super::frame::THIN;
+use super::image::Rgb;
 use super::scene::{Anchor, INK, PAPER, Rect, Scene, Stroke};
 use super::text::{SMALL, width_of};
 

@@ -4,8 +4,9 @@ use asperity::grid::{Field, Grid};
 use ndarray::{ArrayView2, Axis};
 
 use super::axis::{Quantity, Scale, Unit, extremes, widened};
-use super::colour::{Colours, Image, Shading};
+use super::colour::{Colours, Shading};
 use super::frame::{Frame, Side, THIN};
+use super::image::Image;
 use super::legend::{Key, Legend, arrow, cross};
 use super::output::Paper;
 use super::scene::{Anchor, FAINT, INK, PAPER, Point, Rect, Scene, Stroke};

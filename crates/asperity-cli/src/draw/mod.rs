@@ -10,6 +10,7 @@ mod axis;
 mod chart;
 mod colour;
 mod frame;
+mod image;
 mod legend;
 mod map;
 mod output;

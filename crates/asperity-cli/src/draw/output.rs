@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::colour::Image;
+use super::image::Image;
 use super::scene::{FAINT, INK, Scene};
 use super::text::{SMALL, wrapped};
 use super::{Result, at, pdf, raster, svg};

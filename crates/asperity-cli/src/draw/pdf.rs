@@ -8,7 +8,7 @@ use flate2::write::ZlibEncoder;
 use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect as Box, Ref, Str};
 
-use super::colour::{Image, Rgb};
+use super::image::{Image, Rgb};
 use super::scene::{Rect, Scene, Step, Stroke, Words};
 use super::text::{CAPITAL, FONT, glyph_of, start, width_of};
 

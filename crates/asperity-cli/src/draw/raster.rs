@@ -3,7 +3,7 @@
 use tiny_skia::{FillRule, LineJoin, Mask, Paint, PathBuilder, Pixmap, StrokeDash, Transform};
 use ttf_parser::OutlineBuilder;
 
-use super::colour::{Image, Rgb};
+use super::image::{Image, Rgb};
 use super::scene::{PAPER, Rect, Scene, Step, Stroke, Words};
 use super::text::{CAPITAL, glyphs, outline, start, units_per_em};
 

@@ -3,8 +3,9 @@
 use asperity::grid::Field;
 
 use super::axis::{Quantity, Scale, Unit, extremes, widened};
-use super::colour::{Colours, Image, MISSING, Rgb, Shading};
+use super::colour::{Colours, MISSING, Shading};
 use super::frame::THIN;
+use super::image::{Image, Rgb};
 use super::output::{Figure, Paper};
 use super::scene::{Anchor, FAINT, PAPER, Rect, Scene, Stroke};
 use super::text::{MEDIUM, SMALL};

@@ -1,6 +1,6 @@
 //! What a figure is drawn on: shapes, images and text, in points, y down.
 
-use super::colour::{Image, Rgb};
+use super::image::{Image, Rgb};
 
 /// Text, axes.
 pub(super) const INK: Rgb = [38, 38, 38];

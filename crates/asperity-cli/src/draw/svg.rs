@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter, Result, Write};
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
-use super::colour::Rgb;
+use super::image::Rgb;
 use super::scene::{Anchor, PAPER, Rect, Scene, Step, Stroke, Words};
 use super::text::{CAPITAL, FAMILY, subset};
 

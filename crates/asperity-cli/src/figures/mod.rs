@@ -15,7 +15,7 @@ mod tests;
 
 use std::path::PathBuf;
 
-use asperity::io::results::Results;
+use asperity::study::Results;
 
 use crate::draw::Paper;
 use crate::report::Outcome;

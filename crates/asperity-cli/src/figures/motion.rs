@@ -1,10 +1,10 @@
 //! Figures of a motion: what it did to the bodies, its pressures, its course.
 
 use asperity::io::fields::Fields;
-use asperity::io::results::{Results, pressure_name};
 use asperity::material::{Compliances, Material};
 use asperity::motion::{PassRecord, StepRecord};
 use asperity::operator::{Boundary, Operators};
+use asperity::study::{Results, pressure_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};

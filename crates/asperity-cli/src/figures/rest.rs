@@ -1,7 +1,7 @@
 //! Figures of a static contact.
 
 use asperity::io::fields::{Attribute, Fields};
-use asperity::io::results::Results;
+use asperity::study::Results;
 use asperity::units::{Dimension, format};
 
 use super::profile::{Facing, Profile};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::io::atomic;
-use asperity::io::results::Results;
+use asperity::study::Results;
 use rayon::prelude::*;
 
 use super::Wanted;

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use arbtest::arbitrary::{Result as Arbitrary, Unstructured};
-use asperity::io::case::Case;
-use asperity::io::engine;
 use asperity::io::fields::FieldFile;
-use asperity::io::results::Existing;
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::Existing;
 
 use asperity::io::fields::Fields;
 use asperity::motion::IncrementRecord;
@@ -158,7 +158,7 @@ fn has_all_its_figures(text: &str) -> bool {
     let folder = tempfile::tempdir().unwrap();
     let Ok(case) = Case::parse(text, Path::new("case.toml"), folder.path()) else { return false };
     let directory = folder.path().join("results");
-    if engine::run(&case, &directory, Existing::Keep, &()).is_err() {
+    if study::run(&case, &directory, Existing::Keep, &()).is_err() {
         return false;
     }
     let paths = draw(&Results::open(&directory).unwrap(), &Wanted::default(), &|| false)

@@ -3,8 +3,8 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use asperity::io::case::Case;
 use asperity::motion::{PassRecord, Progress, SweepRecord, Watch};
+use asperity::study::Case;
 use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 

@@ -8,9 +8,9 @@ mod rows;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use asperity::io::case::{Case, Course};
-use asperity::io::engine;
-use asperity::io::results::Existing;
+use asperity::study;
+use asperity::study::Existing;
+use asperity::study::case::{Case, Course};
 
 use crate::args::Run;
 use crate::machine;
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
     let display = Display::new(arguments.quiet, &case, stop.clone());
-    let outcome = engine::run(&case, &directory, existing, &display);
+    let outcome = study::run(&case, &directory, existing, &display);
     let printed = display.end();
     // The directory stays this run's until the figures are there.
     let (summary, writer) = outcome?;

@@ -1,9 +1,9 @@
 //! What is told of a contact at the end: a line for each of its numbers.
 
-use asperity::io::case::Case;
-use asperity::io::subsurface::SubsurfaceRecord;
-use asperity::io::summary::{Outcome, Summary};
 use asperity::motion::StaticRecord;
+use asperity::study::Case;
+use asperity::study::SubsurfaceRecord;
+use asperity::study::{Outcome, Summary};
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;

@@ -1,7 +1,7 @@
 //! The rows of passes and of points.
 
-use asperity::io::case::{Case, Source};
 use asperity::motion::{PassRecord, SweepRecord};
+use asperity::study::case::{Case, Source};
 use asperity::units::Dimension::{Area, Force, Length, Pressure, Stiffness, Volume};
 
 use super::columns::{Cell, Columns};

@@ -1,8 +1,7 @@
 //! `asperity surface info`.
 
-use asperity::io::prepare::exact_pitch;
-use asperity::io::topography;
-use asperity::surface::{GreenwoodWilliamson, Parameter, Unit};
+use asperity::study::exact_pitch;
+use asperity::surface::{GreenwoodWilliamson, LengthUnit, Parameter, Unit};
 use asperity::units::Multiple;
 use serde_json::{Value, json};
 
@@ -91,7 +90,7 @@ fn about_file(table: &mut Table, file: &Read) {
     let pitch = file.pitch.map_or_else(none, |[x, y]| format!("{} × {}", exact_pitch(x), exact_pitch(y)));
     table.words("pitch", pitch, "");
     table.words("extent", file.pitch.map_or_else(|| "–".to_owned(), |_| both(grid.extent())), "");
-    if file.scan.unit != topography::Unit::Known {
+    if file.scan.unit != LengthUnit::Known {
         table.words("unit", "m (the file has none: --unit)", "");
     }
     table.words("undefined", format!("{undefined} ({share:.2} %)"), "");

@@ -11,8 +11,7 @@ mod table;
 use std::path::Path;
 
 use asperity::grid::Grid;
-use asperity::io::topography::{self, Scan};
-use asperity::surface::{Findings, Level, Topography};
+use asperity::surface::{Findings, Level, ReadOptions, Scan, Topography};
 use asperity::units::{self, Dimension, Metre};
 
 use crate::args::{Input, Reading, Surface};
@@ -36,8 +35,12 @@ struct Read {
 
 /// Without any pitch the heights stand on cells of 1 m.
 fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
-    let mut scan = topography::read(path, reading.channel.as_deref(), reading.unit)?;
-    let pitch = scan.pitch.or(reading.pitch.map(|pitch| pitch.0));
+    let mut options = ReadOptions::default();
+    options.channel.clone_from(&reading.channel);
+    options.unit = reading.unit;
+    options.pitch = reading.pitch.map(|pitch| pitch.0);
+    let mut scan = options.scan(path)?;
+    let pitch = scan.pitch;
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;
     Ok(Read { topography: Topography::new(grid, heights)?, pitch, scan })

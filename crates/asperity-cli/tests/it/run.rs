@@ -7,13 +7,13 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use asperity::io::fields::{Fields, StoredField};
-use asperity::io::results::{Results, pressure_name, traction_name};
-use asperity::io::tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
-use asperity::io::topography;
 use asperity::material::{Material, composite_modulus};
 use asperity::motion::PassRecord;
 use asperity::reference::cattaneo::tangential_modulus;
 use asperity::reference::{CattaneoMindlin, HertzSphere, MindlinDeresiewicz};
+use asperity::study::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+use asperity::study::{Results, pressure_name, traction_name};
+use asperity::surface::ReadOptions;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -842,7 +842,7 @@ fn the_fields_of_results_are_topographies() {
         let told = ok(&asperity(&folder, &format!("surface info {file} --channel upper")));
         assert!(told.contains("an underside: as [upper] it is mounted as it is"), "{told}");
         ok(&asperity(&folder, &format!("surface convert {file} out.npy --channel upper --overwrite")));
-        let found = topography::read(&folder.path().join("out.npy"), None, None).unwrap();
+        let found = ReadOptions::default().scan(folder.path().join("out.npy")).unwrap();
         let expected = field(&Fields::open(&folder.path().join(file)).unwrap(), "upper", "m");
         assert!(found.heights.iter().eq(expected.values.iter()), "{file}");
     }

@@ -42,7 +42,7 @@ pub fn sweep(directory: &Path) {
 }
 
 /// Whether a file of this name is one that was being written.
-pub(super) fn is_temporary(name: &OsStr) -> bool {
+pub(crate) fn is_temporary(name: &OsStr) -> bool {
     name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
 }
 

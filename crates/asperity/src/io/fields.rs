@@ -17,7 +17,7 @@ use hdf5_pure::{AttrValue, Dataset, File, FileBuilder};
 use ndarray::{ArrayD, Ix2};
 use sha2::{Digest as _, Sha256};
 
-use super::{atomic, identity};
+use super::{atomic, sha256};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::units::Metre;
@@ -71,7 +71,7 @@ impl FieldFile {
     }
 
     /// A file of the run of this identity, which it says.
-    pub(super) fn of_run(identity: &str) -> Self {
+    pub(crate) fn of_run(identity: &str) -> Self {
         let mut file = Self::new();
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
         file
@@ -220,7 +220,7 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
         let _ = write!(text, "{name:?} {value:?} ");
     }
     let _ = write!(text, "{arrays:?}");
-    identity::sha256(text.as_bytes())
+    sha256(text.as_bytes())
 }
 
 const SMALLEST_COMPRESSED: usize = 1024;

@@ -9,7 +9,7 @@ use std::path::Path;
 /// # Errors
 /// What the operating system says; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] with what it is instead
 /// of a regular file, the latter also with its size where that is more than `most`.
-pub(super) fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
+pub(crate) fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
     // A pipe or a device has no end, and opening one may wait for ever.
     let about = std::fs::metadata(path)?;
     if !about.is_file() {

@@ -153,7 +153,7 @@ impl Sheet {
 ///
 /// # Panics
 /// If there are fewer than two planes, or they are not of one shape.
-pub(super) fn write_volume(
+pub(crate) fn write_volume(
     path: &Path,
     name: &str,
     planes: &[Array2<f32>],

@@ -1,10 +1,11 @@
-//! Topographies of single bodies: made, measured, prepared and described by their roughness.
+//! Topographies of single bodies: made, read, prepared, written and described by their roughness.
 //!
 //! A topography is given with the material's side up, as it is measured. Only [`Topography::underside`] turns
 //! one over, when it is mounted as the upper body.
 
 mod correlation;
 mod form;
+mod formats;
 mod fractal;
 mod generate;
 mod moments;
@@ -18,6 +19,8 @@ mod topography;
 
 pub use correlation::Correlation;
 pub use form::{Axis, Form, Groove};
+pub use formats::{Format, LengthUnit, ReadOptions, Scan};
+pub(crate) use formats::{UNDERSIDE, contents};
 pub use fractal::SelfAffinity;
 pub use generate::{
     Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity::error::CaseError;
-use asperity::io::case::Case;
+use asperity::study::Case;
 
 #[test]
 fn every_bad_input_is_refused_with_the_message_it_holds() {

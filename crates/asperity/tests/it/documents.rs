@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use asperity::Grid;
-use asperity::io::case::Case;
-use asperity::io::engine;
-use asperity::io::results::Existing;
-use asperity::io::tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::Existing;
+use asperity::study::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
 use asperity::surface::{Axis, Form, Parameter};
 use serde_json::Value;
 
@@ -48,7 +48,7 @@ fn every_column_and_every_key_of_the_results_is_explained() {
     for case in [ball.to_owned(), ball.replace("creepage = [2e-4, 0.0]", "force = [1e-3, 0.0]")] {
         let folder = tempfile::tempdir().unwrap();
         let case = Case::parse(&case, Path::new("case.toml"), folder.path()).unwrap();
-        engine::run(&case, &folder.path().join("out"), Existing::Keep, &()).unwrap();
+        study::run(&case, &folder.path().join("out"), Existing::Keep, &()).unwrap();
         let text = fs::read(folder.path().join("out/summary.json")).unwrap();
         keys(&serde_json::from_slice(&text).unwrap(), &mut names);
     }

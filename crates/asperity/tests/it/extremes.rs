@@ -5,11 +5,11 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use asperity::Error;
-use asperity::io::case::Case;
-use asperity::io::engine;
-use asperity::io::outlook::{Demand, demand, outlook};
-use asperity::io::prepare::bodies;
-use asperity::io::results::Existing;
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::Existing;
+use asperity::study::bodies;
+use asperity::study::{Demand, demand, estimate};
 use rayon::prelude::*;
 
 /// Small cases that between them have every key, without files.
@@ -367,7 +367,7 @@ fn every_case_is_as_it_should_be() {
     for (number, text) in CASES.iter().enumerate() {
         let case = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        engine::run(&case, folder.path(), Existing::Keep, &()).unwrap_or_else(|e| panic!("{number}: {e}"));
+        study::run(&case, folder.path(), Existing::Keep, &()).unwrap_or_else(|e| panic!("{number}: {e}"));
     }
 }
 
@@ -382,10 +382,10 @@ fn extreme_values_are_refused_at_their_line_or_foreseen() {
             if is_large(&demand) {
                 return 1;
             }
-            match bodies(&case).and_then(|bodies| outlook(&case, &bodies)) {
-                Ok(outlook) => assert!(
-                    outlook.modulus > 0.0 && outlook.apparent_area > 0.0 && outlook.gap_slope.is_finite(),
-                    "{outlook:?}\n{}",
+            match bodies(&case).and_then(|bodies| estimate(&case, &bodies)) {
+                Ok(estimate) => assert!(
+                    estimate.modulus > 0.0 && estimate.apparent_area > 0.0 && estimate.gap_slope.is_finite(),
+                    "{estimate:?}\n{}",
                     mutation.text
                 ),
                 Err(error) => assert!(is_an_answer(&error), "{error}\n{}", mutation.text),
@@ -410,7 +410,7 @@ fn what_is_computed_of_extreme_values_are_numbers() {
             return;
         }
         let folder = tempfile::tempdir().unwrap();
-        match engine::run(&case, folder.path(), Existing::Keep, &()) {
+        match study::run(&case, folder.path(), Existing::Keep, &()) {
             Ok((summary, _)) => {
                 let written = serde_json::to_value(&summary).unwrap();
                 for part in ["static", "passes", "subsurface"] {

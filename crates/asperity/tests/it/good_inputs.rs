@@ -3,15 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Grid;
-use asperity::io::case::{
-    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
-};
-use asperity::io::identity;
-use asperity::io::outlook::demand;
-use asperity::io::prepare::bodies;
-use asperity::io::topography::x3p;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
+use asperity::study;
+use asperity::study::bodies;
+use asperity::study::case::{
+    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
+};
+use asperity::study::demand;
 use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
     Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
@@ -172,7 +171,7 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
     let measured = Grid::new([60, 44], [0.123456789123e-6, 0.3e-6]).unwrap();
     let heights = heights.generate(&Grid::new([60, 44], [1e-6; 2]).unwrap(), 3).unwrap().into_heights();
     let measured = Topography::new(measured, heights).unwrap();
-    x3p::write(&folder.path().join("disc.x3p"), measured.grid(), measured.heights()).unwrap();
+    measured.write(folder.path().join("disc.x3p")).unwrap();
     let file = "topography = { file = \"disc.x3p\", window = [4, 2, 56, 40], resample = [28, 40] }";
     for [lower, upper] in [[file, "MADE"], ["MADE", file]] {
         let body = |name: &str, topography: &str| {
@@ -195,13 +194,13 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
             assert!(difference.iter().all(|e| e.abs() < 1e-12 * 1e-6));
         }
         // The case as resolved has what was taken, and comes to the same.
-        let resolved = identity::resolved(&short, &found);
+        let resolved = study::resolved(&short, &found);
         let name = if lower == file { "upper" } else { "lower" };
         let made = &resolved[name]["topography"];
         assert_eq!(made["shape"], serde_json::json!([28, 40]));
         assert_eq!(made["pitch"], serde_json::json!(found.lower.topography.grid().pitch));
         let again = case(&format!(", shape = {}, pitch = {}", made["shape"], made["pitch"]));
-        assert_eq!(identity::resolved(&again, &bodies(&again).unwrap())["identity"], resolved["identity"]);
+        assert_eq!(study::resolved(&again, &bodies(&again).unwrap())["identity"], resolved["identity"]);
         assert_eq!(demand(&short, 1).unwrap().memory, demand(&long, 1).unwrap().memory);
     }
 }

@@ -5,15 +5,15 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use asperity::io::case;
-use asperity::io::engine;
-use asperity::io::results::Existing;
 use asperity::material::{Compliances, Material};
 use asperity::motion::{
     Equilibrium, LoadedContact, LoadingOutput, LoadingState, Pair, Progress, Stage, Watch, load_in_stages,
 };
 use asperity::operator::{Boundary, CoupledSum};
 use asperity::solver::{Control, Coupling, Friction, Loading, Method, Params, Tangential};
+use asperity::study;
+use asperity::study::Existing;
+use asperity::study::case;
 use asperity::surface::Topography;
 use asperity::{Error, Field, Grid};
 use rand::{RngExt, SeedableRng};
@@ -511,13 +511,13 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
         let case = parsed(text);
         let folder = tempfile::tempdir().unwrap();
         let whole = folder.path().join("whole");
-        engine::run(&case, &whole, Existing::Keep, &()).unwrap();
+        study::run(&case, &whole, Existing::Keep, &()).unwrap();
         let expected = outcome(&whole);
         // After each increment, and once more on the way.
         for stopped in 1..increments {
             let directory = folder.path().join(format!("after-{stopped}"));
             let outcome_of =
-                |existing, most| engine::run(&case, &directory, existing, &Until::increment(most));
+                |existing, most| study::run(&case, &directory, existing, &Until::increment(most));
             assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));
             let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
             assert_eq!(rows, stopped + 1);
@@ -528,7 +528,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
                 assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
                 fs::write(&state, kept).unwrap();
             }
-            engine::run(&case, &directory, Existing::Resume, &()).unwrap();
+            study::run(&case, &directory, Existing::Resume, &()).unwrap();
             assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
         }
     }
@@ -537,15 +537,15 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
 #[test]
 fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = engine::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap().0;
-    let results = asperity::io::results::Results::open(folder.path()).unwrap();
+    let summary = study::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap().0;
+    let results = asperity::study::Results::open(folder.path()).unwrap();
     let rows = results.increments().unwrap();
     assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
     assert!(rows.iter().all(|row| row.tangential_force_x == 0.0 && row.stick_area == 0.0));
     let fields = results.static_fields().unwrap();
     let read = |name| fields.read(name).unwrap().into_field().unwrap();
     let [lower, upper, gap, plastic] = ["lower", "upper", "gap", "plastic"].map(read);
-    let asperity::io::summary::Outcome::Static(record) = summary.outcome else { panic!("a static contact") };
+    let asperity::study::Outcome::Static(record) = summary.outcome else { panic!("a static contact") };
     assert!(record.shear.is_none());
     let recomputed = &upper - &lower + &read("displacement") - record.approach;
     assert_eq!(gap, recomputed);
@@ -576,8 +576,8 @@ fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
         ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
     ] {
         let case = parsed(&text);
-        let bodies = asperity::io::prepare::bodies(&case).unwrap();
-        let found = asperity::io::outlook::outlook(&case, &bodies);
+        let bodies = asperity::study::bodies(&case).unwrap();
+        let found = asperity::study::estimate(&case, &bodies);
         match found {
             Ok(_) => assert!(bears, "{text}"),
             Err(Error::BeyondPlasticLimit { load, limit }) => assert!(!bears && load >= limit, "{text}"),
@@ -617,9 +617,9 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
         (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
     ] {
         let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let bodies = asperity::io::prepare::bodies(&case).unwrap();
-        let outlook = asperity::io::outlook::outlook(&case, &bodies).unwrap();
-        let warnings = [outlook.warnings, outlook.foreseen].concat().join("\n");
+        let bodies = asperity::study::bodies(&case).unwrap();
+        let estimate = asperity::study::estimate(&case, &bodies).unwrap();
+        let warnings = [estimate.warnings, estimate.foreseen].concat().join("\n");
         for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
             assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
         }
@@ -631,7 +631,7 @@ fn what_only_the_answer_shows_is_said_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let warnings = |name: &str, text: &str| {
         let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let summary = engine::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap().0;
+        let summary = study::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap().0;
         summary.warnings.join("\n")
     };
     let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";

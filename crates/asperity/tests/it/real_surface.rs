@@ -5,10 +5,10 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::case::Case;
-use asperity::io::engine;
-use asperity::io::results::{Existing, Results};
-use asperity::io::summary::Outcome;
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::Outcome;
+use asperity::study::{Existing, Results};
 
 #[test]
 fn a_measured_surface_runs_in_against_a_generated_one() {
@@ -24,7 +24,7 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
     );
     let case = Case::parse(&text, Path::new("real.toml"), Path::new("")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let summary = engine::run(&case, folder.path(), Existing::Keep, &()).unwrap().0;
+    let summary = study::run(&case, folder.path(), Existing::Keep, &()).unwrap().0;
 
     let Outcome::Passes(passes) = summary.outcome else { panic!("{:?}", summary.outcome) };
     assert_eq!(passes.len(), 2);

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use asperity::io::case::Case;
-use asperity::io::engine;
 use asperity::io::fields::Attribute;
-use asperity::io::results::{Existing, Results, pressure_name};
-use asperity::io::summary::{Outcome, Summary};
 use asperity::reference::{HertzSphere, SlidingSphere};
 use asperity::stress::{Component, Stress};
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::{Existing, Results, pressure_name};
+use asperity::study::{Outcome, Summary};
 
 /// A ball on a plane, about 16 cells in contact along its radius.
 const BALL: &str = r#"
@@ -29,7 +29,7 @@ output = { pressure_every = 4 }
 fn run(case: &str, subsurface: &str, directory: &Path, existing: Existing) -> Summary {
     let text = format!("{case}\n[subsurface]\n{subsurface}");
     let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-    engine::run(&case, directory, existing, &()).unwrap().0
+    study::run(&case, directory, existing, &()).unwrap().0
 }
 
 #[test]

@@ -3,14 +3,14 @@
 
 use std::f64::consts::PI;
 
-use asperity::io::case::Case;
-use asperity::io::engine;
-use asperity::io::outlook::outlook;
-use asperity::io::prepare::bodies;
-use asperity::io::results::Existing;
-use asperity::io::summary::{Outcome, Summary};
 use asperity::motion::StaticRecord;
 use asperity::reference::{HertzEllipse, HertzSphere};
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::Existing;
+use asperity::study::bodies;
+use asperity::study::estimate;
+use asperity::study::{Outcome, Summary};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -349,13 +349,13 @@ fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str
 }
 
 fn check(case: &Case) -> Vec<String> {
-    let outlook = outlook(case, &bodies(case).unwrap()).unwrap();
-    outlook.warnings.into_iter().chain(outlook.foreseen).collect()
+    let estimate = estimate(case, &bodies(case).unwrap()).unwrap();
+    estimate.warnings.into_iter().chain(estimate.foreseen).collect()
 }
 
 fn run(case: &Case) -> Summary {
     let folder = tempfile::tempdir().unwrap();
-    engine::run(case, &folder.path().join("results"), Existing::Keep, &()).unwrap().0
+    study::run(case, &folder.path().join("results"), Existing::Keep, &()).unwrap().0
 }
 
 fn record(summary: &Summary) -> &StaticRecord {

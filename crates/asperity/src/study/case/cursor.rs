@@ -1,0 +1,387 @@
+//! A table and an entry of a case file: each knows its place, so that each mistake is shown where it stands.
+
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::document::{Document, join};
+use crate::error::{Error, Result};
+use crate::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
+
+/// A table `[path]`.
+pub(super) struct Table<'a> {
+    document: &'a Document,
+    path: String,
+    span: Range<usize>,
+    entries: &'a DeTable<'a>,
+}
+
+impl<'a> Table<'a> {
+    pub(super) fn root(document: &'a Document, entries: &'a DeTable<'a>) -> Self {
+        Self { document, path: String::new(), span: 0..0, entries }
+    }
+
+    pub(super) fn get(&self, key: &str) -> Option<Entry<'a>> {
+        let value = self.entries.get(key)?;
+        Some(Entry {
+            document: self.document,
+            path: join(&self.path, key),
+            span: value.span(),
+            value: value.get_ref(),
+        })
+    }
+
+    /// An entry that must exist; `example` is a value for it.
+    pub(super) fn required(&self, key: &str, example: &str) -> Result<Entry<'a>> {
+        let hint = || Some(format!("for example `{key} = {example}`"));
+        self.get(key).ok_or_else(|| self.error(format!("missing key '{key}' in {}", self.name()), hint()))
+    }
+
+    pub(super) fn table(&self, key: &str) -> Result<Option<Table<'a>>> {
+        self.get(key).map(Entry::table).transpose()
+    }
+
+    pub(super) fn required_table(&self, key: &str) -> Result<Table<'a>> {
+        let missing = || {
+            let path = join(&self.path, key);
+            self.document.error(&path, self.span.clone(), format!("missing table [{path}]"), None)
+        };
+        self.table(key)?.ok_or_else(missing)
+    }
+
+    /// An error unless every key is among `known`. `elsewhere` explains a key that has its place in another table.
+    pub(super) fn known(
+        &self,
+        known: &[&str],
+        elsewhere: impl Fn(&str) -> Option<(String, Option<String>)>,
+    ) -> Result<()> {
+        let unknown = self.entries.keys().filter(|key| !known.contains(&&**key.get_ref()));
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let name = key.get_ref();
+        let (message, hint) = elsewhere(name).unwrap_or_else(|| {
+            let hint = known_by_symbol(name, known).or_else(|| did_you_mean(name, known.iter().copied()));
+            (format!("unknown key '{name}' in {}", self.name()), hint)
+        });
+        Err(self.document.error(&join(&self.path, name), key.span(), message, hint))
+    }
+
+    /// One of several words, or the `default` where the key is not given.
+    pub(super) fn choice_or<T: Copy>(&self, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {
+        self.get(key).map_or(Ok(default), |entry| entry.choice(choices))
+    }
+
+    /// Which one of `keys` is given.
+    pub(super) fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str> {
+        let mut given: Vec<_> =
+            keys.iter().filter_map(|key| self.get(key).map(|entry| (*key, entry))).collect();
+        given.sort_by_key(|(_, entry)| entry.span.start);
+        match given.as_slice() {
+            [(key, _)] => Ok(key),
+            [] => Err(self.error(
+                format!("{} names none of {}, expected one", self.name(), list(keys)),
+                Some(hint.to_owned()),
+            )),
+            [(first, _), (second, entry), ..] => Err(entry.error(
+                format!("both '{first}' and '{second}' are given, expected one of {}", list(keys)),
+                Some(hint.to_owned()),
+            )),
+        }
+    }
+
+    pub(super) fn error(&self, message: String, hint: Option<String>) -> Error {
+        self.document.error(&self.path, self.span.clone(), message, hint)
+    }
+
+    pub(super) fn name(&self) -> String {
+        if self.path.is_empty() { "the case".to_owned() } else { format!("[{}]", self.path) }
+    }
+
+    pub(super) fn path(&self) -> &str {
+        &self.path
+    }
+}
+
+/// A key with its value.
+pub(super) struct Entry<'a> {
+    document: &'a Document,
+    path: String,
+    span: Range<usize>,
+    value: &'a DeValue<'a>,
+}
+
+impl<'a> Entry<'a> {
+    pub(super) fn error(&self, message: String, hint: Option<String>) -> Error {
+        self.document.error(&self.path, self.span.clone(), message, hint)
+    }
+
+    /// `'passes' is 0, expected …`, the value as it is written.
+    pub(super) fn unexpected(&self, expected: &str, hint: Option<String>) -> Error {
+        let written = match self.value {
+            DeValue::Table(_) => "a table".to_owned(),
+            _ => self.document.written(self.span.clone()),
+        };
+        self.error(format!("'{}' is {written}, expected {expected}", self.key()), hint)
+    }
+
+    fn wrong_type(&self, expected: &str) -> Error {
+        let found = match self.value {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "a boolean",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "an array",
+            DeValue::Table(_) => "a table",
+        };
+        self.error(format!("'{}' is {found}, expected {expected}", self.key()), None)
+    }
+
+    pub(super) fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or_default()
+    }
+
+    pub(super) fn table(self) -> Result<Table<'a>> {
+        match self.value {
+            DeValue::Table(entries) => {
+                Ok(Table { document: self.document, path: self.path, span: self.span, entries })
+            }
+            _ => Err(self.wrong_type(&format!("a table [{}]", self.path))),
+        }
+    }
+
+    /// The tables of an array of tables.
+    pub(super) fn tables(&self) -> Result<Vec<Table<'a>>> {
+        let expected = format!("tables [[{}]]", self.path);
+        let DeValue::Array(items) = self.value else { return Err(self.wrong_type(&expected)) };
+        let table = |item: &'a toml::Spanned<DeValue<'a>>| match item.get_ref() {
+            DeValue::Table(entries) => Ok(Table {
+                document: self.document,
+                path: format!("[{}]", self.path),
+                span: item.span(),
+                entries,
+            }),
+            _ => Err(self.wrong_type(&expected)),
+        };
+        items.iter().map(table).collect()
+    }
+
+    pub(super) fn is_array(&self) -> bool {
+        matches!(self.value, DeValue::Array(_))
+    }
+
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
+    }
+
+    pub(super) fn text(&self) -> Result<&'a str> {
+        self.value.as_str().ok_or_else(|| self.wrong_type("a string"))
+    }
+
+    /// The number of a TOML number, infinities and all.
+    fn plain(&self) -> Option<Result<f64>> {
+        let not_finite = || self.unexpected("a finite number", None);
+        match self.value {
+            DeValue::Integer(digits) => {
+                Some(i64::from_str_radix(digits.as_str(), digits.radix()).map(|i| i as f64).map_err(|_| {
+                    self.unexpected("a number within ±2⁶³", Some("write it as a float".to_owned()))
+                }))
+            }
+            DeValue::Float(digits) => Some(match digits.as_str().parse::<f64>() {
+                Ok(value) if value.is_finite() || digits.as_str().ends_with("inf") => Ok(value),
+                _ => Err(not_finite()),
+            }),
+            _ => None,
+        }
+    }
+
+    /// A number without a unit.
+    pub(super) fn number(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
+        self.number_or_infinite(|value| value.is_finite() && good(value), expected)
+    }
+
+    /// A number without a unit, or infinity.
+    pub(super) fn number_or_infinite(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
+        let value = match self.value.as_str() {
+            Some("inf") => f64::INFINITY,
+            _ => self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?,
+        };
+        match value {
+            value if !good(value) => Err(self.unexpected(expected, None)),
+            value if value.is_infinite() || NUMBERS.holds_signed(value) => Ok(value),
+            _ => Err(self.beyond(NUMBERS)),
+        }
+    }
+
+    /// A quantity, SI: a number or a string with a unit. Infinities are left to the caller.
+    fn any_quantity(&self, dimension: Dimension) -> Result<f64> {
+        if let Some(number) = self.plain() {
+            return number;
+        }
+        let Some(text) = self.value.as_str() else {
+            return Err(self.wrong_type(&format!(
+                "{} such as \"{}\"",
+                dimension.noun(),
+                dimension.example()
+            )));
+        };
+        units::parse(text, dimension).map_err(|error| self.error(error.for_key(self.key()), error.hint()))
+    }
+
+    /// A finite quantity.
+    pub(super) fn quantity(&self, dimension: Dimension) -> Result<f64> {
+        let value = self.any_quantity(dimension)?;
+        if !value.is_finite() {
+            return Err(self.unexpected(&expectation(dimension, ""), None));
+        }
+        if dimension.range().holds_signed(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
+    }
+
+    /// A finite quantity above 0.
+    pub(super) fn positive(&self, dimension: Dimension) -> Result<f64> {
+        let value = self.any_quantity(dimension)?;
+        if !(value.is_finite() && value > 0.0) {
+            return Err(self.unexpected(&expectation(dimension, " above 0"), None));
+        }
+        if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
+    }
+
+    /// A quantity above 0, or infinity, whose meaning is `infinite`.
+    pub(super) fn positive_or_infinite(&self, dimension: Dimension, infinite: &str) -> Result<f64> {
+        let value = match self.value.as_str() {
+            Some("inf") => f64::INFINITY,
+            _ => self.any_quantity(dimension)?,
+        };
+        match value {
+            f64::INFINITY => Ok(value),
+            value if dimension.range().holds(value) => Ok(value),
+            value if value > 0.0 => Err(self.beyond(dimension.range())),
+            _ => {
+                let hint = format!("`inf` is {infinite}");
+                Err(self.unexpected(&expectation(dimension, " above 0"), Some(hint)))
+            }
+        }
+    }
+
+    /// The error of a magnitude that no contact has.
+    fn beyond(&self, range: units::Range) -> Error {
+        self.unexpected(&format!("a magnitude of {range}"), None)
+    }
+
+    /// A whole number of at least `least`.
+    pub(super) fn whole(&self, least: u64) -> Result<u64> {
+        let expected = format!("a whole number of at least {least}");
+        match self.value {
+            DeValue::Integer(digits) => u64::from_str_radix(digits.as_str(), digits.radix())
+                .ok()
+                .filter(|value| *value >= least)
+                .ok_or_else(|| self.unexpected(&expected, None)),
+            DeValue::Float(_) => Err(self.unexpected(&expected, None)),
+            _ => Err(self.wrong_type(&expected)),
+        }
+    }
+
+    /// [`whole`](Self::whole), as a number of things in memory.
+    pub(super) fn count(&self, least: usize) -> Result<usize> {
+        match usize::try_from(self.whole(least as u64)?) {
+            Ok(count) if count <= MOST_OF_ANY => Ok(count),
+            _ => Err(self.unexpected("a whole number of at most 10⁹", None)),
+        }
+    }
+
+    pub(super) fn flag(&self) -> Result<bool> {
+        match self.value {
+            DeValue::Boolean(flag) => Ok(*flag),
+            _ => Err(self.wrong_type("true or false")),
+        }
+    }
+
+    /// An array of exactly `N` entries; `expected` says what they are.
+    pub(super) fn array<T, const N: usize>(
+        &self,
+        expected: &str,
+        read: impl Fn(&Entry<'a>) -> Result<T>,
+    ) -> Result<[T; N]> {
+        self.list(expected, read)?.try_into().map_err(|_| self.unexpected(expected, None))
+    }
+
+    /// An array of any number of entries; `expected` says what they are.
+    pub(super) fn list<T>(&self, expected: &str, read: impl Fn(&Entry<'a>) -> Result<T>) -> Result<Vec<T>> {
+        let DeValue::Array(items) = self.value else { return Err(self.wrong_type(expected)) };
+        let items = items.iter().map(|item| {
+            read(&Entry {
+                document: self.document,
+                path: self.path.clone(),
+                span: item.span(),
+                value: item.get_ref(),
+            })
+        });
+        items.collect()
+    }
+
+    /// One value for x and y, or an array of the two.
+    pub(super) fn pair<T: Copy>(
+        &self,
+        expected: &str,
+        read: impl Fn(&Entry<'a>) -> Result<T>,
+    ) -> Result<[T; 2]> {
+        match self.value {
+            DeValue::Array(_) => self.array(expected, read),
+            _ => read(self).map(|both| [both; 2]),
+        }
+    }
+
+    /// A component along x, or an array of two along x and y.
+    pub(super) fn vector(&self, expected: &str, read: impl Fn(&Self) -> Result<f64>) -> Result<[f64; 2]> {
+        if self.is_array() { self.array(expected, read) } else { read(self).map(|x| [x, 0.0]) }
+    }
+
+    /// One of several words.
+    pub(super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
+        let words = || choices.iter().map(|(word, _)| *word);
+        let expected =
+            format!("one of {}", words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", "));
+        let Some(text) = self.value.as_str() else { return Err(self.wrong_type(&expected)) };
+        choices
+            .iter()
+            .find(|(word, _)| *word == text)
+            .map(|(_, choice)| *choice)
+            .ok_or_else(|| self.unexpected(&expected, did_you_mean(text, words())))
+    }
+}
+
+/// What a quantity is called here that textbooks write as `symbol`, if the table knows it.
+fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
+    const KEYS: [(&[&str], &str); 12] = [
+        (&["E", "Y", "youngs_modulus", "modulus"], "young"),
+        (&["nu", "ν"], "poisson"),
+        (&["H", "HV", "HB"], "hardness"),
+        (&["mu", "µ", "μ", "cof"], "coefficient"),
+        (&["tau", "τ", "tau_max"], "shear_strength"),
+        (&["R", "r"], "radius"),
+        (&["W", "P", "F", "Fn", "F_n"], "load"),
+        (&["p", "p_mean", "pm"], "mean_pressure"),
+        (&["delta", "δ"], "approach"),
+        (&["dx", "Δx"], "pitch"),
+        (&["Sq", "Rq", "rms", "sigma", "σ"], "sq"),
+        (&["lambda", "λ"], "wavelength"),
+    ];
+    if ["G", "shear_modulus"].contains(&symbol) && known.contains(&"young") {
+        return Some("give `young` = 2 G (1 + poisson) for a shear modulus G".to_owned());
+    }
+    let named = |(symbols, key): &&(&[&str], &str)| symbols.contains(&symbol) && known.contains(key);
+    KEYS.iter().find(named).map(|(_, key)| format!("did you mean `{key}`?"))
+}
+
+/// The nearest of `words`, if it is near.
+fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
+    let likeness = |candidate: &str| strsim::jaro_winkler(candidate, &word.to_lowercase());
+    let nearest = words.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(nearest) > 0.8).then(|| format!("did you mean `{nearest}`?"))
+}
+
+fn expectation(dimension: Dimension, range: &str) -> String {
+    format!("{}{range} such as \"{}\"", dimension.noun(), dimension.example())
+}
+
+fn list(keys: &[&str]) -> String {
+    keys.iter().map(|key| format!("'{key}'")).collect::<Vec<_>>().join(", ")
+}

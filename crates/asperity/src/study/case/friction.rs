@@ -1,0 +1,339 @@
+//! `[friction]` and `[[history]]`: friction, and how a static contact comes to bear what it bears.
+
+use serde::{Serialize, Serializer};
+
+use super::cursor::{Entry, Table};
+use super::keys::{belongs, known_in};
+use super::prescribed::{Prescribed, prescribed};
+use super::sweep::creepages;
+use super::{Case, Number};
+use crate::error::Result;
+use crate::motion::{Point, Stage};
+use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
+use crate::units::{Dimension, SquareMetre};
+
+/// Friction, and what it resists.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrictionSpec {
+    /// The law.
+    #[serde(flatten, serialize_with = "with_infinities")]
+    pub law: Friction,
+    /// What is prescribed in the plane of a static contact; no force where there is nothing, nor `creepages`.
+    #[serde(flatten)]
+    pub prescribed: Option<InPlane>,
+    /// Creepages of a contact that rolls, one after the other, each on virgin bodies; none of a contact that is no sweep.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub creepages: Vec<[f64; 2]>,
+    /// Spin of a rolling contact, 1/m; 0 of any other.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub spin: f64,
+    /// Equal steps in which a static contact is loaded, ≥ 1; of a rolling contact and of a motion 1.
+    #[serde(skip_serializing_if = "is_one")]
+    pub increments: usize,
+}
+
+/// What is prescribed in the plane, along x and y.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InPlane {
+    /// Force of the upper body on the lower one.
+    Force([f64; 2]),
+    /// Displacement of the upper body against the lower one.
+    Displacement([f64; 2]),
+    /// The upper body slides in this direction, a unit vector.
+    Sliding([f64; 2]),
+    /// Rolling along x, with the velocity of the upper body against the lower one over the rolling velocity.
+    Creepage([f64; 2]),
+    /// Rolling along x, with the force of the upper body on the lower one.
+    RollingForce([f64; 2]),
+}
+
+/// A further stage of the loading: what it does not name stays.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StageSpec {
+    /// In the normal direction.
+    #[serde(flatten)]
+    pub normal: Option<Prescribed>,
+    /// In the plane: force, displacement or sliding.
+    #[serde(flatten)]
+    pub in_plane: Option<InPlane>,
+    /// Equal steps, ≥ 1.
+    pub increments: usize,
+}
+
+/// How a static contact is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// Loaded stage after stage.
+    Stages(Vec<Stage>),
+    /// In steady rolling.
+    Rolling(Rolling),
+    /// One load after another, each on virgin bodies.
+    Sweep(Vec<Point>),
+}
+
+impl FrictionSpec {
+    /// Whether the contact rolls.
+    pub(super) fn rolls(&self) -> bool {
+        self.rolling().next().is_some()
+    }
+
+    /// How the contact rolls: at each of `creepages`, or once.
+    fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
+        let one = self.prescribed.and_then(InPlane::creep);
+        let creeps = self.creepages.iter().copied().map(Creep::Creepage).chain(one);
+        creeps.map(|creep| Rolling { creep, spin: self.spin })
+    }
+}
+
+impl Course {
+    /// What rolls steadily.
+    pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
+        let (one, points) = match self {
+            Self::Stages(_) => (None, &[][..]),
+            Self::Rolling(rolling) => (Some(*rolling), &[][..]),
+            Self::Sweep(points) => (None, points.as_slice()),
+        };
+        one.into_iter().chain(points.iter().filter_map(|point| point.rolling))
+    }
+}
+
+impl Case {
+    /// The course of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
+    /// `[motion]`.
+    ///
+    /// Without friction a first stage is a single increment: pressed for the first time, a contact does not depend on its
+    /// steps.
+    pub fn course(&self, apparent_area: SquareMetre) -> Option<Course> {
+        if self.motion.is_some() {
+            return None;
+        }
+        let friction = self.friction.as_ref();
+        let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
+        let normal = self.contact.prescribed.control(apparent_area);
+        if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
+            let point = |rolling| Point { control: normal, rolling: Some(rolling) };
+            return Some(Course::Sweep(rolling.map(point).collect()));
+        }
+        let rolling = rolling.next();
+        if let Some(sweep) = &self.contact.sweep {
+            let point =
+                |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
+            return Some(Course::Sweep(sweep.prescribed().map(point).collect()));
+        }
+        if let Some(rolling) = rolling {
+            return Some(Course::Rolling(rolling));
+        }
+        let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
+        let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
+        let increments = friction.map_or(1, |friction| friction.increments);
+        let mut stages = vec![Stage { loading, increments }];
+        for stage in &self.history {
+            if let Some(normal) = stage.normal {
+                loading.normal = normal.control(apparent_area);
+            }
+            if let Some(tangential) = stage.in_plane.and_then(InPlane::tangential) {
+                loading.tangential = tangential;
+            }
+            stages.push(Stage { loading, increments: stage.increments });
+        }
+        Some(Course::Stages(stages))
+    }
+
+    /// Whether it is a static contact at one point after another.
+    pub fn is_swept(&self) -> bool {
+        matches!(self.course(1.0), Some(Course::Sweep(_)))
+    }
+}
+
+impl InPlane {
+    /// What is prescribed to bodies that do not roll.
+    fn tangential(self) -> Option<Tangential> {
+        match self {
+            Self::Force(force) => Some(Tangential::Force(force)),
+            Self::Displacement(shift) => Some(Tangential::Displacement(shift)),
+            Self::Sliding(direction) => Some(Tangential::Sliding(direction)),
+            Self::Creepage(_) | Self::RollingForce(_) => None,
+        }
+    }
+
+    /// What is prescribed to bodies that roll.
+    fn creep(self) -> Option<Creep> {
+        match self {
+            Self::Creepage(creepage) => Some(Creep::Creepage(creepage)),
+            Self::RollingForce(force) => Some(Creep::Force(force)),
+            Self::Force(_) | Self::Displacement(_) | Self::Sliding(_) => None,
+        }
+    }
+}
+
+/// What a static contact may be told in its plane.
+const IN_PLANE: [&str; 6] = ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
+/// What a stage may be told.
+const STAGE: [&str; 7] =
+    ["load", "mean_pressure", "approach", "force", "displacement", "sliding", "increments"];
+
+pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<FrictionSpec> {
+    known_in(table)?;
+    let coefficient = table.required("coefficient", "0.3")?.number_or_infinite(
+        |value| value >= 0.0,
+        "a number of at least 0 such as 0.3, or inf: nothing slips",
+    )?;
+    let couplings = [("full", Coupling::Full), ("goodman", Coupling::Goodman), ("none", Coupling::None)];
+    let shear_strength = match table.get("shear_strength") {
+        Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
+        None => f64::INFINITY,
+    };
+    let weight = |entry: Entry<'_>| {
+        let alpha =
+            entry.number(|value| value >= 0.0 && value.is_finite(), "a number of at least 0 such as 9")?;
+        if alpha > 0.0 && !yields {
+            let hint = "give the softer body a `hardness`".to_owned();
+            return Err(entry.error("'junction_growth' needs bodies that yield".to_owned(), Some(hint)));
+        }
+        Ok(alpha)
+    };
+    let junction_growth = table.get("junction_growth").map_or(Ok(0.0), weight)?;
+    if moves
+        && let Some(entry) = IN_PLANE.iter().chain(&["spin", "increments"]).find_map(|key| table.get(key))
+    {
+        let hint = "in a [motion] the upper body slides over the lower one".to_owned();
+        return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
+    }
+    let coupling = table.choice_or("coupling", &couplings, Coupling::Full)?;
+    let law = Friction { coefficient, shear_strength, coupling, junction_growth };
+    if moves {
+        slides(&law, &table.required("coefficient", "0.3")?)?;
+    }
+    let mut spec = FrictionSpec { law, prescribed: None, creepages: Vec::new(), spin: 0.0, increments: 1 };
+    match in_plane_key(table, &IN_PLANE)? {
+        Some("creepages") => spec.creepages = creepages(table.required("creepages", "[0.001]")?)?,
+        Some(key) => spec.prescribed = Some(in_plane(table, key, &law)?),
+        None => {}
+    }
+    if spec.rolls()
+        && let Some(entry) = table.get("increments")
+    {
+        let message = "'increments' has no meaning in rolling".to_owned();
+        return Err(entry.error(message, Some(STEADY.to_owned())));
+    }
+    spec.spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, spec.rolls()))?;
+    spec.increments = increments(table)?;
+    Ok(spec)
+}
+
+/// An error at `entry`, which makes the bodies slide, if they cannot.
+fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
+    if law.bound(1.0).is_finite() {
+        return Ok(());
+    }
+    let hint = "give a finite 'coefficient', or the 'shear_strength' of a film".to_owned();
+    Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
+}
+
+/// In 1/m, which only what rolls has.
+fn spin(entry: &Entry<'_>, rolls: bool) -> Result<f64> {
+    if !rolls {
+        let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
+        return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
+    }
+    entry.number(f64::is_finite, "a number, in 1/m")
+}
+
+/// The stages after the first, in the plane only where there is friction.
+pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> Result<Vec<StageSpec>> {
+    tables
+        .iter()
+        .map(|table| {
+            if friction.is_some_and(FrictionSpec::rolls) {
+                let message = "a rolling contact has no [[history]]".to_owned();
+                return Err(table.error(message, Some(STEADY.to_owned())));
+            }
+            table.known(&STAGE, |key| belongs(key, table.path()))?;
+            let (normal, plane) = (&STAGE[..3], &STAGE[3..6]);
+            let given = |keys: &[&str]| keys.iter().find_map(|key| table.get(key));
+            if let (None, Some(entry)) = (friction, given(plane)) {
+                let hint = "add a [friction] table with its `coefficient`".to_owned();
+                let message = format!("'{}' acts on a contact with friction", entry.key());
+                return Err(entry.error(message, Some(hint)));
+            }
+            if given(&STAGE[..6]).is_none() {
+                let keys =
+                    if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
+                let hint = format!("give {keys}; what a stage does not name stays");
+                return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
+            }
+            Ok(StageSpec {
+                normal: given(normal).is_some().then(|| prescribed(table)).transpose()?,
+                in_plane: match friction {
+                    Some(friction) => in_plane_key(table, plane)?
+                        .map(|key| in_plane(table, key, &friction.law))
+                        .transpose()?,
+                    None => None,
+                },
+                increments: increments(table)?,
+            })
+        })
+        .collect()
+}
+
+fn increments(table: &Table<'_>) -> Result<usize> {
+    table.get("increments").map_or(Ok(1), |entry| entry.count(1))
+}
+
+/// The one of `keys` that is given, if any is.
+fn in_plane_key(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<&'static str>> {
+    if keys.iter().all(|key| table.get(key).is_none()) {
+        return Ok(None);
+    }
+    table.exactly_one(keys, "give one of them, or none").map(Some)
+}
+
+fn in_plane(table: &Table<'_>, key: &str, law: &Friction) -> Result<InPlane> {
+    let entry = table.required(key, "\"0.1 N\"")?;
+    let quantity = |dimension, expected| entry.vector(expected, |item| item.quantity(dimension));
+    let number = |expected| entry.vector(expected, |item| item.number(f64::is_finite, "a finite number"));
+    Ok(match key {
+        "force" => InPlane::Force(quantity(Dimension::Force, "a force along x, or two along x and y")?),
+        "rolling_force" => {
+            InPlane::RollingForce(quantity(Dimension::Force, "a force along x, or two along x and y")?)
+        }
+        "displacement" => {
+            InPlane::Displacement(quantity(Dimension::Length, "a length along x, or two along x and y")?)
+        }
+        "creepage" => InPlane::Creepage(number("a number along x, or two along x and y")?),
+        _ => {
+            slides(law, &entry)?;
+            let [x, y] = number("a direction such as [1, 0]")?;
+            let length = x.hypot(y);
+            if length == 0.0 {
+                return Err(entry.unexpected("a direction such as [1, 0]", None));
+            }
+            InPlane::Sliding([x / length, y / length])
+        }
+    })
+}
+
+/// Why a rolling contact has neither stages nor increments.
+const STEADY: &str = "its steady state does not depend on how it was reached";
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+fn is_one(count: &usize) -> bool {
+    *count == 1
+}
+
+fn with_infinities<S: Serializer>(law: &Friction, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        coefficient: Number,
+        shear_strength: Number,
+        coupling: Coupling,
+        junction_growth: f64,
+    }
+    let Friction { coefficient, shear_strength, coupling, junction_growth } = *law;
+    let (coefficient, shear_strength) = (coefficient.into(), shear_strength.into());
+    Keys { coefficient, shear_strength, coupling, junction_growth }.serialize(serializer)
+}

@@ -1,0 +1,145 @@
+//! The keys of a case file, by table and by kind of topography.
+
+use super::cursor::Table;
+use super::document::join;
+use crate::error::Result;
+
+/// The keys of each table, to tell where a misplaced one belongs.
+const TABLES: [(&str, &[&str]); 7] = [
+    ("lower", &["young", "poisson", "hardness", "topography"]),
+    ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
+    (
+        "contact",
+        &[
+            "load",
+            "mean_pressure",
+            "approach",
+            "loads",
+            "mean_pressures",
+            "approaches",
+            "boundary",
+            "method",
+            "tolerance",
+        ],
+    ),
+    (
+        "motion",
+        &[
+            "strategy",
+            "speed_lower",
+            "speed_upper",
+            "passes",
+            "stride",
+            "control",
+            "plastic_update",
+            "load_tolerance",
+        ],
+    ),
+    (
+        "friction",
+        &[
+            "coefficient",
+            "coupling",
+            "shear_strength",
+            "junction_growth",
+            "force",
+            "displacement",
+            "sliding",
+            "creepage",
+            "creepages",
+            "spin",
+            "rolling_force",
+            "increments",
+        ],
+    ),
+    ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
+    ("output", &["pressure_every", "rim", "paraview"]),
+];
+
+/// The keys that each kind of topography has beyond the common ones.
+const SOURCES: [(&str, &[&str]); 11] = [
+    ("file", &["file", "channel", "unit", "despike", "fill"]),
+    ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
+    (
+        "generate = \"autocorrelation\"",
+        &["generate", "shape", "seed", "sq", "correlation_length", "decay", "lay", "ssk", "sku"],
+    ),
+    (
+        "generate = \"self-affine\"",
+        &["generate", "shape", "seed", "sq", "sdq", "hurst", "rolloff", "shortest"],
+    ),
+    ("form = \"sphere\"", &["form", "shape", "radius"]),
+    ("form = \"ellipsoid\"", &["form", "shape", "radius"]),
+    ("form = \"cylinder\"", &["form", "shape", "radius", "axis"]),
+    ("form = \"cone\"", &["form", "shape", "angle"]),
+    ("form = \"flat\"", &["form", "shape"]),
+    ("form = \"sinusoid\"", &["form", "shape", "amplitude", "wavelength"]),
+    ("form = \"grooves\"", &["form", "shape", "period", "depth", "profile", "lay"]),
+];
+
+/// The keys of every topography.
+const PREPARATION: [&str; 12] = [
+    "pitch",
+    "window",
+    "level",
+    "mirror",
+    "rotate",
+    "s_filter",
+    "l_filter",
+    "filter",
+    "resample",
+    "interpolate",
+    "taper",
+    "plus",
+];
+
+/// No key but those of the table.
+pub(super) fn known_in(table: &Table<'_>) -> Result<()> {
+    let keys = TABLES.iter().find(|(name, _)| *name == table.path()).map_or(&[][..], |(_, keys)| keys);
+    table.known(keys, |key| belongs(key, table.path()))
+}
+
+/// A key that is known in another table.
+pub(super) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
+    let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
+    let topography = || {
+        let known = PREPARATION.contains(&key) || SOURCES.iter().any(|(_, keys)| keys.contains(&key));
+        let body =
+            table.split('.').next().filter(|name| ["lower", "upper"].contains(name)).unwrap_or("lower");
+        (known && !table.ends_with("topography")).then(|| join(body, "topography"))
+    };
+    let owners = TABLES.iter().filter(|(name, keys)| *name != table && keys.contains(&key));
+    let owner = owners.map(|(name, _)| (*name).to_owned()).next().or_else(topography)?;
+    Some((format!("unknown key '{key}' {here}"), Some(format!("`{key}` belongs in [{owner}]"))))
+}
+
+/// An error if a key belongs to another kind of topography.
+pub(super) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
+    let own = SOURCES.iter().find(|(name, _)| *name == kind).map_or(&[][..], |(_, keys)| keys);
+    let is_layer = table.path().ends_with("plus]");
+    let of_the_whole = |key: &str| key == "shape" || PREPARATION.contains(&key);
+    let known = own.iter().chain(&PREPARATION).copied();
+    let known: Vec<&str> = known.filter(|key| !(is_layer && of_the_whole(key))).collect();
+    table.known(&known, |key| {
+        if is_layer && of_the_whole(key) {
+            let hint = "what is added stands on the grid of the topography, as prepared".to_owned();
+            return Some((format!("'{key}' has no meaning in {}", table.name()), Some(hint)));
+        }
+        let owners: Vec<_> = SOURCES
+            .iter()
+            .filter(|(_, keys)| keys.contains(&key))
+            .map(|(name, _)| format!("`{name}`"))
+            .collect();
+        let kind = if kind == "file" { "a file" } else { kind };
+        Some((
+            format!("'{key}' has no meaning with {kind}"),
+            Some(format!("it belongs to {}", owners.join(", "))),
+        ))
+    })
+}
+
+/// No key but those of some topography; which go together, `suits` tells.
+pub(super) fn known_of_topographies(table: &Table<'_>) -> Result<()> {
+    let all: Vec<&str> = SOURCES.iter().flat_map(|(_, keys)| *keys).chain(&PREPARATION).copied().collect();
+    table.known(&all, |key| belongs(key, table.path()))
+}

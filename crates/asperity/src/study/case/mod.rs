@@ -1,0 +1,278 @@
+//! Case files: one TOML file says which bodies meet, under what, and how they move.
+//!
+//! Everything is checked that the file alone can tell; each mistake is shown where it stands. A [`Case`] is in SI
+//! and serialises under the keys of the file, so that a summary holds the case that was computed.
+
+mod cursor;
+mod document;
+mod friction;
+mod keys;
+mod parse;
+mod prescribed;
+mod source;
+mod subsurface;
+mod sweep;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+
+use self::document::Document;
+pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
+pub use self::prescribed::Prescribed;
+pub use self::source::{Layer, Source, TopographySpec};
+pub use self::subsurface::{Side, SubsurfaceSpec};
+pub use self::sweep::Sweep;
+use crate::error::{Error, Result};
+use crate::io::regular;
+use crate::material::Material;
+use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
+pub use crate::operator::{Boundary, Edge};
+use crate::solver;
+pub use crate::solver::Method;
+use crate::units::SquareMetre;
+
+/// A case, resolved to SI.
+#[derive(Debug, Clone, Serialize)]
+pub struct Case {
+    /// The file's name where it gives none.
+    pub title: String,
+    /// The body underneath.
+    pub lower: Body,
+    /// The body above.
+    #[serde(serialize_with = "with_mount")]
+    pub upper: Body,
+    /// What presses them together.
+    pub contact: Contact,
+    /// Their friction; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionSpec>,
+    /// Stages of the loading of a static contact after the first, which `contact`, and `friction` if there is any, prescribe.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<StageSpec>,
+    /// How they move; a static contact if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionSpec>,
+    /// What is looked at under the surface; nothing if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subsurface: Option<SubsurfaceSpec>,
+    /// What is kept.
+    pub output: Output,
+    #[serde(skip)]
+    document: Document,
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Body {
+    /// Its hardness is infinite where the file gives none.
+    #[serde(flatten, serialize_with = "with_infinities")]
+    pub material: Material,
+    /// Its surface.
+    pub topography: TopographySpec,
+    /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
+    /// they are an underside, see [`Scan::is_underside`](crate::surface::Scan::is_underside), else turned over.
+    #[serde(skip)]
+    pub mount: Option<Mount>,
+}
+
+/// How the heights of a body become those of the case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mount {
+    /// Measured material side up, then turned over about y: mirrored in x, the sign of the heights changed.
+    TurnedOver,
+    /// The heights are those of the case already.
+    AsIs,
+}
+
+/// Load, boundary and solver.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Exactly one of the three; of a sweep the largest.
+    pub prescribed: Prescribed,
+    /// What takes its place, one after the other; none of a contact that is no sweep.
+    pub sweep: Option<Sweep>,
+    /// At the rim of the grid.
+    pub boundary: Boundary,
+    /// The solver.
+    pub method: Method,
+    /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
+    pub tolerance: f64,
+}
+
+impl Serialize for Contact {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            #[serde(flatten)]
+            prescribed: Option<Prescribed>,
+            #[serde(flatten)]
+            sweep: &'a Option<Sweep>,
+            boundary: Boundary,
+            method: Method,
+            tolerance: f64,
+        }
+        let Self { prescribed, ref sweep, boundary, method, tolerance } = *self;
+        let prescribed = sweep.is_none().then_some(prescribed);
+        Keys { prescribed, sweep, boundary, method, tolerance }.serialize(serializer)
+    }
+}
+
+/// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MotionSpec {
+    /// Overlap or circular shift.
+    #[serde(flatten, serialize_with = "with_speeds")]
+    pub strategy: Strategy,
+    /// ≥ 1.
+    pub passes: usize,
+    /// Cells per step, ≥ 1.
+    pub stride: usize,
+    /// What [`Contact::prescribed`] holds: the mean over a pass, or each position.
+    pub control: ControlKind,
+    /// When plastic deformation is applied.
+    pub plastic_update: PlasticUpdate,
+    /// Relative, on the pass-mean load, 0 < tolerance < 1.
+    pub load_tolerance: f64,
+}
+
+/// A [`Control`] without its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ControlKind {
+    /// The mean load of a pass.
+    PassLoad,
+    /// The load at every position.
+    StepLoad,
+    /// The approach.
+    Approach,
+}
+
+/// What is kept of the results.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Output {
+    /// The pressure field of every n-th position; 0: of none.
+    pub pressure_every: usize,
+    /// The part of a body's length at its free ends that is left out of what is told of its interior, 0 ≤ rim < ½.
+    pub rim: f64,
+    /// Whether all fields are written for ParaView, too.
+    pub paraview: bool,
+}
+
+/// The largest case file that is read.
+const MOST_BYTES: u64 = 4 << 20;
+
+impl Case {
+    /// Reads a case file; the files it names are looked for in its folder.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
+    pub fn load(path: &Path) -> Result<Self> {
+        let failed = |source| Error::File { path: path.to_owned(), source };
+        let text = regular::read(path, "a case file", MOST_BYTES).map_err(failed)?;
+        let text = String::from_utf8(text).map_err(|_| {
+            failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
+        })?;
+        Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a case from its text. `file` is the name for its errors, `folder` where the files it names lie.
+    ///
+    /// # Errors
+    /// [`Error::Case`] if it has a mistake.
+    pub fn parse(text: &str, file: &Path, folder: &Path) -> Result<Self> {
+        parse::case(text, file, folder)
+    }
+
+    /// An error that the case shows only once it is put to work, at the place of a dotted `key`
+    /// (`upper.topography.file`), or of the table that would hold it.
+    pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
+        self.document.error(key, self.document.place(key), message, hint)
+    }
+
+    /// What the file says at a dotted `key`, as it is written there.
+    pub(in crate::study) fn written(&self, key: &str) -> String {
+        self.document.written(self.document.place(key))
+    }
+
+    /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
+    pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
+        let spec = self.motion?;
+        let control = match (self.contact.prescribed.control(apparent_area), spec.control) {
+            (solver::Control::Load(load), ControlKind::StepLoad) => Control::StepLoad(load),
+            (solver::Control::Load(load), _) => Control::PassLoad(load),
+            (solver::Control::Approach(approach), _) => Control::Approach(approach),
+        };
+        Some(Motion {
+            strategy: spec.strategy,
+            passes: spec.passes,
+            stride: spec.stride,
+            control,
+            plastic_update: spec.plastic_update,
+            load_tolerance: spec.load_tolerance,
+            friction: self.friction.as_ref().map(|friction| friction.law),
+        })
+    }
+
+    /// The files that the case names.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.lower, &self.upper].into_iter().filter_map(|body| match &body.topography.source {
+            Source::File { path, .. } => Some(path),
+            _ => None,
+        })
+    }
+}
+
+/// A number of the case as it is written out: JSON has no infinities, the case file has `inf`.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Number {
+    Finite(f64),
+    Infinite(&'static str),
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        if value.is_finite() { Self::Finite(value) } else { Self::Infinite("inf") }
+    }
+}
+
+fn with_infinities<S: Serializer>(
+    material: &Material,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        young: Number,
+        poisson: f64,
+        hardness: Number,
+    }
+    let Material { young, poisson, hardness } = *material;
+    Keys { young: young.into(), poisson, hardness: hardness.into() }.serialize(serializer)
+}
+
+fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        #[serde(flatten)]
+        body: &'a Body,
+        mount: Option<Mount>,
+    }
+    Keys { body: upper, mount: upper.mount }.serialize(serializer)
+}
+
+fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(tag = "strategy", rename_all = "kebab-case")]
+    enum Keys {
+        Overlap,
+        Shift { speed_lower: f64, speed_upper: f64 },
+    }
+    match *strategy {
+        Strategy::Overlap => Keys::Overlap,
+        Strategy::Shift { speed_lower, speed_upper } => Keys::Shift { speed_lower, speed_upper },
+    }
+    .serialize(serializer)
+}

@@ -1,0 +1,542 @@
+//! What a case will take, and what to be wary of, told before anything is solved.
+
+mod contact;
+mod demand;
+mod plausible;
+
+pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
+pub use demand::{Demand, demand};
+
+use super::case::{Body, Case, Course, Layer, Source, TopographySpec};
+use super::prepare::{Bodies, Prepared};
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::material::{Compliances, composite_hardness, plastic_share};
+use crate::motion::{Control, Position, Stage, Strategy, initial_gap};
+use crate::reference::HertzSphere;
+use crate::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
+use crate::study::subsurface::Plan;
+use crate::surface::{Form, Level};
+use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
+
+/// What is known of a computation before it starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Composite modulus E* of the pair.
+    pub modulus: Pascal,
+    /// Dundurs' β of the pair.
+    pub dundurs: f64,
+    /// How a static contact is computed; none of a motion.
+    pub course: Option<Course>,
+    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair.
+    pub hardness: Pascal,
+    /// The lower body's share of the plastic deformation, 0 to 1.
+    pub lower_share: f64,
+    /// What is prescribed; the load of a static contact is a [`Control::StepLoad`].
+    pub control: Control,
+    /// Number of positions in a pass; 1 for a static contact.
+    pub positions: usize,
+    /// Number of passes; 1 for a static contact.
+    pub passes: usize,
+    /// Largest apparent area of a position.
+    pub apparent_area: SquareMetre,
+    /// Mean apparent area over the positions.
+    pub mean_facing_area: SquareMetre,
+    /// Largest load that the control could ask for, every facing cell at the hardness, or at what the shear of bodies that
+    /// slide leaves of it; infinite for an elastic pair.
+    pub plastic_limit: Newton,
+    /// Rms slope of the initial gap, as if the surfaces were independent.
+    pub gap_slope: f64,
+    /// What is looked at under the surface.
+    pub subsurface: Option<Plan>,
+    /// What the user should know before trusting the result.
+    pub warnings: Vec<String>,
+    /// What to expect by Hertz' estimate; a result shows it by itself.
+    pub foreseen: Vec<String>,
+}
+
+/// What `case` will take on its `bodies`.
+///
+/// # Errors
+/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load, [`Error::BeyondFriction`] if no
+/// shear within the friction can carry the tangential force.
+pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
+    let (lower, upper) = (&case.lower.material, &case.upper.material);
+    let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
+    let positions = positions(case, lower_grid.shape[0], upper_grid.shape[0]);
+    let overlaps: Vec<usize> = positions.iter().map(|position| position.columns).collect();
+    let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
+    let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
+    let apparent_area = facing as f64 * column;
+    let control = match (case.motion(apparent_area), case.contact.prescribed.control(apparent_area)) {
+        (Some(motion), _) => motion.control,
+        (None, solver::Control::Load(load)) => Control::StepLoad(load),
+        (None, solver::Control::Approach(approach)) => Control::Approach(approach),
+    };
+    let hardness = composite_hardness(lower, upper);
+    let course = case.course(apparent_area);
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    let cap = match (case.motion(apparent_area), &course) {
+        (Some(motion), _) => motion.cap(hardness),
+        (None, Some(Course::Stages(stages))) => {
+            bears(law, stages, hardness, apparent_area)?;
+            stage_cap(law, &stages[0], hardness)
+        }
+        _ => hardness,
+    };
+    let plastic_limit = control.plastic_limit(&overlaps, column, cap);
+    control.check_limit(plastic_limit)?;
+    let compliances = Compliances::new(lower, upper)?;
+    if let (Some(law), Some(course)) = (law, &course) {
+        holds(law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
+    }
+    let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
+    let mut estimate = Estimate {
+        modulus: compliances.modulus(),
+        dundurs: compliances.dundurs(),
+        course,
+        hardness,
+        lower_share: plastic_share(lower, upper),
+        control,
+        positions: overlaps.len(),
+        passes: case.motion.map_or(1, |motion| motion.passes),
+        apparent_area,
+        mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
+        plastic_limit,
+        gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
+        subsurface: Plan::new(case, &lower_grid, &positions)?,
+        warnings: Vec::new(),
+        foreseen: Vec::new(),
+    };
+    estimate.warnings = warnings(case, bodies, &estimate);
+    contacts(case, bodies, &positions, &mut estimate);
+    let yields = rolls_plastically(case, &estimate);
+    estimate.foreseen.extend(yields);
+    Ok(estimate)
+}
+
+/// The positions of a pass; of a static contact, the only one.
+fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
+    match case.motion {
+        None => vec![Position { offset: 0, lower: 0, upper: 0, columns: lower.min(upper) }],
+        Some(motion) => motion.strategy.positions(lower, upper, motion.stride),
+    }
+}
+
+/// The most pressure that cells of the `hardness` bear at the end of a stage, whatever force acts in the plane.
+fn stage_cap(friction: Option<&Friction>, stage: &Stage, hardness: Pascal) -> Pascal {
+    match (friction, stage.loading.tangential) {
+        (Some(friction), Tangential::Sliding(_)) => friction.sliding_cap(hardness),
+        _ => hardness,
+    }
+}
+
+/// An error if a stage asks for more load than its cells bear beside the shear that it asks for: the sums of p and of
+/// √α q are at most H on all cells together, as they are on each. What slides does so from the first increment of its
+/// stage, when it still bears most of the load before.
+fn bears(
+    friction: Option<&Friction>,
+    stages: &[Stage],
+    hardness: Pascal,
+    apparent_area: SquareMetre,
+) -> Result<()> {
+    let mut before = Some(0.0);
+    for stage in stages {
+        let solver::Control::Load(load) = stage.loading.normal else {
+            before = None;
+            continue;
+        };
+        let limit = apparent_area * stage_cap(friction, stage, hardness);
+        let (load_borne, limit) = match stage.loading.tangential {
+            Tangential::Sliding(_) => {
+                let first = before.map_or(load, |before| before + (load - before) / stage.increments as f64);
+                (first.max(load), limit)
+            }
+            Tangential::Force([x, y]) if limit.is_finite() => {
+                let growth = friction.map_or(0.0, |friction| friction.junction_growth);
+                let beside = growth * (x * x + y * y);
+                (load, (limit * limit - beside).max(0.0).sqrt())
+            }
+            _ => (load, limit),
+        };
+        if load_borne >= limit {
+            return Err(Error::BeyondPlasticLimit { load: load_borne, limit });
+        }
+        before = Some(load);
+    }
+    Ok(())
+}
+
+/// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
+fn holds(
+    friction: &Friction,
+    course: &Course,
+    control: solver::Control,
+    apparent_area: SquareMetre,
+) -> Result<()> {
+    let ends: Vec<_> = match course {
+        Course::Stages(stages) => {
+            stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
+        }
+        Course::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
+        Course::Sweep(points) => {
+            points.iter().filter_map(|point| pushed(point.control, point.rolling?)).collect()
+        }
+    };
+    for end in ends {
+        if let (solver::Control::Load(load), Tangential::Force([x, y])) = end {
+            let limit = (friction.coefficient * load).min(friction.shear_strength * apparent_area);
+            let force = x.hypot(y);
+            if force > 0.0 && force >= limit {
+                return Err(Error::BeyondFriction { force, limit });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is prescribed of what rolls under a force.
+fn pushed(control: solver::Control, rolling: Rolling) -> Option<(solver::Control, Tangential)> {
+    match rolling.creep {
+        Creep::Force(force) => Some((control, Tangential::Force(force))),
+        Creep::Creepage(_) => None,
+    }
+}
+
+fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
+    let mut warnings = Vec::new();
+    plausible::implausible(case, bodies.lower.topography.grid(), estimate, &mut warnings);
+    for (name, body, spec) in
+        [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
+    {
+        coarse(name, body, &mut warnings);
+        if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
+            tilted(name, body, &mut warnings);
+        }
+        let shifts = matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
+        let wraps = [0, 1].map(|axis| case.contact.boundary.repeats(axis) || (shifts && axis == 0));
+        torn(name, body, wraps, &mut warnings);
+    }
+    /// Up to here tan and sin of a slope agree to some 5 %.
+    const STEEP: f64 = 0.3;
+    if estimate.gap_slope > STEEP {
+        warnings.push(format!(
+            "the surfaces are steep for a half-space theory of small slopes: the rms slope of the gap is {:.4}, up to {STEEP} \
+             tan and sin agree; an `s_filter` takes short waves out",
+            estimate.gap_slope
+        ));
+    }
+    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). Real contact is near it at any load.
+    // A form's slope is that of its rim, far from the contact.
+    let pressure = 0.5 * estimate.modulus * estimate.gap_slope;
+    let is_form = |body: &Body| {
+        let TopographySpec { source, plus, .. } = &body.topography;
+        matches!(source, Source::Form { .. }) || plus.iter().any(|layer| matches!(layer, Layer::Form { .. }))
+    };
+    if pressure > estimate.hardness && ![&case.lower, &case.upper].into_iter().any(is_form) {
+        warnings.push(format!(
+            "most of the contact will be plastic: slopes of {:.4} call for pressures of {}, the hardness is {}: \
+             the hardness, not elasticity, will make the answer",
+            estimate.gap_slope,
+            units::format(pressure, Dimension::Pressure),
+            units::format(estimate.hardness, Dimension::Pressure)
+        ));
+    }
+    if let Control::PassLoad(load) | Control::StepLoad(load) = estimate.control
+        && load > 0.5 * estimate.plastic_limit
+    {
+        warnings.push(format!(
+            "the load is near the plastic limit, {}: contact will be almost complete; a lower load or a \
+             greater hardness leaves a gap",
+            units::format(estimate.plastic_limit, Dimension::Force)
+        ));
+    }
+    if let Some(motion) = case.motion
+        && motion.stride > 1
+        && estimate.hardness.is_finite()
+    {
+        warnings.push(format!(
+            "with `stride = {}` each column meets {:.2} % of those that pass it: asperities that yield leave a comb \
+             instead of a track, and the plastic volume is too small; `stride = 1` lets all of them meet",
+            motion.stride,
+            100.0 / motion.stride as f64
+        ));
+    }
+    if let Some(friction) = &case.friction {
+        frictional(case, &friction.law, estimate, &mut warnings);
+    }
+    warnings
+}
+
+/// What can be told of the contacts: that there is none, that the rim of the grid cuts them off, that they have too few
+/// cells.
+fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) {
+    let surfaces = [bodies.lower.topography.heights(), bodies.upper.topography.heights()];
+    if let Control::Approach(approach) = estimate.control
+        && let Some(touch) = contact::apart(surfaces, positions, approach)
+    {
+        estimate.warnings.push(contact::no_contact(approach, touch));
+        return;
+    }
+    let most = positions.iter().map(|position| position.columns).max().unwrap_or(0);
+    let fullest: Vec<&Position> = positions.iter().filter(|position| position.columns == most).collect();
+    let Some(position) = fullest.get(fullest.len() / 2) else { return };
+    let control = match estimate.control {
+        Control::PassLoad(load) => {
+            solver::Control::Load(load * estimate.apparent_area / estimate.mean_facing_area)
+        }
+        Control::StepLoad(load) => solver::Control::Load(load),
+        Control::Approach(approach) => solver::Control::Approach(approach),
+    };
+    let gap = initial_gap(surfaces, position);
+    let pitch = bodies.lower.topography.grid().pitch;
+    let foreseen = contact::foreseen(&gap, pitch, estimate.modulus, case.contact.boundary, control);
+    // Of a motion and of a sweep only tables are left, which do not tell where in a contact the pressure is.
+    let tabled = case.motion.is_some() || case.is_swept();
+    let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.foreseen };
+    warnings.extend(foreseen.rim);
+    estimate.foreseen.extend(foreseen.coarse);
+}
+
+/// Friction whose answer is not the one that is looked for.
+fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &mut Vec<String>) {
+    /// Shear under pressure alone is some β p: below this it is not seen.
+    const ALIKE: f64 = 0.01;
+    /// From here on the coupling changes pressures and stick by more than some per cent.
+    const UNLIKE: f64 = 0.1;
+    let beta = estimate.dundurs;
+    if friction.coupling != Coupling::Full && beta.abs() > UNLIKE {
+        warnings.push(format!(
+            "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
+        ));
+    }
+    let stages = match &estimate.course {
+        Some(Course::Stages(stages)) => stages,
+        Some(Course::Rolling(_) | Course::Sweep(_)) => {
+            if ![&case.lower, &case.upper].into_iter().all(rolls_alike) {
+                warnings.push(
+                    "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
+                     creepage and force are those of a track that is the same everywhere"
+                        .to_owned(),
+                );
+            }
+            return;
+        }
+        None => return,
+    };
+    let first = &stages[0];
+    let slips = !matches!(first.loading.tangential, Tangential::Sliding(_));
+    let matters = friction.coupling != Coupling::None && beta.abs().min(friction.coefficient) > ALIKE;
+    if slips && matters && estimate.gap_slope > 0.0 && loads_at_once(stages) {
+        warnings.push(format!(
+            "dissimilar bodies (Dundurs' β is {beta:.2}) shear while their contact grows: loaded in one step they \
+             stick where they first touch; give `increments` in [friction]"
+        ));
+    }
+    let pushes = match first.loading.tangential {
+        Tangential::Force([x, y]) | Tangential::Displacement([x, y]) => x.hypot(y) > 0.0,
+        Tangential::Sliding(_) => false,
+    };
+    if first.increments == 1 && pushes && friction.coefficient > 0.0 && friction.bound(1.0).is_finite() {
+        warnings.push(
+            "pressed and pushed in one step: `dissipation` is that of a push under the full load, and what sticks is \
+             found as if the load had come first; give `increments` in [friction], or push in a [[history]]"
+                .to_owned(),
+        );
+    }
+    let unloads = stages.windows(2).any(|pair| match (pair[0].loading.normal, pair[1].loading.normal) {
+        (solver::Control::Load(before), solver::Control::Load(after))
+        | (solver::Control::Approach(before), solver::Control::Approach(after)) => after < before,
+        _ => false,
+    });
+    if unloads && friction.bound(1.0).is_infinite() {
+        warnings.push(
+            "under an infinite coefficient unloading may have no answer: cells that bear any shear open; give a large one"
+                .to_owned(),
+        );
+    }
+}
+
+/// Steady rolling over what yields.
+fn rolls_plastically(case: &Case, estimate: &Estimate) -> Option<String> {
+    estimate.course.as_ref()?.rolling().next()?;
+    let pressure = rolling_pressure(case, estimate).filter(|pressure| *pressure > estimate.hardness)?;
+    let [pressure, hardness] = [pressure, estimate.hardness].map(|p| units::format(p, Dimension::Pressure));
+    Some(format!(
+        "pressures of about {pressure} are beyond the hardness, {hardness}: cells yield {NOT_FLATTENED}"
+    ))
+}
+
+/// What is wrong with steady rolling over what yields.
+pub(super) const NOT_FLATTENED: &str = "in steady rolling, over a track that was not flattened before: what has been \
+                                        rolled over meets a lower surface; a [motion] with `passes` flattens it";
+
+/// About the largest pressure of a contact without a hardness, where it is known beforehand: Hertz' of a ball, or E* h'/2
+/// of what is rough.
+fn rolling_pressure(case: &Case, estimate: &Estimate) -> Option<Pascal> {
+    let bodies = [&case.lower, &case.upper];
+    if !bodies.into_iter().all(rolls_alike) {
+        return Some(0.5 * estimate.modulus * estimate.gap_slope);
+    }
+    let curvature = |body: &Body| match body.topography.source {
+        Source::Form { form: Form::Sphere { radius }, .. } => Some(1.0 / radius),
+        Source::Form { form: Form::Flat, .. } => Some(0.0),
+        _ => None,
+    };
+    let radius = 1.0 / (curvature(bodies[0])? + curvature(bodies[1])?);
+    let plain = bodies.iter().all(|body| body.topography.plus.is_empty());
+    let hertz = match estimate.control {
+        Control::StepLoad(load) => HertzSphere { radius, modulus: estimate.modulus, load },
+        Control::Approach(approach) => HertzSphere::from_approach(radius, estimate.modulus, approach),
+        Control::PassLoad(_) => return None,
+    };
+    (plain && radius.is_finite()).then(|| hertz.peak_pressure())
+}
+
+/// Whether a body is the same wherever it is rolled over, but for what its form changes slowly.
+fn rolls_alike(body: &Body) -> bool {
+    let smooth = |form: &Form| {
+        matches!(
+            form,
+            Form::Sphere { .. }
+                | Form::Ellipsoid { .. }
+                | Form::Cylinder { .. }
+                | Form::Cone { .. }
+                | Form::Flat
+        )
+    };
+    let TopographySpec { source, plus, .. } = &body.topography;
+    matches!(source, Source::Form { form, .. } if smooth(form))
+        && plus.iter().all(|layer| matches!(layer, Layer::Form { form, .. } if smooth(form)))
+}
+
+/// Whether one increment brings most of the load, or, of an approach, all of it.
+fn loads_at_once(stages: &[Stage]) -> bool {
+    let load = |stage: &Stage| match stage.loading.normal {
+        solver::Control::Load(load) => Some(load),
+        solver::Control::Approach(_) => None,
+    };
+    match stages.iter().map(load).collect::<Option<Vec<_>>>() {
+        Some(loads) => {
+            let before = std::iter::once(0.0).chain(loads.iter().copied());
+            let steps =
+                loads.iter().zip(before).zip(stages).map(|((to, from), s)| (to - from) / s.increments as f64);
+            steps.fold(0.0, f64::max) > 0.5 * loads.iter().copied().fold(0.0, f64::max)
+        }
+        None => {
+            let changes = |pair: &[Stage]| pair[1].loading.normal != pair[0].loading.normal;
+            stages[0].increments == 1 && !stages.windows(2).any(changes)
+        }
+    }
+}
+
+/// A mesh on which the waves that make the slope have too few cells.
+///
+/// A wave of n cells has a slope by differences over one cell greater by 1/cos(π/n) than over two.
+fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    const CELLS_PER_WAVE: f64 = 8.0;
+    for axis in 0..2 {
+        let [one, two] = [1, 2].map(|cells| difference(body.topography.heights(), axis, cells));
+        if one > 0.0 && two > 0.0 && one > two {
+            let cells = std::f64::consts::PI / (two / one).acos();
+            if cells < CELLS_PER_WAVE {
+                warnings.push(format!(
+                    "the mesh is coarse for the {name} surface: along {} the waves that make its slope have about \
+                     {cells:.1} cells, {CELLS_PER_WAVE} or more are needed for a contact area within some 10 %; take a smaller `pitch`, or take \
+                     short waves out (`s_filter`)",
+                    ["x", "y"][axis]
+                ));
+                return;
+            }
+        }
+    }
+}
+
+/// Rms difference of heights `cells` apart, per cell of the distance.
+fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
+    let n = heights.len_of(ndarray::Axis(axis));
+    if n <= cells {
+        return 0.0;
+    }
+    let far = heights.slice_axis(ndarray::Axis(axis), (cells..).into());
+    let near = heights.slice_axis(ndarray::Axis(axis), (..n - cells).into());
+    let sum: f64 = far.iter().zip(near).map(|(far, near)| (far - near).powi(2)).sum();
+    (sum / far.len() as f64).sqrt() / cells as f64
+}
+
+/// A measured surface that stands askew.
+fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    let without_plane = body.topography.clone().level(Level::Plane).expect("a plane has an order");
+    let (as_is, levelled) = (body.topography.sq(), without_plane.sq());
+    if as_is > 1.5 * levelled {
+        warnings.push(format!(
+            "the {name} surface is tilted: Sq is {}, without its plane {}; `level = \"plane\"` removes it",
+            units::format(as_is, Dimension::Length),
+            units::format(levelled, Dimension::Length)
+        ));
+    }
+}
+
+/// A surface that does not continue over its edge along an axis along which it `wraps`.
+fn torn(name: &str, body: &Prepared, wraps: [bool; 2], warnings: &mut Vec<String>) {
+    let heights = body.topography.heights();
+    for axis in (0..2).filter(|axis| wraps[*axis]) {
+        let n = heights.len_of(ndarray::Axis(axis));
+        let (first, last) =
+            (heights.index_axis(ndarray::Axis(axis), 0), heights.index_axis(ndarray::Axis(axis), n - 1));
+        let sum: f64 = first.iter().zip(last).map(|(first, last)| (first - last).powi(2)).sum();
+        let jump: Metre = (sum / first.len() as f64).sqrt();
+        if jump > 3.0 * difference(heights, axis, 1) {
+            warnings.push(format!(
+                "the {name} surface is repeated, but its edges along {} do not meet: a step of {} rms; `taper` \
+                 brings them together",
+                ["x", "y"][axis],
+                units::format(jump, Dimension::Length)
+            ));
+            return;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Error;
+    use crate::study::prepare::bodies;
+
+    fn case(motion: &str, load: &str) -> Case {
+        let body = |name: &str, columns: usize| {
+            format!(
+                "[{name}]\nyoung = 1e9\npoisson = 0.3\nhardness = 1e9\n[{name}.topography]\nform = \"sphere\"\n\
+                 radius = 1\nshape = [{columns}, 4]\npitch = 1e-3\n"
+            )
+        };
+        let text = format!("{}{}[contact]\n{load}\n{motion}", body("lower", 5), body("upper", 3));
+        Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    }
+
+    #[test]
+    fn every_position_of_a_pass_has_a_column_that_faces_another() {
+        let columns = |stride| -> Vec<usize> {
+            let case = case(&format!("[motion]\nstride = {stride}"), "load = 1");
+            positions(&case, 5, 3).iter().map(|position| position.columns).collect()
+        };
+        assert_eq!(columns(1), [1, 2, 3, 3, 3, 2, 1]);
+        assert_eq!(columns(2), [1, 3, 3, 1]);
+        assert_eq!(columns(9), [3]);
+    }
+
+    #[test]
+    fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
+        let estimate = |control: &str, load: &str| {
+            let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
+            super::estimate(&case, &bodies(&case).unwrap())
+        };
+        // A column of 4 mm² bears 4 kN; seven positions share 15 columns.
+        let limit = estimate("pass-load", "load = 1").unwrap().plastic_limit;
+        assert!((limit / (4e3 * 15.0 / 7.0) - 1.0).abs() < 1e-12, "{limit}");
+        assert!(estimate("pass-load", "load = 8e3").is_ok());
+        let beyond = estimate("step-load", "load = 8e3").unwrap_err();
+        assert!(matches!(beyond, Error::BeyondPlasticLimit { limit, .. } if (limit - 4e3).abs() < 1e-6));
+    }
+}

@@ -1,0 +1,348 @@
+//! Contacts that the grid does not hold: cut off at its rim, of too few cells, or none at all.
+//!
+//! What can be foreseen rests on Hertz' contact of the paraboloid that comes nearest to the gap; what is said of a
+//! result, on its pressures.
+
+use std::f64::consts::SQRT_2;
+
+use crate::grid::Field;
+use crate::motion::{Position, initial_gap, largest_spot};
+use crate::operator::Boundary;
+use crate::reference::HertzEllipse;
+use crate::solver::Control;
+use crate::units::{self, Dimension, Metre, Pascal};
+
+/// Cells across a contact spot from which on its pressures are those of the spot, to some per cent.
+pub(in crate::study) const CELLS_ACROSS: usize = 6;
+
+/// The paraboloid nearest to a gap, by least squares over all cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::study) struct Paraboloid {
+    /// Principal curvatures, the larger one first; positive where the gap opens outwards.
+    curvatures: [f64; 2],
+    /// Direction of the larger curvature, (cos φ, sin φ).
+    direction: [f64; 2],
+    /// The lowest point, from the corner of the grid; the centre where there is none along a straight line.
+    apex: [Metre; 2],
+    extent: [Metre; 2],
+    pitch: [Metre; 2],
+}
+
+impl Paraboloid {
+    /// The paraboloid nearest to `gap`; none where it tells less than nine tenths of the gap's variance about a plane: a
+    /// gap that is rough rather than curved.
+    pub(in crate::study) fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
+        const DOMINATES: f64 = 0.9;
+        let shape = [gap.nrows(), gap.ncols()];
+        // On a full grid these six are orthogonal: 1, x, y, x² − its mean, y² − its mean, xy.
+        let places = [0, 1].map(|axis| {
+            let middle = 0.5 * (shape[axis] as f64 - 1.0);
+            (0..shape[axis]).map(|i| (i as f64 - middle) * pitch[axis]).collect::<Vec<f64>>()
+        });
+        let squares = [0, 1].map(|axis| {
+            let mean = places[axis].iter().map(|s| s * s).sum::<f64>() / shape[axis] as f64;
+            places[axis].iter().map(|s| s * s - mean).collect::<Vec<f64>>()
+        });
+        let mean = gap.mean()?;
+        let mut products = [[0.0; 2]; 5];
+        let mut variance = 0.0;
+        for ((i, j), h) in gap.indexed_iter() {
+            let h = h - mean;
+            let terms =
+                [places[0][i], places[1][j], squares[0][i], squares[1][j], places[0][i] * places[1][j]];
+            for (product, term) in products.iter_mut().zip(terms) {
+                product[0] += h * term;
+                product[1] += term * term;
+            }
+            variance += h * h;
+        }
+        let coefficient = |[product, norm]: [f64; 2]| if norm > 0.0 { product / norm } else { 0.0 };
+        let told = |[product, norm]: [f64; 2]| if norm > 0.0 { product * product / norm } else { 0.0 };
+        let planar = variance - told(products[0]) - told(products[1]);
+        let curved: f64 = products[2..].iter().map(|product| told(*product)).sum();
+        if !(curved > DOMINATES * planar && curved > 1e-12 * variance) {
+            return None;
+        }
+        let [tilt_x, tilt_y, xx, yy, xy] = products.map(coefficient);
+        let (xx, yy) = (2.0 * xx, 2.0 * yy);
+        let (middle, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        let curvatures = [middle + half, middle - half];
+        let angle = 0.5 * xy.atan2(0.5 * (xx - yy));
+        let direction = [angle.cos(), angle.sin()];
+        // Along each principal direction the lowest point is where the slope vanishes.
+        let across = [-direction[1], direction[0]];
+        let least = 1e-6 * curvatures[0].abs().max(curvatures[1].abs());
+        let mut apex = [0, 1].map(|axis| 0.5 * shape[axis] as f64 * pitch[axis]);
+        for (curvature, [x, y]) in curvatures.into_iter().zip([direction, across]) {
+            if curvature.abs() > least {
+                let distance = -(tilt_x * x + tilt_y * y) / curvature;
+                apex = [apex[0] + distance * x, apex[1] + distance * y];
+            }
+        }
+        let extent = [0, 1].map(|axis| shape[axis] as f64 * pitch[axis]);
+        Some(Self { curvatures, direction, apex, extent, pitch })
+    }
+
+    /// Whether the gap does not open outwards in all directions: a line contact, a saddle or a hollow.
+    fn is_endless(&self) -> bool {
+        self.curvatures[1] <= 1e-6 * self.curvatures[0]
+    }
+
+    /// The axis that a line contact lies along: that of the smaller curvature.
+    fn line(&self) -> usize {
+        usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
+    }
+
+    /// Hertz' contact of the paraboloid under `control`, whose approach counts from the gap `touch`; none where the gap
+    /// does not open outwards in all directions, or nothing presses.
+    fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
+        if self.is_endless() {
+            return None;
+        }
+        let contact = |load: f64| HertzEllipse::new(self.curvatures.map(f64::recip), modulus, load);
+        let load = match control {
+            Control::Load(load) => load,
+            // δ goes with W^⅔.
+            Control::Approach(approach) => ((approach - touch).max(0.0) / contact(1.0).approach).powf(1.5),
+        };
+        (load > 0.0 && load.is_finite()).then(|| contact(load))
+    }
+
+    /// Of the free sides of the grid that on which a contact of these semi-axes along the principal directions presses
+    /// hardest at the rim: the axis, how far the contact reaches from the apex, how far the rim is, and the pressure at the
+    /// rim over that at the centre.
+    ///
+    /// A contact that would reach a and is cut off at w presses on the last cells, of pitch h, with about
+    /// p₀ (√(h/w) + 1.1 (a/w − 1) √(w/h)): what an edge at w adds to Hertz' pressure grows as the root of the distance
+    /// from it, here averaged over a cell; 1.1 by computations of spheres and ellipsoids on 32 to 128 cells.
+    fn hardest_side(&self, semi_axes: [Metre; 2], boundary: Boundary) -> Option<(usize, Metre, Metre, f64)> {
+        let [c, s] = self.direction;
+        let [along, across] = semi_axes;
+        let reach = [(along * c).hypot(across * s), (along * s).hypot(across * c)];
+        let sides = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis)).flat_map(|axis| {
+            [self.apex[axis], self.extent[axis] - self.apex[axis]].map(|rim| (axis, reach[axis], rim))
+        });
+        let pressures = sides.map(|(axis, reach, rim)| {
+            let cells = (rim / self.pitch[axis]).max(1.0);
+            (
+                axis,
+                reach,
+                rim,
+                cells.sqrt().recip() + 1.1 * (reach / rim.max(self.pitch[axis]) - 1.0) * cells.sqrt(),
+            )
+        });
+        pressures.max_by(|one, other| one.3.total_cmp(&other.3))
+    }
+}
+
+/// What Hertz' estimate says of the contact of bodies with this initial `gap`: whether the rim cuts it off, and whether
+/// it has too few cells.
+pub(super) fn foreseen(
+    gap: &Field,
+    pitch: [Metre; 2],
+    modulus: Pascal,
+    boundary: Boundary,
+    control: Control,
+) -> Foreseen {
+    let mut foreseen = Foreseen::default();
+    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return foreseen };
+    let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let presses = match control {
+        Control::Load(_) => true,
+        Control::Approach(approach) => approach > touch,
+    };
+    if !presses {
+        return foreseen;
+    }
+    let length = |value| units::format(value, Dimension::Length);
+    let Some(contact) = paraboloid.hertz(modulus, control, touch) else {
+        foreseen.rim = endless(&paraboloid, boundary);
+        return foreseen;
+    };
+    if let Some((axis, reach, rim, pressure)) = paraboloid.hardest_side(contact.semi_axes, boundary)
+        && pressure >= 1.0
+    {
+        foreseen.rim = Some(format!(
+            "the rim of the grid cuts the contact off along {}: by Hertz it reaches {} from the apex, the rim is {} away; \
+             take a larger `shape` or a lower load",
+            ["x", "y"][axis],
+            length(reach),
+            length(rim)
+        ));
+    }
+    let narrow = 2.0 * contact.semi_axes[0].min(contact.semi_axes[1]);
+    let cells = narrow / paraboloid.pitch[0].max(paraboloid.pitch[1]);
+    if cells < CELLS_ACROSS as f64 {
+        foreseen.coarse = Some(format!(
+            "the mesh is coarse for the contact: by Hertz it is {} across, {cells:.3} cells; its pressures need \
+             {CELLS_ACROSS}: take a smaller `pitch`",
+            length(narrow)
+        ));
+    }
+    foreseen
+}
+
+/// What Hertz' estimate says of a contact.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Foreseen {
+    /// That the rim of the grid cuts it off.
+    pub(super) rim: Option<String>,
+    /// That it has too few cells.
+    pub(super) coarse: Option<String>,
+}
+
+/// A gap that does not open towards a free rim.
+fn endless(paraboloid: &Paraboloid, boundary: Boundary) -> Option<String> {
+    let [large, small] = paraboloid.curvatures;
+    let axis = paraboloid.line();
+    let length = |value| units::format(value, Dimension::Length);
+    if large <= 0.0 || -small > large {
+        return (boundary != Boundary::PERIODIC).then(|| {
+            format!(
+                "the gap is hollow, of radius {}: the bodies touch at the rim of the grid, where pressures rise without \
+                 bound; `level = \"quadratic\"` removes the curvature of a measurement",
+                length(1.0 / small.abs())
+            )
+        });
+    }
+    (!boundary.repeats(axis)).then(|| {
+        format!(
+            "the line contact ends at the rim of the grid along {}, where its pressure rises, nor is it in plane strain: \
+             the radius is {} across; {} gives it no ends",
+            ["x", "y"][axis],
+            length(1.0 / large),
+            boundary_of_a_line(axis)
+        )
+    })
+}
+
+/// The boundary of a line contact along an axis, as a case file has it.
+fn boundary_of_a_line(axis: usize) -> &'static str {
+    ["`boundary = [\"periodic\", \"free\"]`", "`boundary = [\"free\", \"periodic\"]`"][axis]
+}
+
+/// The gap at which the bodies first touch, if they do not at this `approach` at any of the `positions`.
+pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Metre) -> Option<Metre> {
+    let highest = surfaces[0].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lowest = surfaces[1].iter().copied().fold(f64::INFINITY, f64::min);
+    let mut touch = f64::INFINITY;
+    // Those that face the most touch first, as a rule: it ends with the first that does.
+    let mut ordered: Vec<&Position> = positions.iter().collect();
+    ordered.sort_by_key(|position| std::cmp::Reverse(position.columns));
+    for position in ordered {
+        touch = initial_gap(surfaces, position).iter().copied().fold(touch, f64::min);
+        if touch < approach {
+            return None;
+        }
+        // Nothing comes nearer than what stands out most.
+        if touch <= lowest - highest {
+            break;
+        }
+    }
+    Some(touch)
+}
+
+/// That there is no contact at an approach below `touch`.
+pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
+    let length = |value| units::format(value, Dimension::Length);
+    format!(
+        "no contact: the approach is {}, the smallest gap {}; the bodies touch from an `approach` of {} on",
+        length(approach),
+        length(touch),
+        length(touch)
+    )
+}
+
+/// That the largest contact spot has too few cells, if it has.
+pub(in crate::study) fn too_few_cells(across: usize) -> Option<String> {
+    match across {
+        1 => Some(format!(
+            "the mesh is coarse for the contact: its largest spot is a single cell across, {CELLS_ACROSS} or more are \
+             needed for its pressures; take a smaller `pitch`"
+        )),
+        2..CELLS_ACROSS => Some(format!(
+            "the mesh is coarse for the contact: its largest spot is {across} cells across, {CELLS_ACROSS} or more are \
+             needed for its pressures; take a smaller `pitch`"
+        )),
+        _ => None,
+    }
+}
+
+/// That a free rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the outermost cells, or with a
+/// load on a side of them that is not much below that of the fullest line inside.
+///
+/// A sphere or an ellipsoid whose Hertzian contact reaches a little over the rim has its largest pressure to 1 % still;
+/// from where that of the rim exceeds it, it is wrong by more than 5 % soon.
+pub(in crate::study) fn cut_off(
+    pressure: &Field,
+    gap: impl FnOnce() -> Field,
+    pitch: [Metre; 2],
+    boundary: Boundary,
+) -> Option<String> {
+    const SHARE_OF_A_LINE: f64 = 0.75;
+    let sides = [0, 1].map(|axis| Sides::of(pressure, axis));
+    let (axis, side) = sides
+        .iter()
+        .enumerate()
+        .filter(|(axis, side)| !boundary.repeats(*axis) && side.rim > 0.0)
+        .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
+        .max_by(|one, other| one.1.rim.total_cmp(&other.1.rim))?;
+    let paraboloid = Paraboloid::of(&gap(), pitch)?;
+    let value = |value| units::format(value, Dimension::Pressure);
+    let way_out = if paraboloid.is_endless() {
+        format!("{} gives a line contact no ends", boundary_of_a_line(paraboloid.line()))
+    } else {
+        "take a larger `shape` or a lower load".to_owned()
+    };
+    Some(format!(
+        "the rim of the grid cuts the contact off along {}: the largest pressure there is {}, inside {}, and the outermost \
+         cells bear {:.2} % of the load; {way_out}",
+        ["x", "y"][axis],
+        value(side.rim),
+        value(side.inside),
+        100.0 * outermost(pressure, boundary) / pressure.sum()
+    ))
+}
+
+/// What the outermost cells of a field at its free sides add up to.
+fn outermost(field: &Field, boundary: Boundary) -> f64 {
+    let shape = [field.nrows(), field.ncols()];
+    let is_rim = |axis: usize, i: usize| !boundary.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
+    field.indexed_iter().filter(|((i, j), _)| is_rim(0, *i) || is_rim(1, *j)).map(|(_, p)| p).sum()
+}
+
+/// Pressures at the two sides of the grid across an axis.
+struct Sides {
+    /// Largest pressure at them.
+    rim: Pascal,
+    /// Largest pressure elsewhere, all sides left out.
+    inside: Pascal,
+    /// The larger of their sums.
+    line: Pascal,
+    /// Largest sum of a line between them.
+    fullest: Pascal,
+}
+
+impl Sides {
+    fn of(pressure: &Field, axis: usize) -> Self {
+        let n = pressure.len_of(ndarray::Axis(axis));
+        let lines = || pressure.axis_iter(ndarray::Axis(axis));
+        let ends = || lines().step_by((n - 1).max(1));
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let [nx, ny] = [pressure.nrows(), pressure.ncols()];
+        let within = |i: usize, n: usize| i > 0 && i + 1 < n;
+        let inside = pressure.indexed_iter().filter(|((i, j), _)| within(*i, nx) && within(*j, ny));
+        Self {
+            rim: most(&mut ends().flat_map(|line| line.to_vec())),
+            inside: most(&mut inside.map(|(_, p)| *p)),
+            line: most(&mut ends().map(|line| line.sum())),
+            fullest: most(&mut lines().take(n - 1).skip(1).map(|line| line.sum())),
+        }
+    }
+}
+
+/// Cells across the largest contact spot of a pressure field.
+pub(in crate::study) fn spot(pressure: &Field, boundary: Boundary) -> usize {
+    let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
+    largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary.wraps())
+}

@@ -1,0 +1,286 @@
+//! Memory and time of a run, told from the numbers of cells alone: before a surface is made.
+
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::material::{Compliances, composite_hardness};
+use crate::motion::{Control, PlasticUpdate, Point, memory_together};
+use crate::operator::{FreeFft, Operator};
+use crate::solver::{Coupling, Friction, Method, Sliding};
+use crate::study::case::{Body, Case, Course, Layer, Source};
+use crate::study::prepare::grids;
+use crate::study::subsurface::Plan;
+use crate::units::Second;
+
+/// What a run takes. Memory in bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// The two surfaces, and the making of the larger one.
+    pub surfaces: f64,
+    /// One solver; each thread has one, of as many as there are positions.
+    pub solver: f64,
+    /// The positions of a pass together.
+    pub together: f64,
+    /// The results until they are written.
+    pub results: f64,
+    /// The most at any time.
+    pub memory: f64,
+    /// The work, in the time that an iteration takes for a cell and a binary digit of their number: about a nanosecond.
+    pub effort: f64,
+}
+
+/// What `case` takes on so many `threads`. Of files only the size is looked at; nothing is made.
+///
+/// # Errors
+/// [`Error::Case`] if a file cannot be read, or if a step of its preparation has no meaning on its grid.
+pub fn demand(case: &Case, threads: usize) -> Result<Demand> {
+    let [lower, upper] = grids(case)?;
+    let overlaps: Vec<usize> =
+        super::positions(case, lower.shape[0], upper.shape[0]).iter().map(|p| p.columns).collect();
+    let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
+    let surfaces = sizes.surfaces();
+    let Memory { solver, together, results } = sizes.memory();
+    let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
+    let [program, working] = match case.motion {
+        // What a static contact leaves is written when its solver is gone.
+        None => [PROGRAM, solvers.max(results)],
+        Some(_) => [PROGRAM + ANIMATION, (solvers + results).max(together + solver)],
+    };
+    let memory = program + surfaces.making.max(surfaces.kept + working);
+    let effort = sizes.effort(threads);
+    Ok(Demand { surfaces: surfaces.making.max(surfaces.kept), solver, together, results, memory, effort })
+}
+
+impl Demand {
+    /// The time of the whole run without figures on this machine as it is now, which some convolutions tell in a few
+    /// milliseconds: right within a factor of three where the contact is an ordinary one.
+    pub fn time(&self) -> Second {
+        self.effort * unit_of_effort()
+    }
+
+    /// An error if it takes more memory than there is, in bytes.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub fn fits(&self, available: f64) -> Result<()> {
+        if self.memory <= available { Ok(()) } else { Err(Error::Memory { needed: self.memory, available }) }
+    }
+}
+
+/// The program itself, its libraries and figures.
+const PROGRAM: f64 = 12e6;
+/// The pictures of the animation of a motion.
+const ANIMATION: f64 = 24e6;
+/// Bytes of a number.
+const NUMBER: f64 = 8.0;
+
+struct Sizes<'a> {
+    case: &'a Case,
+    lower: Grid,
+    upper: Grid,
+    overlaps: &'a [usize],
+}
+
+struct Surfaces {
+    kept: f64,
+    making: f64,
+}
+
+/// What is held beside the surfaces, bytes.
+struct Memory {
+    /// By one solver.
+    solver: f64,
+    /// By the positions of a pass together.
+    together: f64,
+    /// By the results until they are written.
+    results: f64,
+}
+
+impl Sizes<'_> {
+    /// Cells along x and y of the largest contact.
+    fn facing(&self) -> [f64; 2] {
+        [self.lower.shape[0].min(self.upper.shape[0]), self.lower.shape[1]].map(|n| n as f64)
+    }
+
+    fn compliances(&self) -> Option<Compliances> {
+        Compliances::new(&self.case.lower.material, &self.case.upper.material).ok()
+    }
+
+    /// Cells that the making of each surface takes, and fields on them.
+    fn making(&self) -> [[f64; 2]; 2] {
+        let making = |body: &Body, grid: &Grid, other: &Grid| {
+            let cells = grid.shape[0] as f64 * grid.shape[1] as f64;
+            let layers = body.topography.plus.iter().map(|layer| match layer {
+                Layer::Generate { generate, .. } => generate.cells(grid),
+                Layer::Form { .. } => cells,
+            });
+            match &body.topography.source {
+                // A spectrum, noise, heights.
+                Source::Generate { generate, .. } => {
+                    let cells =
+                        body.topography.made_on(Some(*other)).map_or(cells, |grid| generate.cells(&grid));
+                    [layers.fold(cells, f64::max), 3.0]
+                }
+                Source::File { .. } => [layers.fold(cells, f64::max), 3.0],
+                Source::Form { shape, .. } => {
+                    let shape = shape.unwrap_or(other.shape);
+                    [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0]
+                }
+            }
+        };
+        let Self { case, lower, upper, .. } = self;
+        [making(&case.lower, lower, upper), making(&case.upper, upper, lower)]
+    }
+
+    fn surfaces(&self) -> Surfaces {
+        let bytes =
+            [&self.lower, &self.upper].map(|grid| NUMBER * grid.shape[0] as f64 * grid.shape[1] as f64);
+        let [lower, upper] = self.making().map(|[cells, fields]| NUMBER * fields * cells);
+        Surfaces { kept: bytes[0] + bytes[1], making: lower.max(bytes[0] + upper) }
+    }
+
+    fn memory(&self) -> Memory {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        // Eight numbers of the iteration for each cell; of the padded transform half is stored, and its real kernel, in
+        // double and in single precision.
+        let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
+        let padded = padded_x * nx * (padded_y * ny + 2.0);
+        let transforms = 1.5 * padded * (1.0 + 0.5 / padded_x);
+        let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
+        let normal = 8.0 * nx * ny + transforms + dense;
+        // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
+        // iteration some thirty numbers for each cell.
+        let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
+        let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
+        let positions = super::positions(case, self.lower.shape[0], self.upper.shape[0]);
+        if let Ok(Some(plan)) = Plan::new(case, &self.lower, &positions) {
+            solver += plan.memory();
+        }
+        let motion = case.motion(nx * ny * self.lower.cell_area());
+        let hardness = composite_hardness(&case.lower.material, &case.upper.material);
+        let together = motion
+            .and_then(|motion| {
+                memory_together(&motion, case.contact.method, hardness, self.overlaps, self.lower.shape[1])
+            })
+            .unwrap_or(0.0);
+        // Each field as it is, and as it is written; the solution.
+        let statics = if case.friction.is_some() { 30.0 } else { 15.0 };
+        let results = case.motion.map_or(statics * nx * ny, |_| {
+            let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
+            let kept = match case.output.pressure_every {
+                0 => 0.0,
+                every => self.overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
+            };
+            let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
+            2.0 * (cells[0] + cells[1]) + 2.0 * kept
+        });
+        Memory { solver, together, results: NUMBER * results }
+    }
+
+    /// Whether tractions along all directions are computed.
+    fn is_coupled(&self) -> bool {
+        let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
+        let lifts = |friction| {
+            self.compliances().is_some_and(|compliances| sliding(friction).lifts(compliances.coupling != 0.0))
+        };
+        self.case.friction.as_ref().is_some_and(|friction| self.case.motion.is_none() || lifts(friction.law))
+    }
+
+    /// The work, in units of a cell times the binary logarithm of the cells of its contact.
+    fn effort(&self, threads: usize) -> f64 {
+        let case = self.case;
+        let ny = self.lower.shape[1] as f64;
+        let work = |columns: f64| columns * ny * (columns * ny).max(2.0).log2();
+        let boundary: f64 =
+            case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
+        let method = match case.contact.method {
+            Method::PolonskyKeer => 10.0,
+            _ => 1.0,
+        };
+        let digits = (-case.contact.tolerance.log10() / 6.0).max(0.3);
+        let normal = SOLVE * boundary * method * digits;
+        let all: f64 = self.overlaps.iter().map(|columns| work(*columns as f64)).sum();
+        let mut effort = match (case.motion, &case.friction) {
+            (Some(motion), _) => {
+                let searches = match case.motion(1.0).map(|motion| motion.control) {
+                    Some(Control::PassLoad(_)) if motion.plastic_update == PlasticUpdate::Step => 5.0,
+                    Some(Control::PassLoad(_)) => 1.3,
+                    _ => 1.0,
+                };
+                let sliding = if self.is_coupled() { 8.0 } else { 1.0 };
+                let at_once = threads.clamp(1, self.overlaps.len().max(1)) as f64;
+                motion.passes as f64 * searches * sliding * normal * all / at_once.powf(0.85)
+            }
+            (None, friction) => {
+                let [nx, ny] = self.facing();
+                match case.course(nx * ny * self.lower.cell_area()) {
+                    Some(Course::Rolling(_)) => ROLLING * boundary * digits * all,
+                    Some(Course::Stages(stages)) => {
+                        let increments: usize = stages.iter().map(|stage| stage.increments).sum();
+                        let unlike =
+                            self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
+                        let shear = friction.as_ref().map_or(0.0, |friction| match friction.law.coupling {
+                            Coupling::Full | Coupling::Goodman if unlike => SHEAR,
+                            _ => SHEAR_ALIKE,
+                        });
+                        increments as f64 * (normal + shear * boundary * digits) * all
+                    }
+                    Some(Course::Sweep(points)) => {
+                        let point = |point: &Point| match point.rolling {
+                            Some(_) => ROLLING * boundary * digits,
+                            None => normal,
+                        };
+                        let stiffness = STIFFNESS * boundary * digits * points.len() as f64;
+                        (points.iter().map(point).sum::<f64>() + stiffness) * all
+                    }
+                    None => normal * all,
+                }
+            }
+        };
+        if let Some(spec) = &case.subsurface {
+            let [nx, _] = self.facing();
+            let tractions = if case.friction.is_some() { 2.0 } else { 1.0 };
+            let passes = case.motion.map_or(1, |motion| motion.passes) as f64;
+            effort += passes * STRESS * tractions * (spec.layers + spec.planes.len()) as f64 * work(nx);
+        }
+        let made: f64 = self.making().iter().map(|[cells, _]| cells * cells.max(2.0).log2()).sum();
+        effort + MAKING * made
+    }
+}
+
+// Each measured (docs/performance.md), in the unit of effort: some 17 to 25 convolutions, each with what the iteration
+// does besides.
+/// A normal contact, free, to 10⁻⁶.
+const SOLVE: f64 = 28.0;
+/// An increment with friction, of dissimilar bodies.
+const SHEAR: f64 = 450.0;
+/// The same of identical bodies, whose pressure is known without the shear.
+const SHEAR_ALIKE: f64 = 150.0;
+/// Steady rolling.
+const ROLLING: f64 = 25_000.0;
+/// The stiffness of a contact.
+const STIFFNESS: f64 = 12.0;
+/// The stress on a plane.
+const STRESS: f64 = 35.0;
+/// A surface: read or made, prepared, its figures for the estimate.
+const MAKING: f64 = 6.0;
+
+/// Seconds for a cell and a bit of the logarithm: the least of some convolutions, on this machine as it is now.
+fn unit_of_effort() -> Second {
+    const SIDE: usize = 128;
+    /// What a solve takes of the time of a double convolution, for each of its own.
+    const SHARE: f64 = 1.4;
+    let grid = Grid { shape: [SIDE, SIDE], pitch: [1.0; 2] };
+    let mut operator = FreeFft::new(grid, 1.0);
+    let (pressure, mut displacement) = (grid.zeros(), grid.zeros());
+    let time = || {
+        let began = Instant::now();
+        operator.apply(&pressure, &mut displacement);
+        began.elapsed().as_secs_f64()
+    };
+    let least = std::iter::repeat_with(time).take(8).fold(f64::INFINITY, f64::min);
+    let cells = (SIDE * SIDE) as f64;
+    SHARE * least / (cells * cells.log2())
+}

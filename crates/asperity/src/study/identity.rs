@@ -1,0 +1,144 @@
+//! What a run is known by: its case, the digests of its surface files, and an identity that its files share.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::case::{Case, Source};
+use super::prepare::Bodies;
+use crate::error::{Error, Result};
+use crate::io::sha256;
+
+/// Keys of a surface file in a case.
+const FILES: [&str; 2] = ["/lower/topography", "/upper/topography"];
+
+/// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each surface file beside its name, and under
+/// `identity` the digest of all that decides the numbers.
+pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
+    let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
+    let specs = [&case.lower.topography, &case.upper.topography];
+    let grids = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
+    for (n, body) in [&bodies.lower, &bodies.upper].into_iter().enumerate() {
+        let (key, spec, other) = (FILES[n], specs[n], grids[1 - n]);
+        let topography = resolved.pointer_mut(key).expect("a body has a topography");
+        for lacking in spec.lacks() {
+            topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
+        }
+        let digest = body.origin.as_ref().map(|origin| origin.sha256.clone());
+        if let (Source::File { .. }, Some(digest)) = (&spec.source, digest) {
+            topography["sha256"] = digest.into();
+        }
+    }
+    resolved["identity"] = of(&resolved).into();
+    resolved
+}
+
+/// The digest that all files of a run carry: the same for all runs that come to the same numbers, so that their files
+/// may stand in for each other.
+pub(super) fn of(case: &Value) -> String {
+    sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
+}
+
+/// An error unless the results in `directory`, those of the case `before`, are those of `now` too.
+pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
+    for key in FILES {
+        let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
+        let file = |case: &Value| case.pointer(key)?.get("file").cloned();
+        if let (Some(_), Some(path)) = (file(before), file(now))
+            && digest(before) != digest(now)
+        {
+            let file = path.as_str().unwrap_or_default().into();
+            return Err(Error::SurfaceChanged { path: directory.to_owned(), file });
+        }
+    }
+    match difference("", &deciding(before), &deciding(now)) {
+        None => Ok(()),
+        Some((key, [before, now])) => Err(Error::OtherCase { path: directory.to_owned(), key, before, now }),
+    }
+}
+
+/// The case without what leaves a finished pass as it is: its title, the number of passes, the folder of its files.
+fn deciding(case: &Value) -> Value {
+    let mut case = case.clone();
+    if let Some(keys) = case.as_object_mut() {
+        keys.remove("title");
+        keys.remove("identity");
+    }
+    if let Some(motion) = case.pointer_mut("/motion").and_then(Value::as_object_mut) {
+        motion.remove("passes");
+    }
+    for key in FILES {
+        // Its folder is seen from wherever the program was called.
+        if let Some(file) = case.pointer_mut(key).and_then(|topography| topography.get_mut("file")) {
+            let name = Path::new(file.as_str().unwrap_or_default()).file_name();
+            *file = name.map_or(Value::Null, |name| name.to_string_lossy().into());
+        }
+    }
+    case
+}
+
+/// The first key at which two cases differ, dotted, and what each has there.
+fn difference(path: &str, before: &Value, now: &Value) -> Option<(String, [String; 2])> {
+    if before == now {
+        return None;
+    }
+    let join = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    match (before, now) {
+        (Value::Object(old), Value::Object(new)) => old.keys().chain(new.keys()).find_map(|key| {
+            let [old, new] = [old, new].map(|keys| keys.get(key).unwrap_or(&Value::Null));
+            difference(&join(key), old, new)
+        }),
+        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => old
+            .iter()
+            .zip(new)
+            .enumerate()
+            .find_map(|(n, (old, new))| difference(&join(&n.to_string()), old, new)),
+        _ => {
+            let shown =
+                |value: &Value| if value.is_null() { "not given".to_owned() } else { value.to_string() };
+            Some((path.to_owned(), [shown(before), shown(now)]))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_named_and_what_decides_nothing_is_none() {
+        let before = json!({"title": "a", "identity": "x", "contact": {"load": 0.02}, "motion": {"passes": 3, "stride": 1},
+            "lower": {"topography": {"file": "there/a.npy", "sha256": "00"}}, "history": [{"load": 1.0}]});
+        let with = |pointer: &str, value: Value| {
+            let mut now = before.clone();
+            *now.pointer_mut(pointer).unwrap() = value;
+            compare(Path::new("out"), &before, &now).map_err(|error| error.to_string())
+        };
+        for (pointer, value) in [
+            ("/title", json!("b")),
+            ("/identity", json!("y")),
+            ("/motion/passes", json!(9)),
+            ("/lower/topography/file", json!("here/a.npy")),
+        ] {
+            assert_eq!(with(pointer, value), Ok(()), "{pointer}");
+        }
+        for (pointer, value, told) in [
+            ("/contact/load", json!(0.03), "'contact.load' was 0.02, now it is 0.03"),
+            ("/contact/load", Value::Null, "'contact.load' was 0.02, now it is not given"),
+            ("/history/0/load", json!(2.0), "'history.0.load' was 1.0, now it is 2.0"),
+            (
+                "/lower/topography/file",
+                json!("b.npy"),
+                "'lower.topography.file' was \"a.npy\", now it is \"b.npy\"",
+            ),
+            (
+                "/lower/topography/sha256",
+                json!("01"),
+                "there/a.npy has changed since the results in out were begun",
+            ),
+        ] {
+            let error = with(pointer, value).unwrap_err();
+            assert!(error.ends_with(told), "{pointer}: {error}");
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! A loading under way, kept increment by increment: what a computation that was interrupted goes on from.
+//!
+//! ```text
+//! DIR/increments.csv             a row for each increment done
+//!     fields/increment-state.h5  all that the next one depends on; gone once all is done
+//! ```
+//!
+//! The row of an increment is written before its state, and the state has the number of increments that it stands for:
+//! rows beyond it are those of an increment whose state was not written any more.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::results::Results;
+use super::tables;
+use crate::error::{Error, Result};
+use crate::grid::{Field, Grid};
+use crate::io::fields::{Attribute, FieldFile, Fields};
+use crate::motion::{Equilibrium, Flattening, IncrementRecord, LoadingOutput, LoadingState, Origin};
+use crate::solver::{FrictionalSolution, Solution, Stats};
+
+/// Keeps each increment of a loading on the disk.
+pub struct LoadingWriter {
+    results: Results,
+    identity: String,
+    grid: Grid,
+    increments: usize,
+}
+
+impl LoadingWriter {
+    /// Into a results directory, for a loading of so many `increments` of bodies on `grid`.
+    pub(super) fn new(results: &Results, identity: &str, grid: Grid, increments: usize) -> Self {
+        Self { results: results.clone(), identity: identity.to_owned(), grid, increments }
+    }
+
+    /// What an interrupted loading has left, if it has left anything.
+    ///
+    /// # Errors
+    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
+    pub fn under_way(&self) -> Result<Option<LoadingState>> {
+        let path = self.results.increment_state_path();
+        if !path.exists() {
+            return Ok(None);
+        }
+        let stored = Stored::open(&path)?;
+        let count = stored.number("increments")? as usize;
+        let mut increments = self.results.increments()?;
+        if increments.len() < count {
+            let path = self.results.increments_path();
+            return Err(Error::NotResumable { path, reason: "does not have every finished increment" });
+        }
+        let [nx, ny] = self.grid.shape;
+        if count >= self.increments || stored.field("pressure")?.dim() != (nx, ny) {
+            return Err(Error::NotResumable { path, reason: "is of another loading" });
+        }
+        increments.truncate(count);
+        stored.state(increments).map(Some)
+    }
+
+    /// Removes the state, once nothing goes on from it any more.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn done(&self) -> Result<()> {
+        let state = self.results.increment_state_path();
+        self.results.remove(&state)?;
+        // Nothing else is kept of a loading: its folder goes, unless somebody has put something there.
+        let _ = state.parent().map(std::fs::remove_dir);
+        Ok(())
+    }
+}
+
+impl LoadingOutput for LoadingWriter {
+    fn increment(&mut self, state: &LoadingState) -> Result<()> {
+        tables::write_increments(&self.results.increments_path(), &state.increments)?;
+        // After the last one the contact itself is written.
+        if state.increments.len() < self.increments { self.write(state) } else { Ok(()) }
+    }
+}
+
+impl LoadingWriter {
+    fn write(&self, state: &LoadingState) -> Result<()> {
+        let mut file = FieldFile::of_run(&self.identity);
+        let mut add = |name: &str, unit: &str, field: &Field| {
+            file.add_field(name, unit, &self.grid, [0.0, 0.0], field);
+        };
+        let normal = state.contact.normal();
+        add("pressure", "Pa", &normal.pressure);
+        add("displacement", "m", &normal.displacement);
+        add("deepest", "m", &state.flattening.deepest);
+        if let Some(kept) = &state.flattening.kept {
+            add("kept", "m", kept);
+        }
+        if let Some([x, y]) = &state.slip {
+            add("slip_x", "m", x);
+            add("slip_y", "m", y);
+        }
+        if let Some(solution) = state.contact.frictional() {
+            for (name, unit, [x, y]) in [
+                ("traction", "Pa", &solution.shear),
+                ("displacement", "m", &solution.displacement),
+                ("last_slip", "m", &solution.slip),
+            ] {
+                add(&format!("{name}_x"), unit, x);
+                add(&format!("{name}_y"), unit, y);
+            }
+            add("cap", "Pa", &solution.cap);
+            add("bound", "Pa", &solution.bound);
+            add("stick", "1", &solution.stick);
+            file.set("shift", solution.shift.to_vec());
+        }
+        let Origin { load, approach, force, shift } = state.origin;
+        file.set("increments", state.increments.len())
+            .set("approach", normal.approach)
+            .set("residual", normal.residual)
+            .set("iterations", normal.stats.iterations)
+            .set("convolutions", normal.stats.convolutions)
+            .set("restarts", normal.stats.restarts)
+            .set("dissipation_error", state.dissipation_error)
+            .set("origin_load", load)
+            .set("origin_approach", approach)
+            .set("origin_force", force.to_vec())
+            .set("origin_shift", shift.to_vec());
+        file.write(&self.results.increment_state_path())
+    }
+}
+
+/// A state as it is read back.
+struct Stored {
+    path: PathBuf,
+    fields: Fields,
+    names: Vec<String>,
+    attributes: BTreeMap<String, Attribute>,
+}
+
+impl Stored {
+    fn open(path: &Path) -> Result<Self> {
+        let fields = Fields::open(path)?;
+        let (names, attributes) = (fields.names()?, fields.attributes()?);
+        Ok(Self { path: path.to_owned(), fields, names, attributes })
+    }
+
+    fn state(&self, increments: Vec<IncrementRecord>) -> Result<LoadingState> {
+        let normal = Solution {
+            pressure: self.field("pressure")?,
+            displacement: self.field("displacement")?,
+            approach: self.number("approach")?,
+            residual: self.number("residual")?,
+            stats: Stats {
+                iterations: self.number("iterations")? as usize,
+                convolutions: self.number("convolutions")?,
+                restarts: self.number("restarts")? as usize,
+            },
+        };
+        let has_friction = self.names.iter().any(|name| name == "stick");
+        let contact = match has_friction {
+            false => Equilibrium::Frictionless(normal),
+            true => Equilibrium::Frictional(Box::new(FrictionalSolution {
+                normal,
+                cap: self.field("cap")?,
+                shear: self.both("traction")?,
+                bound: self.field("bound")?,
+                displacement: self.both("displacement")?,
+                shift: self.pair("shift")?,
+                slip: self.both("last_slip")?,
+                stick: self.field("stick")?,
+            })),
+        };
+        let kept = self.names.iter().any(|name| name == "kept").then(|| self.field("kept")).transpose()?;
+        Ok(LoadingState {
+            increments,
+            contact,
+            origin: Origin {
+                load: self.number("origin_load")?,
+                approach: self.number("origin_approach")?,
+                force: self.pair("origin_force")?,
+                shift: self.pair("origin_shift")?,
+            },
+            flattening: Flattening { kept, deepest: self.field("deepest")? },
+            slip: has_friction.then(|| self.both("slip")).transpose()?,
+            dissipation_error: self.number("dissipation_error")?,
+        })
+    }
+
+    fn field(&self, name: &str) -> Result<Field> {
+        self.fields.read(name)?.into_field().ok_or_else(|| self.damaged(name))
+    }
+
+    fn both(&self, name: &str) -> Result<[Field; 2]> {
+        Ok([self.field(&format!("{name}_x"))?, self.field(&format!("{name}_y"))?])
+    }
+
+    fn number(&self, name: &str) -> Result<f64> {
+        match self.attributes.get(name) {
+            Some(Attribute::Number(number)) => Ok(*number),
+            Some(Attribute::Integer(number)) => Ok(*number as f64),
+            _ => Err(self.damaged(name)),
+        }
+    }
+
+    fn pair(&self, name: &str) -> Result<[f64; 2]> {
+        match self.attributes.get(name) {
+            Some(Attribute::Numbers(numbers)) => {
+                numbers.as_slice().try_into().map_err(|_| self.damaged(name))
+            }
+            _ => Err(self.damaged(name)),
+        }
+    }
+
+    fn damaged(&self, name: &str) -> Error {
+        let source = io::Error::new(io::ErrorKind::InvalidData, format!("`{name}` is missing or damaged"));
+        Error::File { path: self.path.clone(), source }
+    }
+}

@@ -1,0 +1,30 @@
+//! A study of a case: from a case file to its results.
+//!
+//! [`Case::load`] reads the case file, [`bodies`] reads or makes and prepares its surfaces, [`demand`] and [`estimate`] tell
+//! what is to be expected, [`run()`] does all of it and leaves a [`Results`] directory with a [`Summary`].
+
+pub mod case; // case.toml, checked to the key
+mod estimate; // what a case will take, and what to be wary of
+mod identity; // what a run is known by, to resume it
+mod loading; // increments of a loading, kept one by one
+mod prepare; // from a case to the two surfaces that meet
+mod results; // the results directory
+mod review; // what to be wary of in a result
+mod run; // from a case to its results
+mod subsurface; // the stress under the surface: where it is wanted, its file
+mod summary; // summary.json
+mod sweep; // points of a sweep, kept one by one
+mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
+mod warm_start; // where the next pass begins
+
+pub use case::Case;
+pub use estimate::{Demand, Estimate, demand, estimate};
+pub use identity::resolved;
+pub use loading::LoadingWriter;
+pub use prepare::{Bodies, Origin, Prepared, bodies, exact_pitch, grids};
+pub use results::{Existing, PassWriter, Results, Writer, pressure_name, traction_name};
+pub use run::run;
+pub use subsurface::{Plan, SubsurfaceRecord};
+pub use summary::{Outcome, Summary};
+pub use sweep::SweepWriter;
+pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};

@@ -1,0 +1,453 @@
+//! From a case to the two surfaces that meet: read or made, prepared, the upper one turned over.
+
+use std::path::Path;
+
+use super::case::{Body, Case, Mount, Source, TopographySpec};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::io::sha256;
+use crate::motion::Strategy;
+use crate::surface::{self, Findings, Preparation, ReadOptions, Resample, Scan, Topography};
+use crate::units::{self, Dimension, Metre};
+
+/// Relative difference up to which two pitches are one.
+const SAME_PITCH: f64 = 1e-9;
+
+/// The two surfaces of a case, on one pitch, which is the same to the last bit, and one width.
+#[derive(Debug, Clone)]
+pub struct Bodies {
+    /// Its heights are those of the lower body's surface.
+    pub lower: Prepared,
+    /// Its heights are those of the upper body's underside.
+    pub upper: Prepared,
+}
+
+/// A surface as it goes into the contact, every height defined.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// The heights; an approach counts from them as they are here.
+    pub topography: Topography,
+    /// Where they were read; none if they were made.
+    pub origin: Option<Origin>,
+    /// How they face.
+    pub mount: Mount,
+    /// What was missing and is filled, what was removed.
+    pub findings: Findings,
+}
+
+/// What was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Origin {
+    /// See [`Scan::format`].
+    pub format: &'static str,
+    /// The channel.
+    pub channel: String,
+    /// See [`Scan::is_underside`].
+    pub is_underside: bool,
+    /// Number of samples along x and y in the file.
+    pub shape: [usize; 2],
+    /// Digest of the file, hexadecimal.
+    pub sha256: String,
+}
+
+/// Reads or makes both topographies of `case` and prepares them as [`TopographySpec`] says.
+///
+/// # Errors
+/// [`Error::Case`] at the key that is to blame: a file that cannot be read, a parameter without meaning on this grid,
+/// missing heights that nothing fills, and surfaces that do not fit together. They must have one pitch and one number
+/// of cells along y; where nothing moves, and where both are shifted, also along x.
+pub fn bodies(case: &Case) -> Result<Bodies> {
+    let grid_of = |body: &Prepared| *body.topography.grid();
+    let [lower, mut upper] = in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other))?;
+    let fit = Fit { case, bodies: [&lower, &upper] };
+    fit.check_pitches()?;
+    let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
+    let axes: &[usize] = if overlap { &[1] } else { &[1, 0] };
+    axes.iter().try_for_each(|&axis| fit.check_shapes(axis))?;
+    let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
+    upper.topography = Topography::new(grid, upper.topography.into_heights())?;
+    Ok(Bodies { lower, upper })
+}
+
+/// The grids on which [`bodies`] will be, from the case and the sizes in its files alone.
+///
+/// # Errors
+/// [`Error::Case`] as of [`bodies`], for files and for steps of the preparation that have no meaning on their grid.
+pub fn grids(case: &Case) -> Result<[Grid; 2]> {
+    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other))
+}
+
+/// What is made of both bodies, in the second place of the one that takes its shape or pitch from the other.
+fn in_turn<T>(
+    case: &Case,
+    grid_of: impl Fn(&T) -> Grid,
+    make: impl Fn(&str, &Body, Option<Grid>) -> Result<T>,
+) -> Result<[T; 2]> {
+    if case.lower.topography.lacks().next().is_some() {
+        let upper = make("upper", &case.upper, None)?;
+        let lower = make("lower", &case.lower, Some(grid_of(&upper)))?;
+        Ok([lower, upper])
+    } else {
+        let lower = make("lower", &case.lower, None)?;
+        let upper = make("upper", &case.upper, Some(grid_of(&lower)))?;
+        Ok([lower, upper])
+    }
+}
+
+fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Grid> {
+    let at = Place { case, body: name };
+    let spec = &body.topography;
+    let (grid, preparation) = match &spec.source {
+        Source::File { path, channel, unit } => {
+            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, _, preparation) = measured(at, path, scan, sha256, spec)?;
+            (*topography.grid(), preparation)
+        }
+        Source::Generate { .. } | Source::Form { .. } => {
+            (spec.made_on(other).map_err(|error| at.parameter(error))?, spec.preparation)
+        }
+    };
+    preparation.grid(grid).map_err(|error| at.preparing(error))
+}
+
+fn prepared(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Prepared> {
+    let at = Place { case, body: name };
+    let spec = &body.topography;
+    let made = || spec.made_on(other);
+    let (topography, origin, preparation) = match &spec.source {
+        Source::File { path, channel, unit } => {
+            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, origin, preparation) = measured(at, path, scan, sha256, spec)?;
+            (Ok(topography), Some(origin), preparation)
+        }
+        Source::Generate { generate, seed, .. } => {
+            (made().and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
+        }
+        Source::Form { form, .. } => (made().and_then(|grid| form.on(&grid)), None, spec.preparation),
+    };
+    let topography = topography.map_err(|error| at.parameter(error))?;
+    let samples =
+        preparation.window.map_or(topography.grid().cells(), |[_, _, nx, ny]| nx.saturating_mul(ny));
+    let (mut topography, findings) = preparation.apply(topography).map_err(|error| at.preparing(error))?;
+    if topography.undefined() > 0 {
+        return Err(at.missing(&findings, samples));
+    }
+    for (n, layer) in spec.plus.iter().enumerate() {
+        let added =
+            layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
+        topography = topography.plus(&added)?;
+    }
+    at.measurable(&topography)?;
+    let of_file = || match &origin {
+        Some(origin) if origin.is_underside => Mount::AsIs,
+        _ => Mount::TurnedOver,
+    };
+    let mount = body.mount.unwrap_or_else(of_file);
+    let topography = match mount {
+        Mount::TurnedOver => topography.underside(),
+        Mount::AsIs => topography,
+    };
+    Ok(Prepared { topography, origin, mount, findings })
+}
+
+/// What the file holds, and its digest.
+fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<(Scan, String)> {
+    let bytes = surface::contents(path)?;
+    let mut options = ReadOptions::default();
+    (options.channel, options.unit) = (channel.map(str::to_owned), unit);
+    Ok((options.scan_bytes(path, &bytes)?, sha256(&bytes)))
+}
+
+/// What is to be done with what the file holds.
+fn measured(
+    at: Place<'_>,
+    path: &Path,
+    scan: Scan,
+    sha256: String,
+    spec: &TopographySpec,
+) -> Result<(Topography, Origin, Preparation)> {
+    let is_underside = scan.is_underside();
+    let Scan { format, channel, pitch: carried, heights, .. } = scan;
+    let shape = [heights.nrows(), heights.ncols()];
+    let mut preparation = spec.preparation;
+    if let (Some(pitch), Some(carried)) = (spec.pitch, carried) {
+        if preparation.resample.is_some() {
+            return Err(at.error(
+                "resample",
+                format!(
+                    "both 'resample' and 'pitch' are given, but the file has its own pitch, {}",
+                    lengths(carried)
+                ),
+                Some("leave one of them out: each resamples the heights".to_owned()),
+            ));
+        }
+        preparation.resample = Some(Resample::Pitch(pitch));
+    }
+    let pitch = carried.or(spec.pitch).ok_or_else(|| {
+        at.error(
+            "file",
+            Error::NoPitch { path: path.to_owned(), format }.to_string(),
+            Some("add the distance of its heights, for example `pitch = \"0.5 um\"`".to_owned()),
+        )
+    })?;
+    let grid = Grid::new(shape, pitch).map_err(|error| at.parameter(error))?;
+    let topography = Topography::new(grid, heights).map_err(|error| at.reading(error))?;
+    Ok((topography, Origin { format, channel, is_underside, shape, sha256 }, preparation))
+}
+
+/// Where the mistakes of one body's topography are shown.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    case: &'a Case,
+    body: &'a str,
+}
+
+impl Place<'_> {
+    fn error(&self, key: &str, message: String, hint: Option<String>) -> Error {
+        self.case.error_at(&format!("{}.topography.{key}", self.body), message, hint)
+    }
+
+    /// A file that could not be read: what its reader said, at the key that names the file or its channel.
+    fn reading(&self, error: Error) -> Error {
+        match &error {
+            Error::NoChannel { available, .. } => {
+                let names: Vec<_> = available.iter().map(|name| format!("`{name}`")).collect();
+                let hint = format!("it holds {}; choose one with `channel`", names.join(", "));
+                self.error("channel", error.to_string(), Some(hint))
+            }
+            Error::OwnUnit { .. } => self.error("unit", error.to_string(), None),
+            Error::File { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                let hint = "the files of a case are looked for in the case file's folder".to_owned();
+                self.error("file", error.to_string(), Some(hint))
+            }
+            _ => self.error("file", error.to_string(), error.hint()),
+        }
+    }
+
+    /// Heights that nothing fills.
+    fn missing(&self, findings: &Findings, samples: usize) -> Error {
+        let missing = findings.undefined + findings.spikes;
+        let spikes = match findings.spikes {
+            0 => String::new(),
+            spikes => format!(", {spikes} of them removed as spikes"),
+        };
+        self.error(
+            "file",
+            format!("{missing} of {samples} heights of {} are missing{spikes}", self.file()),
+            Some("set `fill = \"harmonic\"`, a membrane over each hole, or `fill = \"nearest\"`".to_owned()),
+        )
+    }
+
+    /// An error if there are heights that are no lengths of any body.
+    fn measurable(&self, topography: &Topography) -> Result<()> {
+        let range = Dimension::Length.range();
+        let highest = topography.heights().iter().fold(0.0, |highest: f64, z| highest.max(z.abs()));
+        if highest <= range.most {
+            return Ok(());
+        }
+        let [highest, most] = [highest, range.most].map(|z| units::format(z, Dimension::Length));
+        let message = format!("heights reach {highest}, expected magnitudes up to {most}");
+        Err(self.error("file", message, Some("check the units".to_owned())))
+    }
+
+    /// The file as the case has it; nothing for what is made.
+    fn file(&self) -> String {
+        let body = if self.body == "lower" { &self.case.lower } else { &self.case.upper };
+        match &body.topography.source {
+            Source::File { path, .. } => path.display().to_string(),
+            _ => String::new(),
+        }
+    }
+
+    /// A step of the preparation that failed, at its key.
+    fn preparing(&self, error: Error) -> Error {
+        match error {
+            Error::WindowOutside { .. } => self.error("window", error.to_string(), None),
+            Error::NothingDefined { .. } => {
+                self.error("file", format!("{}: {error}", self.file()), error.hint())
+            }
+            other => self.parameter(other),
+        }
+    }
+
+    /// A parameter that turned out to have no meaning on this grid, at its key.
+    fn parameter(&self, error: Error) -> Error {
+        self.parameter_of("", error)
+    }
+
+    /// The same of a `table` within the topography's, `"plus.0."`.
+    fn parameter_of(&self, table: &str, error: Error) -> Error {
+        match error {
+            Error::OutOfRange { quantity, value, dimension, expected } => {
+                let value =
+                    dimension.map_or_else(|| value.to_string(), |dimension| units::format(value, dimension));
+                let message = format!("'{quantity}' is {value}, expected {expected}");
+                self.error(&format!("{table}{quantity}"), message, None)
+            }
+            other => self.error("", other.to_string(), other.hint()),
+        }
+    }
+}
+
+/// Two surfaces that must fit together, and what would make them.
+struct Fit<'a> {
+    case: &'a Case,
+    bodies: [&'a Prepared; 2],
+}
+
+const NAMES: [&str; 2] = ["lower", "upper"];
+
+impl Fit<'_> {
+    fn grids(&self) -> [Grid; 2] {
+        self.bodies.map(|body| *body.topography.grid())
+    }
+
+    fn specs(&self) -> [&TopographySpec; 2] {
+        [&self.case.lower.topography, &self.case.upper.topography]
+    }
+
+    fn check_pitches(&self) -> Result<()> {
+        let [lower, upper] = self.grids();
+        if (0..2).all(|axis| same(lower.pitch[axis], upper.pitch[axis])) {
+            return Ok(());
+        }
+        // What was made can be made on any grid; of two measured surfaces the finer one loses the least.
+        let changed = match self.bodies.map(|body| body.origin.is_some()) {
+            [false, true] => 0,
+            [true, false] => 1,
+            _ => usize::from(upper.cell_area() < lower.cell_area()),
+        };
+        let other = self.grids()[1 - changed];
+        let one_extent = (0..2).all(|axis| same(lower.extent()[axis], upper.extent()[axis]));
+        let setting = if one_extent && self.bodies[changed].origin.is_some() {
+            format!("resample = {:?}", other.shape)
+        } else if other.pitch[0] == other.pitch[1] {
+            format!("pitch = {}", quoted(other.pitch[0]))
+        } else {
+            format!("pitch = [{}, {}]", quoted(other.pitch[0]), quoted(other.pitch[1]))
+        };
+        let message = format!(
+            "the bodies have different pitches: lower {}, upper {}",
+            lengths(lower.pitch),
+            lengths(upper.pitch)
+        );
+        Err(self.error("pitch", changed, message, &[setting]))
+    }
+
+    fn check_shapes(&self, axis: usize) -> Result<()> {
+        let shapes = self.grids().map(|grid| grid.shape);
+        let [lower, upper] = shapes;
+        if lower[axis] == upper[axis] {
+            return Ok(());
+        }
+        let changed = usize::from(upper[axis] > lower[axis]);
+        let (mut shape, kept) = (shapes[changed], lower[axis].min(upper[axis]));
+        let spec = self.specs()[changed];
+        let message = format!(
+            "the bodies have different numbers of cells along {}: lower {}, upper {}",
+            ["x", "y"][axis],
+            by(lower),
+            by(upper)
+        );
+        let preparation = &spec.preparation;
+        if preparation.rotate != 0.0 {
+            let name = NAMES[changed];
+            let hint = format!(
+                "a smaller `window` in [{name}.topography], in samples before `rotate`, leaves fewer"
+            );
+            return Err(Place { case: self.case, body: name }.error("window", message, Some(hint)));
+        }
+        let source = match &self.bodies[changed].origin {
+            Some(origin) => origin.shape,
+            None => spec.source.shape().unwrap_or(shapes[1 - changed]),
+        };
+        let [x0, y0, nx, ny] = preparation.window.unwrap_or([0, 0, source[0], source[1]]);
+        let mut samples = [nx, ny];
+        // In samples of the source, where those are not the cells.
+        samples[axis] = (samples[axis] * kept).div_ceil(shape[axis]);
+        shape[axis] = kept;
+        let is_made = self.bodies[changed].origin.is_none();
+        let mut settings = if is_made && preparation.window.is_none() && preparation.resample.is_none() {
+            vec![format!("shape = {shape:?}")]
+        } else {
+            vec![format!("window = {:?}", [x0, y0, samples[0], samples[1]])]
+        };
+        if preparation.resample.is_some() {
+            settings.push(format!("resample = {shape:?}"));
+        }
+        let key = if settings[0].starts_with("shape") { "shape" } else { "window" };
+        Err(self.error(key, changed, message, &settings))
+    }
+
+    fn error(&self, key: &str, body: usize, message: String, settings: &[String]) -> Error {
+        let settings: Vec<_> = settings.iter().map(|setting| format!("`{setting}`")).collect();
+        let hint = format!("set {} in [{}.topography]", settings.join(" and "), NAMES[body]);
+        Place { case: self.case, body: NAMES[body] }.error(key, message, Some(hint))
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_PITCH * a.abs().max(b.abs())
+}
+
+/// As a case file has it.
+fn quoted(length: Metre) -> String {
+    format!("\"{}\"", exact_pitch(length).replace('µ', "u"))
+}
+
+fn lengths([x, y]: [Metre; 2]) -> String {
+    format!("{} × {}", exact_pitch(x), exact_pitch(y))
+}
+
+/// A pitch with as many digits as it takes for a body that is given it to fit this one.
+pub fn exact_pitch(pitch: Metre) -> String {
+    units::format_within(pitch, Dimension::Length, 0.1 * SAME_PITCH)
+}
+
+fn by([nx, ny]: [usize; 2]) -> String {
+    format!("{nx} × {ny}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Field;
+    use crate::io::fields::FieldFile;
+
+    #[test]
+    fn the_underside_in_results_is_mounted_as_it_is_unless_the_case_says_otherwise() {
+        let directory = tempfile::tempdir().unwrap();
+        let grid = Grid::new([4, 3], [1e-6; 2]).unwrap();
+        let lower = Field::from_shape_fn(grid.shape, |(ix, iy)| 1e-9 * (ix * ix + 2 * iy) as f64);
+        let upper = &lower * 3.0 + 5e-9;
+        let mut file = FieldFile::new();
+        file.set("version", "0.1.0").set("pass", 5).set("identity", "a digest");
+        file.add_field("lower", "m", &grid, [0.0; 2], &lower)
+            .add_field("upper", "m", &grid, [0.0; 2], &upper);
+        file.write(&directory.path().join("pass-0005.h5")).unwrap();
+        let mounted = |channel: &str, mount: &str| {
+            let body = |name: &str, more: &str, channel: &str| {
+                format!(
+                    "[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\n{more}\n[{name}.topography]\nfile = \"pass-0005.h5\"\n\
+                     channel = \"{channel}\"\n"
+                )
+            };
+            let path = directory.path().join("case.toml");
+            let text =
+                body("lower", "", "lower") + &body("upper", mount, channel) + "[contact]\nload = \"1 mN\"\n";
+            std::fs::write(&path, text).unwrap();
+            bodies(&Case::load(&path).unwrap()).unwrap()
+        };
+        let by_default = mounted("upper", "");
+        assert_eq!(by_default.lower.topography.heights(), &lower);
+        assert_eq!(by_default.upper.topography.heights(), &upper);
+        assert_eq!(by_default.upper.mount, Mount::AsIs);
+        assert!(by_default.upper.origin.unwrap().is_underside);
+        let turned = mounted("upper", "mount = \"turned-over\"").upper;
+        assert_eq!(turned.topography.heights()[[0, 0]], -upper[[3, 0]]);
+        // The surface of a lower body is turned over, as any is that was measured.
+        let lower_as_upper = mounted("lower", "").upper;
+        assert_eq!(lower_as_upper.topography.heights()[[0, 0]], -lower[[3, 0]]);
+        assert_eq!(lower_as_upper.mount, Mount::TurnedOver);
+    }
+}

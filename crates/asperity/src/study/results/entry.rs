@@ -1,0 +1,265 @@
+//! A results directory that a run enters: what it may find there, what it clears, and the lock that keeps others out.
+
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::Results;
+use crate::error::{Error, Result};
+use crate::io::atomic;
+use crate::io::fields::{Attribute, Fields};
+use crate::motion::{StepRecord, SweepRecord};
+use crate::study::identity;
+use crate::study::sweep::is_kept;
+
+/// What to do about results that are there already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Existing {
+    /// Refuse.
+    Keep,
+    /// Replace them.
+    Overwrite,
+    /// Go on from the last finished pass.
+    Resume,
+}
+
+/// Held by the run that writes to a directory; it dies with its process.
+#[derive(Debug)]
+pub(super) struct Lock {
+    /// None where the file system has no locks.
+    held: Option<File>,
+}
+
+/// The file that a run locks. It stays when the run is over: only its lock says that there is one.
+const LOCK: &str = ".lock";
+
+/// How long a run waits for another one to end.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+impl Lock {
+    fn acquire(directory: &Path) -> Result<Self> {
+        let path = directory.join(LOCK);
+        let failed = |source| Error::File { path: path.clone(), source };
+        let file = File::options().write(true).create(true).truncate(false).open(&path).map_err(failed)?;
+        let began = Instant::now();
+        loop {
+            match file.try_lock() {
+                Ok(()) => return Ok(Self { held: Some(file) }),
+                Err(TryLockError::Error(_)) => return Ok(Self { held: None }),
+                // A process that was just killed may take a moment to be gone.
+                Err(TryLockError::WouldBlock) if began.elapsed() < PATIENCE => thread::sleep(PATIENCE / 50),
+                Err(TryLockError::WouldBlock) => return Err(Error::InUse { path: directory.to_owned() }),
+            }
+        }
+    }
+
+    /// What the user should know where nothing is locked.
+    pub(super) fn warning(&self) -> Option<&'static str> {
+        self.held.is_none().then_some(
+            "the file system of the results has no locks: a second run in their directory would go unnoticed",
+        )
+    }
+}
+
+/// What a run goes on from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kept {
+    Nothing,
+    /// So many finished passes.
+    Passes(usize),
+    /// A loading under way.
+    Increments,
+    /// Points of a sweep.
+    Points,
+}
+
+/// Locks `directory`, made where it is missing, for the results of `case`; what is kept of what is there. Nothing is
+/// cleared yet.
+pub(super) fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<(Lock, Kept)> {
+    let failed = |source| Error::File { path: directory.to_owned(), source };
+    outside_others(directory)?;
+    fs::create_dir_all(directory).map_err(|source| {
+        failed(if source.kind() == ErrorKind::AlreadyExists {
+            ErrorKind::NotADirectory.into()
+        } else {
+            source
+        })
+    })?;
+    // Before the lock too: nothing is left in a directory of something else.
+    admit(directory, existing)?;
+    let lock = Lock::acquire(directory)?;
+    admit(directory, existing)?;
+    let results = Results { directory: directory.to_owned() };
+    let kept = match existing {
+        Existing::Resume if results.case_path().exists() => resumable(&results, case)?,
+        _ => Kept::Nothing,
+    };
+    Ok((lock, kept))
+}
+
+/// An error if `directory` lies within the results of another run, which are cleared as a whole.
+fn outside_others(directory: &Path) -> Result<()> {
+    let all = std::path::absolute(directory);
+    let all = all.map_err(|source| Error::File { path: directory.to_owned(), source })?;
+    match all.ancestors().skip(1).find(|folder| folder.join("case.json").exists()) {
+        Some(results) => {
+            Err(Error::WithinResults { path: directory.to_owned(), results: results.to_owned() })
+        }
+        None => Ok(()),
+    }
+}
+
+/// An error if there is something in `directory` that must be kept.
+fn admit(directory: &Path, existing: Existing) -> Result<()> {
+    let failed = |source| Error::File { path: directory.to_owned(), source };
+    let results = directory.join("case.json").exists();
+    let vacant = is_vacant(directory).map_err(failed)?;
+    match existing {
+        _ if vacant => Ok(()),
+        Existing::Overwrite | Existing::Resume if results => Ok(()),
+        _ => Err(Error::ResultsExist { path: directory.to_owned(), results }),
+    }
+}
+
+/// Whether there is nothing but what a run leaves that ended before its `case.json`.
+fn is_vacant(directory: &Path) -> io::Result<bool> {
+    for entry in fs::read_dir(directory)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let left = name == LOCK
+            || atomic::is_temporary(&name)
+            || name == OsStr::new("fields") && entry.file_type()?.is_dir() && is_vacant(&entry.path())?;
+        if !left {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// What is finished, if the results are those of `case` and whole.
+fn resumable(results: &Results, case: &Value) -> Result<Kept> {
+    identity::compare(results.directory(), &results.case()?, case)?;
+    let identity = identity::of(case);
+    let state = results.increment_state_path();
+    if state.exists() {
+        whole(&state, &identity, None)?;
+        return Ok(Kept::Increments);
+    }
+    let points = results.sweep()?;
+    if !points.is_empty() {
+        return kept_points(results, case, &identity, &points);
+    }
+    let passes = results.passes()?;
+    if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
+        let path = results.passes_path();
+        return Err(Error::NotResumable { path, reason: "does not number its passes 1, 2, 3 …" });
+    }
+    if passes.is_empty() {
+        return Ok(Kept::Nothing);
+    }
+    let steps = results.steps_path();
+    if !steps.exists() {
+        return Err(Error::NotResumable { path: steps, reason: "is missing" });
+    }
+    if !is_whole(&results.steps()?, passes.len()) {
+        let reason = "does not have every position of the finished passes";
+        return Err(Error::NotResumable { path: steps, reason });
+    }
+    for pass in 0..=passes.len() {
+        whole(&results.fields_path(pass), &identity, Some(pass))?;
+        if pass > 0 && case.get("subsurface").is_some() {
+            whole(&results.subsurface_path(Some(pass)), &identity, Some(pass))?;
+        }
+    }
+    // Where nothing is left to do it is not missed.
+    let wanted = case.pointer("/motion/passes").and_then(Value::as_u64);
+    if wanted.is_some_and(|wanted| wanted > passes.len() as u64) {
+        whole(&results.warm_start_path(passes.len()), &identity, Some(passes.len()))?;
+    }
+    Ok(Kept::Passes(passes.len()))
+}
+
+/// The points of a sweep, if the fields kept of each are whole.
+fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepRecord]) -> Result<Kept> {
+    if !points.iter().map(|point| point.point).eq(1..=points.len()) {
+        let path = results.sweep_path();
+        return Err(Error::NotResumable { path, reason: "does not number its points 1, 2, 3 …" });
+    }
+    let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
+    for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
+        whole(&results.point_path(point), identity, None)?;
+    }
+    Ok(Kept::Points)
+}
+
+/// Whether each pass has the same positions.
+fn is_whole(steps: &[StepRecord], passes: usize) -> bool {
+    let positions = steps.len() / passes;
+    let expected = (1..=passes).flat_map(|pass| (1..=positions).map(move |step| (pass, step)));
+    positions > 0 && steps.iter().map(|step| (step.pass, step.step)).eq(expected)
+}
+
+/// An error unless `path` holds the undamaged fields of that run, of a motion those of that pass.
+fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
+    let refused = |reason| Err(Error::NotResumable { path: path.to_owned(), reason });
+    if !path.exists() {
+        return refused("is missing");
+    }
+    let fields = Fields::open(path)?;
+    let attributes = fields.attributes()?;
+    if attributes.get("identity") != Some(&Attribute::from(identity)) {
+        return refused("is of another run");
+    }
+    if attributes.get("pass") != pass.map(Attribute::from).as_ref() {
+        return refused("is of another pass");
+    }
+    fields.verify()
+}
+
+/// Removes what an earlier computation left but what is kept, and nothing else.
+pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
+    let at = |name: &str| results.directory.join(name);
+    // It tells of all, or is not there.
+    results.remove(&at("summary.json"))?;
+    match kept {
+        Kept::Nothing => {
+            // First what says that something is done, never the file by which the directory is known as ours.
+            for name in ["passes.csv", "steps.csv", "increments.csv", "sweep.csv"].iter().chain(&AT_REST) {
+                results.remove(&at(name))?;
+            }
+            let folders = [results.fields_folder(), results.figures_folder()];
+            for path in folders.into_iter().filter(|path| path.exists()) {
+                fs::remove_dir_all(&path).map_err(|source| Error::File { path, source })?;
+            }
+            Ok(())
+        }
+        Kept::Passes(passes) => clear_later(results, passes),
+        Kept::Increments | Kept::Points => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
+    }
+}
+
+/// The fields of a static contact.
+const AT_REST: [&str; 4] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti"];
+
+/// The fields of passes that were not finished, and the warm starts of all but the last that was.
+fn clear_later(results: &Results, passes: usize) -> Result<()> {
+    let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
+    names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
+    names.push(results.warm_start_path(passes));
+    let folder = results.fields_folder();
+    let failed = |source| Error::File { path: folder.clone(), source };
+    for entry in fs::read_dir(&folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let name = path.to_string_lossy();
+        let of = name.strip_suffix("-upper.vti").or(name.strip_suffix(".vti")).or(name.strip_suffix(".h5"));
+        if of.is_some_and(|of| !names.contains(&PathBuf::from(format!("{of}.h5")))) {
+            results.remove(&path)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,263 @@
+//! A results directory: what a computation leaves, and how it is found again.
+//!
+//! ```text
+//! DIR/case.json            the case as resolved, SI, with the digests that --resume compares
+//!     steps.csv passes.csv a motion: a row per position, a row per pass
+//!     fields/initial.h5    the surfaces before the first pass
+//!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
+//!     fields/warm-start-0001.h5    where the next pass begins; of the last pass only
+//!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
+//!     fields.h5            a static contact
+//!     increments.csv       with friction or a history, a row per increment of its loading
+//!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
+//!     fields/point-0001.h5 the pressure and the gap of the points kept
+//!     fields/increment-state.h5   what the next increment goes on from, until all is done
+//!     subsurface.h5        the stress under its surface, where it is wanted
+//!     *.vti                beside the fields, for ParaView, where they are wanted
+//!     summary.json         once all is done
+//!     figures/             pictures
+//!     .lock                locked while a run writes here
+//! ```
+//!
+//! A pass is there once its row stands in `passes.csv`, which is written last; the warm start of the pass before is then
+//! removed.
+
+mod entry; // what a run may find and clear, the lock
+mod write; // what a run leaves
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+pub use entry::Existing;
+pub use write::{PassWriter, Writer};
+
+use super::{summary, tables, warm_start};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::io::fields::Fields;
+use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, WarmStart};
+use crate::study::summary::Summary;
+use crate::surface::Topography;
+
+/// A results directory, to be read.
+#[derive(Debug, Clone)]
+pub struct Results {
+    directory: PathBuf,
+}
+
+impl Results {
+    /// Opens a directory that holds results.
+    ///
+    /// # Errors
+    /// [`Error::NoResults`].
+    pub fn open(directory: &Path) -> Result<Self> {
+        let results = Self { directory: directory.to_owned() };
+        if results.case_path().exists() {
+            Ok(results)
+        } else {
+            Err(Error::NoResults { path: directory.to_owned() })
+        }
+    }
+
+    /// The directory.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// The case as resolved.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn case(&self) -> Result<serde_json::Value> {
+        let path = self.case_path();
+        let text = fs::read(&path).map_err(|source| self.failed(&path, source))?;
+        serde_json::from_slice(&text).map_err(|error| self.failed(&path, error.into()))
+    }
+
+    /// The summary, which is there once all is done.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn summary(&self) -> Result<Summary> {
+        summary::read(&self.summary_path())
+    }
+
+    /// The finished passes; none where nothing moved yet.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn passes(&self) -> Result<Vec<PassRecord>> {
+        let path = self.passes_path();
+        if path.exists() { tables::read_passes(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The positions of the finished passes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn steps(&self) -> Result<Vec<StepRecord>> {
+        let path = self.steps_path();
+        let finished = self.passes()?.len();
+        let steps = if path.exists() { tables::read_steps(&path)? } else { Vec::new() };
+        Ok(steps.into_iter().filter(|step| step.pass <= finished).collect())
+    }
+
+    /// The fields of a motion after so many passes, 0 for those before the first.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn fields_after(&self, passes: usize) -> Result<Fields> {
+        Fields::open(&self.fields_path(passes))
+    }
+
+    /// The fields of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn static_fields(&self) -> Result<Fields> {
+        Fields::open(&self.static_path())
+    }
+
+    /// The increments of a static contact that was loaded in stages; none of other contacts.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
+        let path = self.increments_path();
+        if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The points of a sweep that are done; none of other contacts.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn sweep(&self) -> Result<Vec<SweepRecord>> {
+        let path = self.sweep_path();
+        if path.exists() { tables::read_sweep(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The fields kept of a point, from 1, of a sweep.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn point_fields(&self, point: usize) -> Result<Fields> {
+        Fields::open(&self.point_path(point))
+    }
+
+    /// The stress under the surface: of a static contact, or in the pass, from 1, of a motion.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn subsurface_fields(&self, pass: Option<usize>) -> Result<Fields> {
+        Fields::open(&self.subsurface_path(pass))
+    }
+
+    /// The surfaces after so many passes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn surfaces_after(&self, passes: usize) -> Result<[Topography; 2]> {
+        let fields = self.fields_after(passes)?;
+        let topography = |name| -> Result<Topography> {
+            let stored = fields.read(name)?;
+            let pitch = [stored.pitch[0], stored.pitch[1]];
+            let heights = stored.into_field().ok_or(Error::Unsupported("a surface that is not a matrix"))?;
+            Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)
+        };
+        Ok([topography("lower")?, topography("upper")?])
+    }
+
+    fn case_path(&self) -> PathBuf {
+        self.directory.join("case.json")
+    }
+
+    fn summary_path(&self) -> PathBuf {
+        self.directory.join("summary.json")
+    }
+
+    /// Where the pass after so many begins.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn warm_start_after(&self, passes: usize) -> Result<WarmStart> {
+        warm_start::read(&self.warm_start_path(passes))
+    }
+
+    fn passes_path(&self) -> PathBuf {
+        self.directory.join("passes.csv")
+    }
+
+    fn steps_path(&self) -> PathBuf {
+        self.directory.join("steps.csv")
+    }
+
+    pub(super) fn increments_path(&self) -> PathBuf {
+        self.directory.join("increments.csv")
+    }
+
+    pub(super) fn sweep_path(&self) -> PathBuf {
+        self.directory.join("sweep.csv")
+    }
+
+    pub(super) fn point_path(&self, point: usize) -> PathBuf {
+        self.fields_folder().join(format!("point-{point:04}.h5"))
+    }
+
+    fn static_path(&self) -> PathBuf {
+        self.directory.join("fields.h5")
+    }
+
+    /// Where figures go.
+    pub fn figures_folder(&self) -> PathBuf {
+        self.directory.join("figures")
+    }
+
+    fn fields_folder(&self) -> PathBuf {
+        self.directory.join("fields")
+    }
+
+    fn fields_path(&self, passes: usize) -> PathBuf {
+        let name = if passes == 0 { "initial.h5".to_owned() } else { format!("pass-{passes:04}.h5") };
+        self.fields_folder().join(name)
+    }
+
+    fn warm_start_path(&self, passes: usize) -> PathBuf {
+        self.fields_folder().join(format!("warm-start-{passes:04}.h5"))
+    }
+
+    pub(super) fn increment_state_path(&self) -> PathBuf {
+        self.fields_folder().join("increment-state.h5")
+    }
+
+    /// Removes a file if it is there.
+    pub(super) fn remove(&self, path: &Path) -> Result<()> {
+        match fs::remove_file(path) {
+            Err(source) if source.kind() != ErrorKind::NotFound => {
+                Err(Error::File { path: path.to_owned(), source })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn subsurface_path(&self, pass: Option<usize>) -> PathBuf {
+        match pass {
+            None => self.directory.join("subsurface.h5"),
+            Some(pass) => self.fields_folder().join(format!("subsurface-{pass:04}.h5")),
+        }
+    }
+
+    fn failed(&self, path: &Path, source: std::io::Error) -> Error {
+        Error::File { path: path.to_owned(), source }
+    }
+}
+
+/// Name of the pressure field of a position, which is counted from 1.
+pub fn pressure_name(step: usize) -> String {
+    format!("pressure_{step:05}")
+}
+
+/// Name of the shear traction along x of a position, which is counted from 1.
+pub fn traction_name(step: usize) -> String {
+    format!("traction_x_{step:05}")
+}

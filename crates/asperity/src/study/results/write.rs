@@ -1,0 +1,285 @@
+//! What a run writes into its results directory.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::entry::{self, Existing, Kept, Lock};
+use super::{Results, pressure_name, traction_name};
+use crate::error::Result;
+use crate::grid::Field;
+use crate::io::fields::FieldFile;
+use crate::io::{atomic, vti};
+use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
+use crate::solver::Solution;
+use crate::study::loading::LoadingWriter;
+use crate::study::subsurface::{Plan, SubsurfaceRecord};
+use crate::study::summary::Summary;
+use crate::study::sweep::SweepWriter;
+use crate::study::{identity, summary, tables, warm_start};
+use crate::subsurface::Tractions;
+
+/// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
+#[derive(Debug)]
+pub struct Writer {
+    results: Results,
+    case: Value,
+    identity: String,
+    kept: Kept,
+    lock: Lock,
+}
+
+impl Writer {
+    /// Makes `directory` for the results of `case`, the content of its `case.json`, or enters it again. What is there
+    /// stays until [`Self::begin`].
+    ///
+    /// # Errors
+    /// [`crate::Error::ResultsExist`] where there is something that must be kept, [`crate::Error::WithinResults`], [`crate::Error::InUse`] while another run writes
+    /// there; of results to be resumed [`crate::Error::OtherCase`] (more passes and another title are welcome),
+    /// [`crate::Error::SurfaceChanged`], [`crate::Error::NotResumable`] where a file is missing or of another run; [`crate::Error::File`].
+    pub fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<Self> {
+        let (lock, kept) = entry::enter(directory, case, existing)?;
+        Ok(Self {
+            results: Results { directory: directory.to_owned() },
+            case: case.clone(),
+            identity: identity::of(case),
+            kept,
+            lock,
+        })
+    }
+
+    /// Clears what is replaced, and what killed runs have left, and writes `case.json`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn begin(&self) -> Result<()> {
+        let fields = self.results.fields_folder();
+        entry::clear(&self.results, self.kept)?;
+        for directory in [self.results.directory(), &fields, &self.results.figures_folder()] {
+            atomic::sweep(directory);
+        }
+        let text = serde_json::to_vec_pretty(&self.case).expect("a JSON value can be written");
+        atomic::write(&self.results.case_path(), &text)
+    }
+
+    /// What is there already.
+    pub fn results(&self) -> &Results {
+        &self.results
+    }
+
+    /// What the user should know of the directory.
+    pub fn warning(&self) -> Option<&'static str> {
+        self.lock.warning()
+    }
+
+    /// Writes the summary.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn finish(&self, content: &Summary) -> Result<()> {
+        summary::write(&self.results.summary_path(), content)
+    }
+
+    /// Writes the fields of a static contact.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
+        let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower), pair.hardness());
+        let file = static_fields(self.field_file(), pair, solution, &plastic);
+        file.write(&self.results.static_path())
+    }
+
+    /// Writes the fields of a static contact that has been loaded in stages, or rolls.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_loaded(&self, pair: &Pair, contact: &LoadedContact) -> Result<()> {
+        let grid = pair.lower_grid();
+        let mut file = static_fields(self.field_file(), pair, contact.solution.normal(), &contact.plastic);
+        let mut add = |name: &str, unit: &str, field: &Field| {
+            file.add_field(name, unit, &grid, [0.0, 0.0], field);
+        };
+        if let Some(solution) = contact.solution.frictional() {
+            add("traction_x", "Pa", &solution.shear[0]);
+            add("traction_y", "Pa", &solution.shear[1]);
+            add("displacement_x", "m", &solution.displacement[0]);
+            add("displacement_y", "m", &solution.displacement[1]);
+        }
+        if let Some([x, y]) = &contact.slip {
+            add("slip_x", "m", x);
+            add("slip_y", "m", y);
+        }
+        if let Some(solution) = contact.solution.frictional() {
+            add("stick", "1", &solution.stick);
+            if solution.cap.iter().any(|cap| *cap != pair.hardness()) {
+                add("cap", "Pa", &solution.cap);
+            }
+        }
+        file.write(&self.results.static_path())
+    }
+
+    /// What keeps each increment of a loading of so many `increments` here.
+    pub fn loading(&self, pair: &Pair, increments: usize) -> LoadingWriter {
+        LoadingWriter::new(&self.results, &self.identity, pair.lower_grid(), increments)
+    }
+
+    /// The output that keeps each point of a sweep here, with the fields of every `fields_every`-th (0: of none).
+    pub fn sweep(&self, pair: &Pair, fields_every: usize) -> SweepWriter {
+        SweepWriter::new(&self.results, &self.identity, pair, fields_every)
+    }
+
+    /// Computes and writes the stress under the surface of a static contact, whose lower body bears
+    /// `tractions`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_subsurface(&self, plan: &Plan, tractions: Tractions) -> Result<SubsurfaceRecord> {
+        plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions)
+    }
+
+    /// Writes the surfaces before the first pass.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_initial(&self, pair: &Pair) -> Result<()> {
+        let mut file = self.field_file();
+        file.set("pass", 0);
+        set_caps(&mut file, pair);
+        add_surfaces(&mut file, pair);
+        file.write(&self.results.fields_path(0))
+    }
+
+    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none) and
+    /// the stress under the surface, where there is a plan for it.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`] if the results of earlier passes cannot be read.
+    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter<'_>> {
+        let passes = self.results.passes()?;
+        let done = plan.iter().flat_map(|_| 1..=passes.len());
+        Ok(PassWriter {
+            steps: self.results.steps()?,
+            subsurface: done
+                .map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass))))
+                .collect::<Result<_>>()?,
+            passes,
+            writer: self,
+            pressure_every,
+            plan,
+        })
+    }
+
+    /// Writes each file of fields as image data for ParaView, too, unless that is there.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_for_paraview(&self) -> Result<()> {
+        let finished = self.results.passes()?.len();
+        let passes = (0..=finished).filter(|_| finished > 0).map(|pass| self.results.fields_path(pass));
+        let points = self.results.sweep()?.into_iter().map(|point| self.results.point_path(point.point));
+        let all = passes.chain(points).chain([self.results.static_path()]).filter(|path| path.exists());
+        for path in all.filter(|path| !path.with_extension("vti").exists()) {
+            vti::write_fields(&path)?;
+        }
+        Ok(())
+    }
+
+    /// A file of fields that says which run it is of.
+    fn field_file(&self) -> FieldFile {
+        FieldFile::of_run(&self.identity)
+    }
+}
+
+/// Writes passes as they are finished: fields, then positions, then the pass itself.
+pub struct PassWriter<'a> {
+    writer: &'a Writer,
+    steps: Vec<StepRecord>,
+    passes: Vec<PassRecord>,
+    subsurface: Vec<SubsurfaceRecord>,
+    pressure_every: usize,
+    plan: Option<Plan>,
+}
+
+impl PassWriter<'_> {
+    /// The passes written so far.
+    pub fn passes(&self) -> &[PassRecord] {
+        &self.passes
+    }
+
+    /// The stresses under the surface in them; none without a plan.
+    pub fn subsurface(&self) -> &[SubsurfaceRecord] {
+        &self.subsurface
+    }
+}
+
+impl Output for PassWriter<'_> {
+    fn pass(&mut self, report: &PassReport) -> Result<()> {
+        let pair = report.pair;
+        let results = &self.writer.results;
+        let mut file = self.writer.field_file();
+        file.set("pass", report.record.pass);
+        set_caps(&mut file, pair);
+        add_surfaces(&mut file, pair);
+        let [lower, upper] = report.mean_pressure();
+        file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
+        file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
+        for (index, contact) in report.contacts.iter().enumerate() {
+            if self.pressure_every > 0 && index % self.pressure_every == 0 {
+                let pressure: Field = contact.pressure_field(pair.lower.ncols());
+                let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
+                let grid = pair.grid(contact.position.columns);
+                file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                if let Some(sliding) = report.sliding {
+                    let traction = pressure.mapv(|p| sliding.shear(p)[0]);
+                    file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
+                }
+            }
+        }
+        file.write(&results.fields_path(report.record.pass))?;
+        if let Some(plan) = &self.plan {
+            let pass = Some(report.record.pass);
+            let pressure = report.contacts[plan.index].pressure_field(pair.lower.ncols());
+            let path = results.subsurface_path(pass);
+            let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
+            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            self.subsurface.push(plan.write(self.writer.field_file(), &path, pass, tractions)?);
+        }
+        let passes = report.record.pass;
+        let file = self.writer.field_file();
+        warm_start::write(file, &results.warm_start_path(passes), passes, &report.warm_start())?;
+        self.steps.extend_from_slice(report.steps);
+        self.passes.push(report.record.clone());
+        tables::write_steps(&results.steps_path(), &self.steps)?;
+        tables::write_passes(&results.passes_path(), &self.passes)?;
+        results.remove(&results.warm_start_path(passes - 1))
+    }
+}
+
+/// What every static contact leaves.
+fn static_fields(mut file: FieldFile, pair: &Pair, solution: &Solution, plastic: &Field) -> FieldFile {
+    let grid = pair.lower_grid();
+    let gap = &pair.upper - &pair.lower;
+    file.set("approach", solution.approach).set("hardness", pair.hardness());
+    for (name, unit, field) in [
+        ("pressure", "Pa", &solution.pressure),
+        ("displacement", "m", &solution.displacement),
+        ("gap", "m", &solution.gap(&gap)),
+        ("lower", "m", &pair.lower),
+        ("upper", "m", &pair.upper),
+        ("plastic", "m", plastic),
+    ] {
+        file.add_field(name, unit, &grid, [0.0, 0.0], field);
+    }
+    file
+}
+
+/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
+fn set_caps(file: &mut FieldFile, pair: &Pair) {
+    file.set("hardness", pair.hardness()).set("cap", pair.cap());
+}
+
+fn add_surfaces(file: &mut FieldFile, pair: &Pair) {
+    file.add_field("lower", "m", &pair.lower_grid(), [0.0, 0.0], &pair.lower);
+    file.add_field("upper", "m", &pair.upper_grid(), [0.0, 0.0], &pair.upper);
+}

@@ -1,0 +1,83 @@
+//! What to be wary of in a result, told once it is there.
+
+use super::case::Case;
+use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
+use crate::grid::Field;
+use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
+use crate::operator::Boundary;
+
+/// Of a static contact, by its pressure.
+pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
+    let gap = || &pair.upper - &pair.lower;
+    let rim = cut_off(pressure, gap, pair.pitch(), boundary);
+    rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
+}
+
+/// Of a sweep, by its points, of which the `last` is known as a whole.
+pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String> {
+    let coarse =
+        || points.iter().map(|p| p.largest_spot_cells).filter(|cells| (1..CELLS_ACROSS).contains(cells));
+    let at = |count: usize, warning: &str| format!("at {count} of {} points {warning}", points.len());
+    let too_few = coarse().min().and_then(too_few_cells).map(|warning| at(coarse().count(), &warning));
+    let rolls = last.record.shear.as_ref().is_some_and(|shear| shear.creepage.is_some());
+    let plastic = points.iter().filter(|point| rolls && point.plastic_area > 0.0).count();
+    let ploughed = (plastic > 0).then(|| at(plastic, &format!("cells yield {NOT_FLATTENED}")));
+    too_few.into_iter().chain(ploughed).collect()
+}
+
+/// What to be wary of in a static contact that was loaded in stages, or rolls.
+pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
+    /// Dissipation that is known less accurately than this is warned of.
+    const ACCURATE: f64 = 0.1;
+    let mut warnings = Vec::new();
+    let Some(shear) = &contact.record.shear else { return warnings };
+    let error = contact.dissipation_error / shear.dissipation;
+    if error > ACCURATE {
+        warnings.push(format!(
+            "cells slip while what they bear changes: `dissipation` is known within {:.0} % only; give more `increments` \
+             where the load and what acts in the plane change together",
+            (100.0 * error).ceil()
+        ));
+    }
+    let plastic = contact.record.plastic_cells;
+    if shear.creepage.is_some() && plastic > 0 {
+        warnings.push(format!("{plastic} cells yield {NOT_FLATTENED}"));
+    }
+    warnings
+}
+
+/// Of a motion of bodies of these `shapes`, by its passes.
+pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
+    let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
+    ploughed(case, shapes, passes).into_iter().chain(too_few_cells(largest)).collect()
+}
+
+/// That most of the plastic volume is lost at the free ends, more than their area accounts for.
+fn ploughed(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Option<String> {
+    /// Times the volume per area of the interior.
+    const DENSER: f64 = 2.0;
+    let strategy = case.motion?.strategy;
+    let interiors = Interior::of_bodies(shapes, case.contact.boundary, strategy, case.output.rim);
+    let volumes = [
+        passes.iter().map(|p| [p.plastic_volume_lower, p.plastic_volume_lower_interior]).collect::<Vec<_>>(),
+        passes.iter().map(|p| [p.plastic_volume_upper, p.plastic_volume_upper_interior]).collect(),
+    ];
+    let [mut all, mut rim, mut of_area] = [0.0; 3];
+    for body in 0..2 {
+        let lost: f64 = volumes[body].iter().map(|[lost, _]| lost).sum();
+        let inside: f64 = volumes[body].iter().map(|[_, inside]| inside).sum();
+        let area = 1.0 - interiors[body].cells() as f64 / (shapes[body][0] * shapes[body][1]) as f64;
+        all += lost;
+        rim += lost - inside;
+        of_area += lost * area;
+    }
+    if !(rim > 0.5 * all && rim / (all - rim) > DENSER * of_area / (all - of_area)) {
+        return None;
+    }
+    Some(format!(
+        "the rim of the bodies, {:.2} % of their area, takes {:.2} % of the plastic volume: free ends plough; read the \
+         columns `..._interior`, or let surfaces without ends pass by `strategy = \"shift\"` under a periodic boundary",
+        100.0 * of_area / all,
+        100.0 * rim / all
+    ))
+}

@@ -1,0 +1,123 @@
+//! `summary.json`: what was computed, in numbers.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::subsurface::SubsurfaceRecord;
+use crate::error::{Error, Result};
+use crate::io::atomic;
+use crate::motion::{PassRecord, StaticRecord, SweepRecord};
+use crate::units::Second;
+
+/// The content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of the program that computed it.
+    pub version: String,
+    /// The case as resolved: defaults filled in, SI.
+    pub case: serde_json::Value,
+    /// Under the key `static`, `sweep` or `passes`.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// Of a static contact one, of a motion one for each pass; none where the stress was not wanted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub subsurface: Vec<SubsurfaceRecord>,
+    /// What the user should know about the result.
+    pub warnings: Vec<String>,
+    /// Time the whole computation took.
+    pub wall_time_s: Second,
+}
+
+/// What was computed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// One static contact.
+    Static(Box<StaticRecord>),
+    /// Static contacts under one load after another: one record each.
+    Sweep(Vec<SweepRecord>),
+    /// A motion: one record per pass.
+    Passes(Vec<PassRecord>),
+}
+
+/// Writes `summary` to `path`, atomically. JSON has no NaN: such a number becomes `null`.
+///
+/// # Errors
+/// [`Error::File`].
+pub(super) fn write(path: &Path, summary: &Summary) -> Result<()> {
+    atomic::write_with(path, |file| {
+        serde_json::to_writer_pretty(&mut *file, summary)?;
+        file.write_all(b"\n")
+    })
+}
+
+/// Reads what [`write()`] wrote.
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be read or is not a summary; the message then has line and column.
+pub(super) fn read(path: &Path) -> Result<Summary> {
+    let failed = |source| Error::File { path: path.to_owned(), source };
+    let text = std::fs::read(path).map_err(failed)?;
+    serde_json::from_slice(&text).map_err(|error| failed(error.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_summary_reads_back_and_has_the_promised_keys() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("summary.json");
+        let record = StaticRecord {
+            load: 2.0,
+            approach: 1.25e-7,
+            contact_area: 3.1e-11,
+            apparent_area: 1e-8,
+            max_pressure: 4e9,
+            mean_gap: 3e-7,
+            elastic_energy: 1e-9,
+            plastic_cells: 3,
+            plastic_volume: 1e-20,
+            iterations: 12,
+            convolutions: 15.5,
+            residual: 3e-7,
+            converged: true,
+            shear: None,
+        };
+        let summary = Summary {
+            version: "0.1.0".into(),
+            case: serde_json::json!({"contact": {"load": 2.0}}),
+            outcome: Outcome::Static(Box::new(record)),
+            subsurface: vec![SubsurfaceRecord {
+                pass: None,
+                step: None,
+                max_von_mises: 2.5e9,
+                position: [1e-6, 2e-6, 5e-7],
+                max_shear: 1.3e9,
+                max_shear_position: [1e-6, 2e-6, 4e-7],
+            }],
+            warnings: vec!["the mesh is coarse".into()],
+            wall_time_s: 0.5,
+        };
+        write(&path, &summary).unwrap();
+        assert_eq!(read(&path).unwrap(), summary);
+
+        let passes = Summary { outcome: Outcome::Passes(vec![]), subsurface: vec![], ..summary };
+        let value = serde_json::to_value(&passes).unwrap();
+        let keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(keys, ["case", "passes", "version", "wall_time_s", "warnings"]);
+        write(&path, &passes).unwrap();
+        assert_eq!(read(&path).unwrap(), passes);
+    }
+
+    #[test]
+    fn a_truncated_summary_is_an_error_with_its_line() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("summary.json");
+        std::fs::write(&path, "{\n  \"version\": ").unwrap();
+        let message = read(&path).unwrap_err().to_string();
+        assert!(message.contains("line 2"), "{message}");
+    }
+}

@@ -1,0 +1,144 @@
+//! HDF5: the fields of asperity's own results, and any matrix of numbers; only read.
+//!
+//! Results are known by the attributes `version` and `identity` of the file; channels are their fields in metres over x and
+//! y, `lower` and `upper` first. Of other files every data set of two dimensions and real numbers is a channel, called by
+//! its path, `/group/name`, indexed `[ix, iy]`; of several one is to be chosen. Its heights are in metres unless it has an
+//! attribute `unit` or `units`; a pitch it has not.
+
+use std::collections::HashMap;
+
+use hdf5_pure::{AttrValue, DType, Dataset, File, Group};
+
+use super::{Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, finite, usable_pitch};
+use crate::error::Defect;
+use crate::grid::Field;
+
+/// How the file begins.
+pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// What results are called.
+pub(super) const RESULTS: &str = "results";
+
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    let fault = |defect| Fault::defect("hdf5", defect);
+    let file = File::from_bytes(bytes.to_vec()).map_err(container).map_err(fault)?;
+    let attributes = file.root().attrs().map_err(container).map_err(fault)?;
+    if ["version", "identity"].iter().all(|name| attributes.contains_key(*name)) {
+        return result(bytes, &file, channel);
+    }
+    let mut channels = Vec::new();
+    matrices(&file.root(), "", &mut 0, &mut channels);
+    if channels.is_empty() {
+        return Err(fault(Defect::Missing("data set of two dimensions and real numbers")));
+    }
+    if channel.is_none() && channels.len() > 1 {
+        return Err(Fault::NoChannel { available: channels });
+    }
+    let wanted = channel.map(|channel| format!("/{}", channel.trim_start_matches('/')));
+    let channel = channels[choose(&channels, wanted.as_deref())?].clone();
+    let (heights, unit) = dataset(&file, &channel)
+        .and_then(|set| {
+            let unit = ["unit", "units"].iter().find_map(|name| set.text(name));
+            let factor = unit.as_deref().map_or(Ok(1.0), super::words::unit_of_length)?;
+            let kind = if unit.is_some() { LengthUnit::Known } else { LengthUnit::Metres };
+            Ok((set.values(bytes.len())?.mapv_into(|z| finite(factor * z)), kind))
+        })
+        .map_err(fault)?;
+    Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit })
+}
+
+type Outcome<T> = Result<T, Defect>;
+
+fn result(bytes: &[u8], file: &File, channel: Option<&str>) -> Decoded {
+    let fault = |defect| Fault::defect(RESULTS, defect);
+    let mut channels = file.root().datasets().map_err(container).map_err(fault)?;
+    let is_field = |name: &String| {
+        let field = dataset(file, name).ok();
+        field
+            .is_some_and(|set| [set.text("unit"), set.text("axes")] == [Some("m".into()), Some("x,y".into())])
+    };
+    channels.retain(is_field);
+    channels.sort_by_key(|name| (name != "lower", name != UNDERSIDE, name.clone()));
+    if channels.is_empty() {
+        return Err(fault(Defect::Missing("field in metres over x and y")));
+    }
+    let channel = channels[choose(&channels, channel)?].clone();
+    let set = dataset(file, &channel).map_err(fault)?;
+    let pitch = set.attributes.get("pitch").and_then(AttrValue::to_f64s).unwrap_or_default();
+    let pitch = <[f64; 2]>::try_from(pitch).ok().and_then(usable_pitch);
+    let heights = set.values(bytes.len()).map_err(fault)?.mapv_into(finite);
+    Ok(Scan { format: RESULTS, channel, channels, pitch, heights, unit: LengthUnit::Known })
+}
+
+/// A data set and its attributes.
+struct Set {
+    dataset: Dataset,
+    attributes: HashMap<String, AttrValue>,
+}
+
+fn dataset(file: &File, path: &str) -> Outcome<Set> {
+    let dataset = file.dataset(path).map_err(container)?;
+    let attributes = dataset.attrs().map_err(container)?;
+    Ok(Set { dataset, attributes })
+}
+
+impl Set {
+    fn text(&self, name: &str) -> Option<String> {
+        self.attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
+    }
+
+    /// The numbers of a file of so many bytes.
+    fn values(&self, bytes: usize) -> Outcome<Field> {
+        /// Deflate makes no more bytes of one.
+        const MOST: usize = 1032;
+        let sizes = self.dataset.shape().map_err(container)?;
+        let [nx, ny] = sizes[..] else { return Err(Defect::Missing("two dimensions")) };
+        let count = cells(&[nx, ny])?;
+        let limit = MAX_CELLS.min(bytes.saturating_mul(MOST));
+        if count == 0 || count > limit {
+            return Err(Defect::TooLarge { cells: count as u128, limit });
+        }
+        let values = self.dataset.read_f64().map_err(container)?;
+        let found = values.len() as u64;
+        let expected = count as u64;
+        Field::from_shape_vec([nx as usize, ny as usize], values).map_err(|_| Defect::Length {
+            what: "the data set",
+            expected: 8 * expected,
+            found: 8 * found,
+        })
+    }
+}
+
+/// Adds the paths of the matrices of real numbers in a group, and in those in it.
+fn matrices(group: &Group, path: &str, visited: &mut usize, found: &mut Vec<String>) {
+    // Groups may hold each other.
+    const MOST: usize = 1 << 12;
+    *visited += 1;
+    let mut names = group.datasets().unwrap_or_default();
+    names.sort_unstable();
+    for name in names {
+        if found.len() < MOST && group.dataset(&name).is_ok_and(|dataset| is_matrix(&dataset)) {
+            found.push(format!("{path}/{name}"));
+        }
+    }
+    let mut groups = group.groups().unwrap_or_default();
+    groups.sort_unstable();
+    for name in groups {
+        if *visited < MOST
+            && path.len() < MOST
+            && let Ok(group) = group.group(&name)
+        {
+            matrices(&group, &format!("{path}/{name}"), visited, found);
+        }
+    }
+}
+
+fn is_matrix(dataset: &Dataset) -> bool {
+    use DType::{F32, F64, I8, I16, I32, I64, U8, U16, U32, U64};
+    let real = matches!(dataset.dtype(), Ok(F32 | F64 | I8 | I16 | I32 | I64 | U8 | U16 | U32 | U64));
+    real && dataset.shape().is_ok_and(|shape| shape.len() == 2 && shape.iter().all(|size| *size > 0))
+}
+
+fn container(error: hdf5_pure::Error) -> Defect {
+    Defect::Container(error.to_string())
+}

@@ -1,0 +1,156 @@
+//! SDF, the surface data file: ISO 25178-71, and BCR's report EUR 15178 before it.
+//!
+//! A header, the heights with x fastest, a trailer of text. The first byte tells the kind: `a` text, `b` binary,
+//! little-endian. The version follows: `ISO-1.0`, `ISO-2.0`, `BCR-1.0`, `NIST-1.0`. A height is a number times `Zscale`,
+//! in metres.
+//!
+//! ```text
+//! 0   version (8)             ManufacID (10)  CreateDate (12)  ModDate (12)
+//! 42  NumPoints, NumProfiles  2 u16; in ISO-2.0 2 u32
+//!     Xscale, Yscale, Zscale, Zresolution  4 f64
+//!     Compression, DataType, CheckType     3 u8
+//! ```
+//!
+//! Types of data are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, 3 and 7 for floating point
+//! of 32 and 64. A missing height is NaN, the largest unsigned or the least signed integer; in text it is `BAD`. In the
+//! text each record is a line `name = value`, and an asterisk ends each part.
+
+use std::path::Path;
+
+use super::binary::{Cursor, Number, Order, Raster, shape};
+use super::header::Header;
+use super::words::excerpt;
+use super::{Decoded, finite, only, x_fastest};
+use crate::error::{Defect, Result};
+use crate::grid::{Field, Grid};
+use crate::io::atomic;
+
+/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN stays NaN: missing.
+///
+/// The version is `ISO-1.0`, whose sizes end at 65535, and `ISO-2.0` beyond.
+///
+/// # Errors
+/// [`Error::File`](crate::Error::File).
+///
+/// # Panics
+/// If `heights` are not on `grid`.
+pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
+    assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
+    let [nx, ny] = grid.shape;
+    atomic::write_with(path, |file| {
+        match (u16::try_from(nx), u16::try_from(ny)) {
+            (Ok(nx), Ok(ny)) => {
+                file.write_all(b"bISO-1.0asperity  010119700000010119700000")?;
+                file.write_all(&[nx.to_le_bytes(), ny.to_le_bytes()].concat())?;
+            }
+            _ => {
+                file.write_all(b"bISO-2.0asperity  010119700000010119700000")?;
+                file.write_all(&[(nx as u32).to_le_bytes(), (ny as u32).to_le_bytes()].concat())?;
+            }
+        }
+        for scale in [grid.pitch[0], grid.pitch[1], 1.0, -1.0] {
+            file.write_all(&scale.to_le_bytes())?;
+        }
+        file.write_all(&[0, 7, 0])?;
+        for height in heights.t() {
+            file.write_all(&height.to_le_bytes())?;
+        }
+        Ok(())
+    })
+}
+
+/// How the file may begin.
+pub(super) const MAGICS: [&[u8]; 8] =
+    [b"aISO-1.0", b"bISO-1.0", b"aISO-2.0", b"bISO-2.0", b"aBCR-1.0", b"bBCR-1.0", b"aNIST-1.", b"bNIST-1."];
+
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    only("sdf", channel, || if bytes[0] == b'a' { in_text(bytes) } else { in_binary(bytes) })
+}
+
+type Outcome<T> = std::result::Result<T, Defect>;
+
+const LINE: usize = 42;
+
+fn in_binary(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
+    let mut header = Cursor::new(bytes, Order::Little, "the file");
+    header.take(LINE)?;
+    let shape = if bytes.starts_with(b"bISO-2.0") {
+        shape([header.u32()?, header.u32()?])?
+    } else {
+        shape([header.u16()?, header.u16()?])?
+    };
+    let [dx, dy, dz, _resolution] = [header.f64()?, header.f64()?, header.f64()?, header.f64()?];
+    let [compression, kind, _check] = [header.u8()?, header.u8()?, header.u8()?];
+    let number = vet(&compression.to_string(), &kind.to_string(), dz)?;
+
+    // One maker puts 8 bytes more into the header, of which it does not tell.
+    let size = shape[0] * shape[1] * number.bytes();
+    let rest = header.rest();
+    let data = if rest.len() == size + 8 && bytes.starts_with(b"bISO-1.0") { &rest[8..] } else { rest };
+    let missing = match number {
+        Number::Uint8 => 255.0,
+        Number::Uint16 => 65_535.0,
+        Number::Uint32 => 4_294_967_295.0,
+        Number::Int8 => -128.0,
+        Number::Int16 => -32_768.0,
+        Number::Int32 => -2_147_483_648.0,
+        _ => f64::NAN,
+    };
+    let raster = Raster::new(shape, number, Order::Little, data)?;
+    Ok(([dx, dy], raster.heights(|number| if number == missing { f64::NAN } else { number * dz })))
+}
+
+fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
+    let mut parts = bytes.split(|byte| *byte == b'*');
+    let text = String::from_utf8_lossy(parts.next().unwrap_or_default());
+    let header = Header::of(&text, '=');
+    let shape = shape([header.size("NumPoints")?, header.size("NumProfiles")?])?;
+    let dz = header.number("Zscale")?;
+    vet(header.get("Compression").unwrap_or("0"), header.get("DataType").unwrap_or("7"), dz)?;
+
+    let data = parts.next().ok_or(Defect::Missing("asterisk that ends the header"))?;
+    let first_line = 1 + text.matches('\n').count();
+    let mut heights = Vec::new();
+    for (index, line) in data.split(|byte| *byte == b'\n').enumerate() {
+        for token in line.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()) {
+            let number = std::str::from_utf8(token).ok().and_then(|token| match token {
+                "BAD" => Some(f64::NAN),
+                _ => token.parse::<f64>().ok(),
+            });
+            let unreadable = || Defect::NotANumber {
+                line: first_line + index,
+                token: excerpt(&String::from_utf8_lossy(token)),
+            };
+            heights.push(finite(number.ok_or_else(unreadable)? * dz));
+        }
+    }
+    if heights.len() != shape[0] * shape[1] {
+        let found = heights.len().to_string();
+        let expected = "NumPoints · NumProfiles";
+        return Err(Defect::Value { what: "the number of heights", found, expected });
+    }
+    let heights = x_fastest(shape, |first, part| part.copy_from_slice(&heights[first..first + part.len()]));
+    Ok(([header.number("Xscale")?, header.number("Yscale")?], heights))
+}
+
+/// The kind of number, if heights can be read with these entries of the header.
+fn vet(compression: &str, kind: &str, dz: f64) -> Outcome<Number> {
+    if compression != "0" {
+        let found = compression.to_owned();
+        return Err(Defect::Value { what: "Compression", found, expected: "0, none" });
+    }
+    if !dz.is_finite() || dz == 0.0 {
+        return Err(Defect::Value { what: "Zscale", found: dz.to_string(), expected: "a length in metres" });
+    }
+    Ok(match kind {
+        "0" => Number::Uint8,
+        "1" => Number::Uint16,
+        "2" => Number::Uint32,
+        "3" => Number::Float32,
+        "4" => Number::Int8,
+        "5" => Number::Int16,
+        "6" => Number::Int32,
+        "7" => Number::Float64,
+        _ => return Err(Defect::Value { what: "DataType", found: kind.to_owned(), expected: "0 to 7" }),
+    })
+}

@@ -1,0 +1,61 @@
+//! The formats that are written.
+
+use std::path::Path;
+
+use super::{gwy, npy, sdf, vtk, x3p};
+use crate::error::{Error, Result};
+use crate::surface::Topography;
+
+/// A format that topographies are written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// NumPy's `.npy`: the heights alone, without their pitch.
+    Npy,
+    /// `.x3p` of ISO 25178-72.
+    X3p,
+    /// `.sdf` of ISO 25178-71, in text.
+    Sdf,
+    /// `.gwy` of Gwyddion.
+    Gwy,
+    /// Legacy `.vtk`, for ParaView and its kin; not read.
+    Vtk,
+}
+
+impl Format {
+    /// The format that the end of the file's name tells, in any case; none if it tells none.
+    pub fn of(path: impl AsRef<Path>) -> Option<Self> {
+        Some(match path.as_ref().extension()?.to_string_lossy().to_lowercase().as_str() {
+            "npy" => Self::Npy,
+            "x3p" => Self::X3p,
+            "sdf" => Self::Sdf,
+            "gwy" => Self::Gwy,
+            "vtk" => Self::Vtk,
+            _ => return None,
+        })
+    }
+
+    /// Whether the format has a place for the pitch.
+    pub fn has_pitch(self) -> bool {
+        self != Self::Npy
+    }
+}
+
+impl Topography {
+    /// Writes the heights to the file at `path`, in the [`Format`] that the end of its name tells. The file is there in
+    /// full or not at all.
+    ///
+    /// # Errors
+    /// [`Error::NoFormat`] if the name tells none, [`Error::File`] if the file cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        let (grid, heights) = (self.grid(), self.heights());
+        match Format::of(path).ok_or_else(|| Error::NoFormat { path: path.to_owned() })? {
+            Format::Npy => npy::write(path, heights),
+            Format::X3p => x3p::write(path, grid, heights),
+            Format::Sdf => sdf::write(path, grid, heights),
+            Format::Gwy => gwy::write(path, grid, heights),
+            Format::Vtk => vtk::write(path, grid, heights),
+        }
+    }
+}
