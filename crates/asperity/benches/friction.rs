@@ -3,7 +3,7 @@
 use asperity::Grid;
 use asperity::material::{Compliances, Material};
 use asperity::operator::{Boundary, Operators};
-use asperity::solver::{Control, Friction, Loading, Params, Tangential, solve_frictional};
+use asperity::solver::{Bounds, Control, Friction, Loading, Params, Tangential, solve_frictional};
 use asperity::surface::{Amplitude, SelfAffine};
 
 /// Mean pressure over E*: contact on about 5, 20 and 50 % of the area.
@@ -38,7 +38,7 @@ fn measure(bencher: divan::Bencher, boundary: Boundary, pressure: f64) {
     let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([0.15 * load, 0.0]) };
     bencher.bench_local(|| {
         let (elastic, params) = (f64::INFINITY, Params::default());
-        solve_frictional(operator.as_mut(), &gap, elastic, &friction, loading, None, &params)
+        solve_frictional(operator.as_mut(), &gap, &Bounds::up_to(elastic), &friction, loading, None, &params)
             .expect("an equilibrium")
     });
 }

@@ -1,7 +1,7 @@
 //! A self-affine surface pressed to a few per cent and to half of full contact, from a cold start.
 
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Control, Method, Params, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
 use asperity::{Field, Grid};
 
 const CASES: [(usize, f64); 6] = [(128, 0.02), (128, 0.2), (256, 0.02), (256, 0.2), (512, 0.02), (512, 0.2)];
@@ -40,5 +40,5 @@ fn solve(operator: &mut dyn Operator, pressure: f64) {
     let gap = rough(operator.grid().shape[0]);
     let load = Control::Load(pressure * operator.grid().area());
     let params = Params { method: Method::ActiveSet, ..Params::default() };
-    solve_normal(operator, &gap, f64::INFINITY, load, None, &params).expect("an equilibrium");
+    solve_normal(operator, &gap, &Bounds::ELASTIC, load, None, &params).expect("an equilibrium");
 }

@@ -39,7 +39,7 @@ use std::f64::consts::PI;
 
 use asperity::operator::{Boundary, FreeFft, Operator};
 use asperity::reference::HertzSphere;
-use asperity::solver::{Control, Params, solve_normal};
+use asperity::solver::{Bounds, Control, Params, solve_normal};
 use asperity::surface::Form;
 use asperity::{Field, Grid};
 
@@ -91,7 +91,7 @@ fn main() -> asperity::Result<()> {
         let half_space = Box::new(FreeFft::new(grid, modulus));
         let mut coated = Coated { half_space, compliance };
         let params = Params::default();
-        let solution = solve_normal(&mut coated, &gap, f64::INFINITY, Control::Load(load), None, &params)?;
+        let solution = solve_normal(&mut coated, &gap, &Bounds::ELASTIC, Control::Load(load), None, &params)?;
         let largest = solution.pressure.iter().copied().fold(0.0, f64::max);
         let foundation = (load / (PI * radius * compliance)).sqrt();
         println!(

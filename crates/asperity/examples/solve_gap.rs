@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use asperity::Grid;
 use asperity::operator::{Boundary, FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Control, Method, Params, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
 use asperity::surface::{ReadOptions, Topography};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -45,7 +45,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let setup = start.elapsed().as_secs_f64();
     let solve = |operator: &mut dyn Operator| {
         let start = Instant::now();
-        let solution = solve_normal(operator, &gap, hardness, Control::Load(load), None, &params);
+        let solution =
+            solve_normal(operator, &gap, &Bounds::up_to(hardness), Control::Load(load), None, &params);
         solution.map(|solution| (solution, start.elapsed().as_secs_f64()))
     };
     let (solution, first) = solve(operator.as_mut())?;
@@ -59,10 +60,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         Topography::new(grid, solution.pressure.clone())?.write(out)?;
     }
     let report = serde_json::json!({
-        "load": solution.load(grid.cell_area()),
+        "load": solution.load(),
         "approach": solution.approach,
         "area": solution.contact_cells() as f64 / grid.cells() as f64,
-        "plastic": solution.plastic_cells(hardness) as f64 / grid.cells() as f64,
+        "plastic": solution.capped_cells() as f64 / grid.cells() as f64,
         "eta": solution.residual,
         "convolutions": solution.stats.convolutions,
         "iterations": solution.stats.iterations,

@@ -9,6 +9,90 @@ pub type Field = ndarray::Array2<f64>;
 /// A [`Field`] in single precision: for what only has to be nearly right, as the directions of an iteration.
 pub type SingleField = ndarray::Array2<f32>;
 
+/// A quantity on the cells of a grid: the same everywhere, or a value for each.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CellValues {
+    /// The same in every cell.
+    Uniform(f64),
+    /// A value for each cell.
+    Field(Field),
+}
+
+impl CellValues {
+    /// The value that all cells have, where they are given as one.
+    pub fn uniform(&self) -> Option<f64> {
+        match self {
+            Self::Uniform(value) => Some(*value),
+            Self::Field(_) => None,
+        }
+    }
+
+    /// The value in a flat `cell`.
+    ///
+    /// # Panics
+    /// If there is no such cell, or a field is not in standard layout.
+    #[inline]
+    pub fn at(&self, cell: usize) -> f64 {
+        match self {
+            Self::Uniform(value) => *value,
+            Self::Field(field) => field.as_slice().expect("standard layout")[cell],
+        }
+    }
+
+    /// The least value.
+    pub fn min(&self) -> f64 {
+        self.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The largest value.
+    pub fn max(&self) -> f64 {
+        self.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The sum over so many `cells`.
+    pub fn sum(&self, cells: usize) -> f64 {
+        match self {
+            Self::Uniform(value) => *value * cells as f64,
+            Self::Field(field) => field.sum(),
+        }
+    }
+
+    /// Whether these are values of a grid of that shape.
+    pub fn fits(&self, shape: [usize; 2]) -> bool {
+        match self {
+            Self::Uniform(_) => true,
+            Self::Field(field) => field.dim() == (shape[0], shape[1]),
+        }
+    }
+
+    /// What `change` makes of each value.
+    pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Self::Uniform(value) => Self::Uniform(change(*value)),
+            Self::Field(field) => Self::Field(field.mapv(change)),
+        }
+    }
+
+    fn fold(&self, first: f64, both: fn(f64, f64) -> f64) -> f64 {
+        match self {
+            Self::Uniform(value) => *value,
+            Self::Field(field) => field.iter().copied().fold(first, both),
+        }
+    }
+}
+
+impl From<f64> for CellValues {
+    fn from(value: f64) -> Self {
+        Self::Uniform(value)
+    }
+}
+
+impl From<Field> for CellValues {
+    fn from(field: Field) -> Self {
+        Self::Field(field)
+    }
+}
+
 /// The most cells of a grid: a field of them takes 32 GiB.
 pub const MOST_CELLS: usize = 1 << 32;
 

@@ -31,9 +31,9 @@
 //! let pair = Pair::new(lower, upper, [&steel, &steel])?;
 //!
 //! let load = solver::Control::Load(0.3);
-//! let (contact, solution) = press(&pair, Boundary::FREE, load, &solver::Params::default())?;
-//! assert!(contact.residual < 1e-6 && contact.max_pressure <= 2.8e9);
-//! assert_eq!(solution.contact_cells() as f64 * grid.cell_area(), contact.contact_area);
+//! let contact = press(&pair, Boundary::FREE, load, &solver::Params::default())?;
+//! assert!(contact.record.residual < 1e-6 && contact.record.max_pressure <= 2.8e9);
+//! assert_eq!(contact.solution.load(), contact.record.load);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 
@@ -56,7 +56,7 @@ pub mod verification;
 pub mod study;
 
 pub use error::{Error, Result};
-pub use grid::{Field, Grid, SingleField};
+pub use grid::{CellValues, Field, Grid, SingleField};
 
 /// The programs in the README are tests.
 #[cfg(doctest)]

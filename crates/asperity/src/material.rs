@@ -115,10 +115,10 @@ pub fn composite_hardness(lower: &Material, upper: &Material) -> Pascal {
     lower.hardness.min(upper.hardness)
 }
 
-/// The lower body's share of the plastic deformation: all where it is the softer, none where it is the harder,
-/// half where both are equally hard.
-pub fn plastic_share(lower: &Material, upper: &Material) -> f64 {
-    match lower.hardness.partial_cmp(&upper.hardness) {
+/// The lower body's share of the plastic deformation, by the hardness of both: all where it is the softer, none where it
+/// is the harder, half where both are equally hard.
+pub fn plastic_share(lower: Pascal, upper: Pascal) -> f64 {
+    match lower.partial_cmp(&upper) {
         Some(std::cmp::Ordering::Less) => 1.0,
         Some(std::cmp::Ordering::Greater) => 0.0,
         _ => 0.5,
@@ -154,9 +154,9 @@ mod tests {
     fn the_softer_body_takes_the_plastic_deformation() {
         let soft = Material::new(1.0, 0.3, 1.0).unwrap();
         let hard = Material::new(1.0, 0.3, 2.0).unwrap();
-        assert_eq!(plastic_share(&soft, &hard), 1.0);
-        assert_eq!(plastic_share(&hard, &soft), 0.0);
-        assert_eq!(plastic_share(&hard, &hard), 0.5);
+        assert_eq!(plastic_share(1.0, 2.0), 1.0);
+        assert_eq!(plastic_share(2.0, 1.0), 0.0);
+        assert_eq!(plastic_share(2.0, 2.0), 0.5);
         assert_eq!(composite_hardness(&hard, &soft), 1.0);
     }
 

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Control, Method, Params, Solution, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Field, Grid};
 
@@ -56,7 +56,7 @@ fn solve(
 ) -> Solution {
     let load = Control::Load(mean * operator.grid().area());
     let params = Params { method: Method::ActiveSet, tolerance, ..Params::default() };
-    solve_normal(operator, gap, f64::INFINITY, load, start, &params).unwrap()
+    solve_normal(operator, gap, &Bounds::ELASTIC, load, start, &params).unwrap()
 }
 
 #[test]

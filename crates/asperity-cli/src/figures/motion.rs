@@ -289,9 +289,9 @@ fn approach(passes: &[PassRecord]) -> Charts {
     let x = Axis::linear("pass", Unit::Count);
     let series = vec![
         Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
-        Series::new("plastic volume, lower body", points(|p| p.plastic_volume_lower), Mark::LineAndPoints)
+        Series::new("plastic volume, lower body", points(|p| p.lost("plastic")[0]), Mark::LineAndPoints)
             .on_the_right(),
-        Series::new("plastic volume, upper body", points(|p| p.plastic_volume_upper), Mark::LineAndPoints)
+        Series::new("plastic volume, upper body", points(|p| p.lost("plastic")[1]), Mark::LineAndPoints)
             .on_the_right(),
     ];
     let chart = Chart::new("", x, Axis::linear("approach", Unit::Length), series);

@@ -53,7 +53,8 @@ impl Profile {
         let around = (AROUND * (end - first)).max(LEAST);
         let shown = first.saturating_sub(around)..(end + around).min(row.len());
         let [lower, upper] = materials(case)?;
-        let [elastic, plastic] = [elastic_share(&lower, &upper)?, plastic_share(&lower, &upper)];
+        let [elastic, plastic] =
+            [elastic_share(&lower, &upper)?, plastic_share(lower.hardness, upper.hardness)];
         let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
             let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
             shown.clone().map(|i| [x(i), value(i)]).collect()

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use asperity::motion::{Pair, Position, Strategy};
 use asperity::operator::{Boundary, DirectSum, Operator, Operators};
-use asperity::solver::{Control, Method, Params, Solution, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
 use asperity::units::{Dimension, Second, format};
 
 use indicatif::ProgressBar;
@@ -218,11 +218,11 @@ struct Task {
 impl Task {
     fn new(work: Work, side: usize) -> asperity::Result<Self> {
         let pair = pair(side)?;
-        let gap = &pair.upper - &pair.lower;
+        let gap = pair.initial_gap(&pair.at_rest());
         let operators = Operators::new(pair.lower_grid(), *pair.compliances(), Boundary::FREE);
         let load = Control::Load(PRESSURE * pair.modulus() * pair.lower_grid().area());
         let mut operator = operators.on([side; 2]);
-        let full = solve_normal(operator.as_mut(), &gap, f64::INFINITY, load, None, &Params::default())?;
+        let full = solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, load, None, &Params::default())?;
         let positions = |strategy: Strategy| strategy.positions(side, side, work.stride(side));
         let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
         Ok(Self {
@@ -254,7 +254,7 @@ impl Task {
             Work::Product | Work::Transform => Method::ActiveSet,
         };
         let params = Params { method, ..Params::default() };
-        solve_normal(operator.as_mut(), &gap, f64::INFINITY, self.control, None, &params)
+        solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, self.control, None, &params)
     }
 }
 
@@ -298,9 +298,8 @@ mod tests {
             assert_eq!((task.parts.len(), task.shift.len()), (23, 12));
             for (own, first) in [(&task.parts, &tasks[0].parts), (&task.shift, &tasks[0].shift)] {
                 for (own, first) in own.iter().zip(first) {
-                    let area = task.pair.cell_area();
                     let [load, exact] =
-                        [task.solve(own), tasks[0].solve(first)].map(|solution| solution.unwrap().load(area));
+                        [task.solve(own), tasks[0].solve(first)].map(|solution| solution.unwrap().load());
                     assert!((load - exact).abs() <= 1e-6 * exact, "{} for {exact}", load);
                 }
             }

@@ -77,7 +77,7 @@ fn generated_surface(pair: &Pair, save: &Save) -> Outcome {
         format(SQ, Dimension::Length),
         format(CUTOFF, Dimension::Length)
     );
-    let relief = Relief::of_heights(&pair.lower, &pair.lower_grid());
+    let relief = Relief::of_heights(&pair.lower.heights, &pair.lower_grid());
     save("figure-2", "Figure 2. Rough surface: random numbers through the filter", of, &relief)
 }
 
@@ -113,12 +113,12 @@ fn displacement(pair: &Pair, save: &Save) -> Outcome {
 
 fn two_surfaces(pair: &Pair, save: &Save) -> Outcome {
     let grid = pair.lower_grid();
-    let gap = &pair.upper - &pair.lower;
+    let gap = pair.initial_gap(&pair.at_rest());
     let gap = &gap - gap.iter().copied().fold(f64::INFINITY, f64::min);
     let heights = |title, field| map(title, field, &grid, "height", Unit::Length, Colours::Heights);
     let maps = vec![
-        heights("lower surface", &pair.lower),
-        heights("upper surface, underside", &pair.upper),
+        heights("lower surface", &pair.lower.heights),
+        heights("upper surface, underside", &pair.upper.heights),
         map("gap at first touch", &gap, &grid, "gap", Unit::Length, Colours::Heights),
     ];
     save("two-surfaces", "Two surfaces and the gap between them", String::new(), &Maps::new(maps))
@@ -195,8 +195,8 @@ fn plastic_depths(initial: &Pair, passes: &[Pass], save: &Save) -> Outcome {
         .flat_map(|pass| {
             let pair = &passes[pass].pair;
             [
-                (format!("lower surface, pass {}", pass + 1), &initial.lower - &pair.lower),
-                (format!("upper surface, pass {}", pass + 1), &pair.upper - &initial.upper),
+                (format!("lower surface, pass {}", pass + 1), &initial.lower.heights - &pair.lower.heights),
+                (format!("upper surface, pass {}", pass + 1), &pair.upper.heights - &initial.upper.heights),
             ]
         })
         .collect();

@@ -41,7 +41,7 @@ impl Rows {
             Cell::of("area", Area, pass.mean_contact_area_interior),
         ];
         if self.yields {
-            let plastic = pass.plastic_volume_lower_interior + pass.plastic_volume_upper_interior;
+            let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
             cells.push(Cell::of("plastic", Volume, plastic));
         }
         cells.push(Cell::of("Sq lower", Length, pass.sq_lower_interior));

@@ -1,7 +1,7 @@
 //! The contact at one position, kept in proportion to the real area of contact.
 
 use crate::error::Result;
-use crate::grid::{Field, Grid};
+use crate::grid::Field;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
@@ -46,18 +46,18 @@ impl Contact {
     ) -> Result<Self> {
         let gap = pair.initial_gap(&position);
         let shape = [position.columns, gap.ncols()];
-        let cap = pair.cap();
+        let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
         let solution = match sliding {
             Some(sliding) if sliding.lifts(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
-                solve_sliding(operator.as_mut(), &gap, cap, sliding, control, start, params)?.normal
+                solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params)?.normal
             }
             _ => {
                 let mut operator = operators.on(shape);
-                solve_normal(operator.as_mut(), &gap, cap, control, start, params)?
+                solve_normal(operator.as_mut(), &gap, &bounds, control, start, params)?
             }
         };
-        Ok(Self::new(pair, position, sliding, &gap, &solution))
+        Ok(Self::new(position, sliding, &solution))
     }
 
     /// A contact of which no more is known than the pressure at an approach, and what it cost.
@@ -82,31 +82,25 @@ impl Contact {
         }
     }
 
-    fn new(
-        pair: &Pair,
-        position: Position,
-        sliding: Option<&Sliding>,
-        gap: &Field,
-        solution: &Solution,
-    ) -> Self {
+    fn new(position: Position, sliding: Option<&Sliding>, solution: &Solution) -> Self {
         let mut pressure = Vec::new();
         let mut plastic = Vec::new();
-        let cells = solution.pressure.iter().zip(&solution.displacement).zip(gap);
+        let cells = solution.pressure.iter().zip(&solution.displacement).zip(&solution.initial_gap);
         for (cell, ((&p, u), h)) in cells.enumerate() {
-            if p > 0.0 {
+            if solution.bounds.touches(cell, p) {
                 pressure.push((cell as u32, p));
             }
-            if p >= pair.cap() {
+            if solution.bounds.caps(cell, p) {
                 plastic.push((cell as u32, (solution.approach - h - u).max(0.0)));
             }
         }
         let shear = |sliding: &Sliding| pressure.iter().map(|(_, p)| sliding.shear(*p)[0]).sum::<f64>();
         Self {
             position,
-            tangential_force: pair.cell_area() * sliding.map_or(0.0, shear),
+            tangential_force: solution.grid.cell_area() * sliding.map_or(0.0, shear),
             pressure,
             plastic,
-            load: solution.load(pair.cell_area()),
+            load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,
             stats: solution.stats,
@@ -119,6 +113,13 @@ impl Contact {
         let cells = field.as_slice_mut().expect("standard layout");
         self.pressure.iter().for_each(|(cell, p)| cells[*cell as usize] = *p);
         field
+    }
+
+    /// Plastic interference w of each cell in contact, in the order of the pressures; 0 where a cell does not yield.
+    pub(super) fn interference(&self) -> Vec<Metre> {
+        let mut plastic = self.plastic.iter().peekable();
+        let of = |(cell, _): &(u32, Pascal)| plastic.next_if(|(at, _)| at == cell).map_or(0.0, |(_, w)| *w);
+        self.pressure.iter().map(of).collect()
     }
 
     /// Largest pressure.
@@ -169,46 +170,53 @@ impl Contact {
     }
 }
 
-/// A static contact of a pair whose bodies face each other with all their columns.
+/// A static contact without friction.
+#[derive(Debug, Clone)]
+pub struct StaticContact {
+    /// The contact in numbers.
+    pub record: StaticRecord,
+    /// Its fields.
+    pub solution: Solution,
+}
+
+/// Presses a pair whose bodies face each other with all their columns.
 ///
 /// # Errors
 /// Those of [`solve_normal`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
-pub fn press(
-    pair: &Pair,
-    boundary: Boundary,
-    control: Control,
-    params: &Params,
-) -> Result<(StaticRecord, Solution)> {
-    assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
-    let grid: Grid = pair.lower_grid();
-    let gap = &pair.upper - &pair.lower;
-    let mut operator = pair.operators(grid, boundary)?.on(grid.shape);
-    let solution = solve_normal(operator.as_mut(), &gap, pair.hardness(), control, None, params)?;
-    Ok((StaticRecord::new(pair, &solution), solution))
+pub fn press(pair: &Pair, boundary: Boundary, control: Control, params: &Params) -> Result<StaticContact> {
+    let position = pair.at_rest();
+    let (operators, gap) = facing(pair, boundary)?;
+    let mut operator = operators.on(pair.lower_grid().shape);
+    let bounds = pair.bounds(&position, None);
+    let solution = solve_normal(operator.as_mut(), &gap, &bounds, control, None, params)?;
+    Ok(StaticContact { record: StaticRecord::new(&solution), solution })
+}
+
+/// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
+pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
+    assert_eq!(pair.lower.heights.dim(), pair.upper.heights.dim(), "shapes of the bodies");
+    Ok((pair.operators(pair.lower_grid(), boundary)?, pair.initial_gap(&pair.at_rest())))
 }
 
 impl StaticRecord {
-    /// The numbers of a contact of `pair` without friction.
-    pub(super) fn new(pair: &Pair, solution: &Solution) -> Self {
-        let gap = &pair.upper - &pair.lower;
-        let area = pair.cell_area();
+    /// The numbers of a contact without friction.
+    pub(super) fn new(solution: &Solution) -> Self {
         Self {
-            load: solution.load(area),
+            load: solution.load(),
             approach: solution.approach,
-            contact_area: area * solution.contact_cells() as f64,
-            apparent_area: pair.lower_grid().area(),
+            contact_area: solution.grid.cell_area() * solution.contact_cells() as f64,
+            apparent_area: solution.grid.area(),
             max_pressure: solution.max_pressure(),
-            mean_gap: solution.gap(&gap).mean().unwrap_or(0.0),
-            elastic_energy: solution.elastic_energy(area),
-            plastic_cells: solution.plastic_cells(pair.hardness()),
-            plastic_volume: solution.plastic_volume(&gap, pair.hardness(), area),
+            mean_gap: solution.gap().mean().unwrap_or(0.0),
+            elastic_energy: solution.elastic_energy(),
+            plastic_cells: solution.capped_cells(),
+            plastic_volume: solution.plastic_volume(),
             iterations: solution.stats.iterations,
             convolutions: solution.stats.convolutions,
             residual: solution.residual,
-            converged: true,
             shear: None,
         }
     }

@@ -4,15 +4,16 @@ use std::borrow::Cow;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::contact::facing;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::watch::{Progress, Watch};
-use crate::operator::{Boundary, CoupledOperator, Operator, Operators};
+use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    Control, Friction, FrictionalSolution, Loading, Params, Rolling, Solution, Tangential, solve_frictional,
-    solve_normal, solve_rolling,
+    Bounds, Control, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution, Solution,
+    Tangential, solve_frictional, solve_normal, solve_rolling,
 };
-use crate::units::{Joule, Metre, Newton, Pascal, SquareMetre};
+use crate::units::{Joule, Metre, Newton, SquareMetre};
 
 /// One stage of a loading: what is prescribed at its end, and in how many equal steps it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +47,7 @@ pub struct LoadedContact {
 #[derive(Debug, Clone)]
 pub enum Equilibrium {
     /// Without friction.
-    Frictionless(Solution),
+    Frictionless(Box<Solution>),
     /// With friction.
     Frictional(Box<FrictionalSolution>),
 }
@@ -121,7 +122,6 @@ pub fn load_in_stages(
     output: &mut dyn LoadingOutput,
 ) -> Result<LoadedContact> {
     let mut bodies = Bodies::new(pair, boundary, friction, params)?;
-    let area = pair.cell_area();
     let positions = stages.iter().map(|stage| stage.increments).sum();
     let done = under_way.as_ref().map_or(0, |state| state.increments.len());
     let increments = stages
@@ -135,7 +135,7 @@ pub fn load_in_stages(
         }
         let origin = match &state {
             Some(state) if step > 1 => state.origin,
-            Some(state) => Origin::of(&state.contact, area),
+            Some(state) => Origin::of(&state.contact),
             None => Origin::apart(&bodies.gap),
         };
         let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
@@ -147,7 +147,7 @@ pub fn load_in_stages(
         state = Some(next);
     }
     let state = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
-    Ok(bodies.finish(pair, state))
+    Ok(bodies.finish(state))
 }
 
 /// The steady state of a pair that rolls along x, see [`solve_rolling`].
@@ -180,10 +180,11 @@ impl LoadedContact {
         control: Control,
         params: &Params,
     ) -> Result<Self> {
-        let solution = solve_normal(operator, gap, pair.hardness(), control, None, params)?;
-        let plastic = solution.plastic_interference(gap, pair.hardness());
-        let record = StaticRecord::new(pair, &solution);
-        let solution = Equilibrium::Frictionless(solution);
+        let bounds = pair.bounds(&pair.at_rest(), None);
+        let solution = solve_normal(operator, gap, &bounds, control, None, params)?;
+        let plastic = solution.plastic_interference();
+        let record = StaticRecord::new(&solution);
+        let solution = Equilibrium::Frictionless(Box::new(solution));
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
     }
 
@@ -198,19 +199,20 @@ impl LoadedContact {
         params: &Params,
     ) -> Result<Self> {
         let area = pair.cell_area();
-        let (solution, creepage) =
-            solve_rolling(operator, gap, pair.hardness(), friction, control, rolling, params)?;
-        let plastic = solution.plastic_interference(gap);
+        let bounds = pair.bounds(&pair.at_rest(), None);
+        let RollingSolution { contact: solution, creepage } =
+            solve_rolling(operator, gap, &bounds, friction, control, rolling, params)?;
+        let plastic = solution.normal.plastic_interference();
         let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
         let shear = ShearRecord {
             creepage: Some(creepage),
             spin: Some(rolling.spin),
-            moment: Some(solution.moment(&pair.lower_grid())),
-            ..shear_record(&solution, area * (work(0) + work(1)), area)
+            moment: Some(solution.moment()),
+            ..shear_record(&solution, area * (work(0) + work(1)))
         };
         let slip = Some(solution.slip.clone());
         let solution = Equilibrium::Frictional(Box::new(solution));
-        let record = StaticRecord { shear: Some(shear), ..static_record(pair, &solution, &plastic) };
+        let record = StaticRecord { shear: Some(shear), ..static_record(&solution, &plastic) };
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
     }
 }
@@ -232,24 +234,10 @@ impl Equilibrium {
         }
     }
 
-    fn plastic_interference(&self, gap: &Field, hardness: Pascal) -> Field {
+    fn elastic_energy(&self) -> Joule {
         match self {
-            Self::Frictionless(solution) => solution.plastic_interference(gap, hardness),
-            Self::Frictional(solution) => solution.plastic_interference(gap),
-        }
-    }
-
-    fn plastic_cells(&self, hardness: Pascal) -> usize {
-        match self {
-            Self::Frictionless(solution) => solution.plastic_cells(hardness),
-            Self::Frictional(solution) => solution.plastic_cells(),
-        }
-    }
-
-    fn elastic_energy(&self, area: SquareMetre) -> Joule {
-        match self {
-            Self::Frictionless(solution) => solution.elastic_energy(area),
-            Self::Frictional(solution) => solution.elastic_energy(area),
+            Self::Frictionless(solution) => solution.elastic_energy(),
+            Self::Frictional(solution) => solution.elastic_energy(),
         }
     }
 }
@@ -259,7 +247,7 @@ struct Bodies<'a> {
     /// As they are prepared.
     gap: Field,
     solver: Solver<'a>,
-    hardness: Pascal,
+    bounds: Bounds,
     area: SquareMetre,
     params: &'a Params,
 }
@@ -289,7 +277,8 @@ impl<'a> Bodies<'a> {
                 Solver::Frictional(operators.coupled_on(shape), friction)
             }
         };
-        Ok(Self { gap, solver, hardness: pair.hardness(), area: pair.cell_area(), params })
+        let bounds = pair.bounds(&pair.at_rest(), None);
+        Ok(Self { gap, solver, bounds, area: pair.cell_area(), params })
     }
 
     /// The state after an increment that begins with the state `before`.
@@ -309,24 +298,24 @@ impl<'a> Bodies<'a> {
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0)
             }
         };
-        let (hardness, params) = (self.hardness, self.params);
+        let (bounds, params) = (&self.bounds, self.params);
         let mut contact =
-            self.solver.solve(&flattening.open(&self.gap), hardness, loading, last.as_ref(), params)?;
+            self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params)?;
         let mut stats = contact.normal().stats;
-        let mut plastic = contact.plastic_interference(&flattening.open(&self.gap), hardness);
+        let mut plastic = contact.normal().plastic_interference();
         let allowed = GONE_BACK * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
             contact =
-                self.solver.solve(&flattening.open(&self.gap), hardness, loading, last.as_ref(), params)?;
+                self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params)?;
             stats = stats.and(&contact.normal().stats);
-            plastic = contact.plastic_interference(&flattening.open(&self.gap), hardness);
+            plastic = contact.normal().plastic_interference();
         }
         flattening.deepen(&plastic);
         let of_friction = contact.frictional().map(|solution| {
             let last = last.as_ref().and_then(Equilibrium::frictional);
-            let error = last.map_or(0.0, |last| solution.dissipation_error(last, self.area));
-            [solution.dissipation(last, self.area), error]
+            let error = last.map_or(0.0, |last| solution.dissipation_error(last));
+            [solution.dissipation(last), error]
         });
         let slip = match (slip, contact.frictional()) {
             (Some([x, y]), Some(solution)) => Some([x + &solution.slip[0], y + &solution.slip[1]]),
@@ -335,23 +324,23 @@ impl<'a> Bodies<'a> {
         let [dissipation, more_error] = of_friction.unwrap_or_default();
         let normal = contact.normal();
         let shear = contact.frictional();
-        let force = shear.map_or([0.0; 2], |solution| solution.force(self.area));
-        let shift = shear.map_or([0.0; 2], |solution| solution.shift);
+        let force = shear.map_or([0.0; 2], FrictionalSolution::force);
+        let displacement = shear.map_or([0.0; 2], |solution| solution.rigid_displacement);
         increments.push(IncrementRecord {
             increment: increments.len() + 1,
             stage,
-            load: normal.load(self.area),
+            load: normal.load(),
             approach: normal.approach,
             tangential_force_x: force[0],
             tangential_force_y: force[1],
-            tangential_displacement_x: shift[0],
-            tangential_displacement_y: shift[1],
+            tangential_displacement_x: displacement[0],
+            tangential_displacement_y: displacement[1],
             contact_area: self.area * normal.contact_cells() as f64,
             stick_area: self.area * shear.map_or(0.0, |solution| solution.stick.sum()),
             max_pressure: normal.max_pressure(),
             max_shear: shear.map_or(0.0, FrictionalSolution::max_shear),
             plastic_volume: self.area * flattening.whole(plastic).sum(),
-            elastic_energy: contact.elastic_energy(self.area),
+            elastic_energy: contact.elastic_energy(),
             dissipation,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
@@ -362,18 +351,20 @@ impl<'a> Bodies<'a> {
     }
 
     /// The contact at the end of its loading.
-    fn finish(self, pair: &Pair, state: LoadingState) -> LoadedContact {
+    fn finish(self, state: LoadingState) -> LoadedContact {
         let LoadingState { increments, contact: solution, flattening, slip, dissipation_error, .. } = state;
-        let now = solution.plastic_interference(&flattening.open(&self.gap), self.hardness);
+        let now = solution.normal().plastic_interference();
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
-        let shear =
-            solution.frictional().map(|solution| shear_record(solution, sum(|i| i.dissipation), self.area));
+        let shear = solution.frictional().map(|solution| shear_record(solution, sum(|i| i.dissipation)));
+        let normal = solution.normal();
+        let gap = &self.gap + &normal.displacement - normal.approach;
         let record = StaticRecord {
+            mean_gap: gap.mean().unwrap_or(0.0),
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
             convolutions: sum(|increment| increment.convolutions),
             shear,
-            ..static_record(pair, &solution, &plastic)
+            ..static_record(&solution, &plastic)
         };
         LoadedContact { record, increments, solution, plastic, slip, dissipation_error }
     }
@@ -384,7 +375,7 @@ impl Solver<'_> {
     fn solve(
         &mut self,
         gap: &Field,
-        hardness: Pascal,
+        bounds: &Bounds,
         loading: Loading,
         last: Option<&Equilibrium>,
         params: &Params,
@@ -392,12 +383,12 @@ impl Solver<'_> {
         match self {
             Self::Frictionless(operator) => {
                 let start = last.map(|last| &last.normal().pressure);
-                solve_normal(operator.as_mut(), gap, hardness, loading.normal, start, params)
-                    .map(Equilibrium::Frictionless)
+                solve_normal(operator.as_mut(), gap, bounds, loading.normal, start, params)
+                    .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
             }
             Self::Frictional(operator, friction) => {
                 let last = last.and_then(Equilibrium::frictional);
-                solve_frictional(operator.as_mut(), gap, hardness, friction, loading, last, params)
+                solve_frictional(operator.as_mut(), gap, bounds, friction, loading, last, params)
                     .map(|solution| Equilibrium::Frictional(Box::new(solution)))
             }
         }
@@ -406,7 +397,7 @@ impl Solver<'_> {
 
 impl Flattening {
     /// The gap of the surfaces lowered for good.
-    fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
+    pub(crate) fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
         match &self.kept {
             None => Cow::Borrowed(gap),
             Some(kept) => Cow::Owned(gap + kept),
@@ -441,12 +432,6 @@ impl Flattening {
     }
 }
 
-/// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
-pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
-    assert_eq!(pair.lower.dim(), pair.upper.dim(), "shapes of the bodies");
-    Ok((pair.operators(pair.lower_grid(), boundary)?, &pair.upper - &pair.lower))
-}
-
 /// Where a stage begins, in each quantity that it may prescribe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Origin {
@@ -456,24 +441,24 @@ pub struct Origin {
     pub approach: Metre,
     /// Force of the upper body on the lower one along x and y.
     pub force: [Newton; 2],
-    /// Displacement of the upper body against the lower one along x and y.
-    pub shift: [Metre; 2],
+    /// Rigid-body displacement of the upper body against the lower one along x and y.
+    pub displacement: [Metre; 2],
 }
 
 impl Origin {
     /// Bodies that just do not touch over this gap.
     fn apart(gap: &Field) -> Self {
         let approach = gap.iter().copied().fold(f64::INFINITY, f64::min);
-        Self { load: 0.0, approach, force: [0.0; 2], shift: [0.0; 2] }
+        Self { load: 0.0, approach, force: [0.0; 2], displacement: [0.0; 2] }
     }
 
-    fn of(contact: &Equilibrium, area: SquareMetre) -> Self {
+    fn of(contact: &Equilibrium) -> Self {
         let (normal, shear) = (contact.normal(), contact.frictional());
         Self {
-            load: normal.load(area),
+            load: normal.load(),
             approach: normal.approach,
-            force: shear.map_or([0.0; 2], |solution| solution.force(area)),
-            shift: shear.map_or([0.0; 2], |solution| solution.shift),
+            force: shear.map_or([0.0; 2], FrictionalSolution::force),
+            displacement: shear.map_or([0.0; 2], |solution| solution.rigid_displacement),
         }
     }
 
@@ -488,7 +473,9 @@ impl Origin {
             },
             tangential: match end.tangential {
                 Tangential::Force(force) => Tangential::Force(both(self.force, force)),
-                Tangential::Displacement(shift) => Tangential::Displacement(both(self.shift, shift)),
+                Tangential::Displacement(displacement) => {
+                    Tangential::Displacement(both(self.displacement, displacement))
+                }
                 sliding @ Tangential::Sliding(_) => sliding,
             },
         }
@@ -496,27 +483,25 @@ impl Origin {
 }
 
 /// The numbers of a contact that has flowed so far, but for its shear.
-fn static_record(pair: &Pair, contact: &Equilibrium, plastic: &Field) -> StaticRecord {
-    let area = pair.cell_area();
+fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     StaticRecord {
-        elastic_energy: contact.elastic_energy(area),
-        plastic_cells: contact.plastic_cells(pair.hardness()),
-        plastic_volume: area * plastic.sum(),
-        ..StaticRecord::new(pair, contact.normal())
+        elastic_energy: contact.elastic_energy(),
+        plastic_volume: contact.normal().grid.cell_area() * plastic.sum(),
+        ..StaticRecord::new(contact.normal())
     }
 }
 
-fn shear_record(solution: &FrictionalSolution, dissipation: Joule, area: SquareMetre) -> ShearRecord {
-    let force = solution.force(area);
-    let load = solution.normal.load(area);
+fn shear_record(solution: &FrictionalSolution, dissipation: Joule) -> ShearRecord {
+    let force = solution.force();
+    let load = solution.normal.load();
     let force_ratio = if load > 0.0 { force[0].hypot(force[1]) / load } else { 0.0 };
     let sticks = solution.stick.sum();
     ShearRecord {
         tangential_force: force,
         force_ratio,
         friction_coefficient: (load > 0.0 && sticks == 0.0).then_some(force_ratio),
-        tangential_displacement: solution.shift,
-        stick_area: area * sticks,
+        tangential_displacement: solution.rigid_displacement,
+        stick_area: solution.normal.grid.cell_area() * sticks,
         max_shear: solution.max_shear(),
         dissipation,
         creepage: None,

@@ -1,11 +1,12 @@
 //! Two bodies in relative motion: positions, passes, the pair's geometry and its plastic change.
 
 mod approach;
+mod body;
 mod contact;
+mod law;
 mod loading;
 mod pair;
 mod pass;
-mod together;
 mod path;
 mod plastic;
 mod record;
@@ -13,16 +14,20 @@ mod rim;
 mod simulation;
 mod spot;
 mod sweep;
+mod together;
 mod warm_start;
 mod watch;
 
-pub use contact::{Contact, press};
+pub use body::{Body, State};
+pub use contact::{Contact, StaticContact, press};
+pub use law::{Law, LostVolume, Touching};
 pub use loading::{
     Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
 pub use pair::Pair;
 pub(crate) use pair::initial_gap;
 pub use path::{Position, overlap_positions, shift_positions};
+pub use plastic::PlasticFlow;
 pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord};
 pub use rim::Interior;
 pub use simulation::Simulation;
@@ -34,7 +39,7 @@ pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::error::{Error, Result};
 use crate::solver::{Friction, Sliding};
-use crate::units::{Metre, MetrePerSecond, Newton, Pascal, SquareMetre};
+use crate::units::{Metre, MetrePerSecond, Newton};
 
 /// What is prescribed in the normal direction during the motion.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -64,15 +69,14 @@ pub enum Strategy {
 }
 
 impl Control {
-    /// The largest load that this control can ask for where columns of the area `column` face each other, so many at
-    /// each position: the hardness on all of them, in the mean over a pass, or at the position with the fewest.
-    pub fn plastic_limit(&self, columns: &[usize], column: SquareMetre, hardness: Pascal) -> Newton {
-        let bearing = match self {
-            Self::PassLoad(_) => columns.iter().sum::<usize>() as f64 / columns.len() as f64,
-            Self::StepLoad(_) => columns.iter().copied().min().unwrap_or(0) as f64,
-            Self::Approach(_) => columns.iter().copied().max().unwrap_or(0) as f64,
-        };
-        hardness * column * bearing
+    /// The largest load that this control can ask for where the cells at each position bear so much together: in the mean
+    /// over a pass, or at the position that bears the least.
+    pub fn plastic_limit(&self, bearable: &[Newton]) -> Newton {
+        match self {
+            Self::PassLoad(_) => bearable.iter().sum::<f64>() / bearable.len() as f64,
+            Self::StepLoad(_) => bearable.iter().copied().fold(f64::INFINITY, f64::min),
+            Self::Approach(_) => bearable.iter().copied().fold(0.0, f64::max),
+        }
     }
 
     /// Holds a load against the [`Control::plastic_limit`].
@@ -145,8 +149,14 @@ impl Motion {
         self.friction.map(|friction| Sliding { friction, direction: [self.strategy.direction(), 0.0] })
     }
 
-    /// The most pressure that cells of the `hardness` bear in this motion.
-    pub(crate) fn cap(&self, hardness: Pascal) -> Pascal {
-        self.friction.map_or(hardness, |friction| friction.sliding_cap(hardness))
+    /// Distance over which bodies of that pitch slide over each other from one position to the next.
+    pub(crate) fn sliding_distance(&self, pitch: Metre) -> Metre {
+        let step = self.stride as f64 * pitch;
+        match self.strategy {
+            Strategy::Overlap => step,
+            Strategy::Shift { speed_lower, speed_upper } => {
+                step * (speed_upper - speed_lower).abs() / speed_lower.abs().max(speed_upper.abs())
+            }
+        }
     }
 }

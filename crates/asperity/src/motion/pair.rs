@@ -1,31 +1,32 @@
 //! Two bodies that face each other.
 
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
+use crate::grid::{CellValues, Field, Grid};
 use crate::kernel::SharedResponse;
-use crate::material::{Compliances, Material, composite_hardness, plastic_share};
+use crate::material::{Compliances, Material, plastic_share};
+use crate::motion::body::Body;
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
+use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 
-/// The two surfaces, and what the materials make of them together.
+/// The two bodies, and what the materials make of them together.
 #[derive(Debug, Clone)]
 pub struct Pair {
-    /// Heights of the lower surface, m.
-    pub lower: Field,
-    /// Heights of the upper body's underside, m.
-    pub upper: Field,
+    /// The lower body.
+    pub lower: Body,
+    /// The upper body; its heights are those of its underside.
+    pub upper: Body,
     pitch: [Metre; 2],
     compliances: Compliances,
     response: SharedResponse,
-    hardness: Pascal,
-    cap: Pascal,
-    share: f64,
+    /// The lower body's share of the plastic deformation, where it is not for the softer of two cells to take it.
+    share: Option<f64>,
 }
 
 impl Pair {
-    /// Two bodies; `upper` is the height of the underside.
+    /// Two bodies of these materials; `upper` is the height of the underside.
     ///
     /// # Errors
     /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] where heights are
@@ -53,27 +54,33 @@ impl Pair {
             }
         }
         let compliances = Compliances::new(materials[0], materials[1])?;
-        let hardness = composite_hardness(materials[0], materials[1]);
         Ok(Self {
             pitch: a.pitch,
-            lower: lower.into_heights(),
-            upper: upper.into_heights(),
+            lower: Body::new(lower.into_heights(), materials[0].hardness),
+            upper: Body::new(upper.into_heights(), materials[1].hardness),
             compliances,
             response: compliances.into(),
-            hardness,
-            cap: hardness,
-            share: plastic_share(materials[0], materials[1]),
+            share: None,
         })
+    }
+
+    /// The same pair with another hardness of the lower and of the upper body, each a number or a map of its cells.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a hardness that is not above 0.
+    ///
+    /// # Panics
+    /// If a map has another shape than its body.
+    pub fn with_hardness(mut self, [lower, upper]: [CellValues; 2]) -> Result<Self> {
+        (self.lower.hardness, self.upper.hardness) = (lower, upper);
+        self.lower.validate()?;
+        self.upper.validate()?;
+        Ok(self)
     }
 
     /// The same pair with another division of the plastic deformation: `share` of it to the lower body, 0 … 1.
     pub fn with_plastic_share(self, share: f64) -> Self {
-        Self { share, ..self }
-    }
-
-    /// The same pair, whose cells bear at most the pressure `cap`, > 0.
-    pub fn with_cap(self, cap: Pascal) -> Self {
-        Self { cap, ..self }
+        Self { share: Some(share), ..self }
     }
 
     /// The same surfaces on bodies of another `response` than that of the materials.
@@ -128,24 +135,54 @@ impl Pair {
         Ok(Operators::new(largest, self.response.clone(), boundary))
     }
 
-    /// Hardness of the pair, infinite where both bodies are elastic.
-    pub fn hardness(&self) -> Pascal {
-        self.hardness
+    /// The shares of the plastic deformation that a flat cell of the lower body and one of the upper body take where they face
+    /// each other: all of it the softer, half of it each where both are equally hard.
+    pub fn plastic_shares(&self, cells: [usize; 2]) -> [f64; 2] {
+        let lower = self.share.unwrap_or_else(|| {
+            plastic_share(self.lower.hardness.at(cells[0]), self.upper.hardness.at(cells[1]))
+        });
+        [lower, 1.0 - lower]
     }
 
-    /// The most pressure that a cell bears: the hardness, or what a shear leaves of it.
-    pub fn cap(&self) -> Pascal {
-        self.cap
-    }
-
-    /// The lower body's share of the plastic deformation.
-    pub fn plastic_share(&self) -> f64 {
-        self.share
-    }
-
-    /// Whether the pair can deform plastically.
+    /// Whether any cell of the pair can deform plastically.
     pub fn yields(&self) -> bool {
-        self.hardness.is_finite()
+        self.lower.hardness.min().min(self.upper.hardness.min()).is_finite()
+    }
+
+    /// The most pressure that any two cells bear where they face each other, infinite where both are elastic.
+    pub fn max_hardness(&self) -> Pascal {
+        self.lower.hardness.max().min(self.upper.hardness.max())
+    }
+
+    /// The least pressure that two cells bear where they face each other.
+    pub fn min_hardness(&self) -> Pascal {
+        self.lower.hardness.min().min(self.upper.hardness.min())
+    }
+
+    /// Bounds of the pressure on the cells that face each other: none above the hardness of the softer, nor above what the
+    /// shear of bodies that slide under `friction` leaves of it.
+    pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
+        let hardness = match (&self.lower.hardness, &self.upper.hardness) {
+            (CellValues::Uniform(lower), CellValues::Uniform(upper)) => {
+                CellValues::Uniform(lower.min(*upper))
+            }
+            (lower, upper) => {
+                let shape = self.grid(position.columns).shape;
+                let bear = |cell| {
+                    let cells = self.cells_of_bodies(position, cell);
+                    lower.at(cells[0]).min(upper.at(cells[1]))
+                };
+                let values = (0..shape[0] * shape[1]).map(bear).collect();
+                CellValues::Field(Field::from_shape_vec(shape, values).expect("a value for each cell"))
+            }
+        };
+        let bounds = Bounds::up_to(hardness);
+        friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
+    }
+
+    /// The one position of a contact at rest, whose bodies face each other with all their columns.
+    pub fn at_rest(&self) -> Position {
+        Position { offset: 0, lower: 0, upper: 0, columns: self.lower.columns() }
     }
 
     /// Area ΔA of a cell.
@@ -155,31 +192,31 @@ impl Pair {
 
     /// The lower body's grid.
     pub fn lower_grid(&self) -> Grid {
-        self.grid(self.lower.nrows())
+        self.grid(self.lower.columns())
     }
 
     /// The upper body's grid.
     pub fn upper_grid(&self) -> Grid {
-        self.grid(self.upper.nrows())
+        self.grid(self.upper.columns())
     }
 
     /// A grid of so many columns of this pair.
     pub fn grid(&self, columns: usize) -> Grid {
-        Grid { shape: [columns, self.lower.ncols()], pitch: self.pitch }
+        Grid { shape: [columns, self.lower.width()], pitch: self.pitch }
     }
 
     /// Undeformed gap h = z₂ − z₁ of the cells that face each other.
     pub fn initial_gap(&self, position: &Position) -> Field {
-        initial_gap([&self.lower, &self.upper], position)
+        initial_gap([&self.lower.heights, &self.upper.heights], position)
     }
 
     /// Of a flat cell of the contact at `position`: its flat cells of the lower and of the upper body.
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
-        let width = self.lower.ncols();
+        let width = self.lower.width();
         let (column, across) = (cell / width, cell % width);
         [
-            (position.lower + column) % self.lower.nrows() * width + across,
-            (position.upper + column) % self.upper.nrows() * width + across,
+            (position.lower + column) % self.lower.columns() * width + across,
+            (position.upper + column) % self.upper.columns() * width + across,
         ]
     }
 }

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
+use crate::motion::law::{self, Law, LostVolume};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::plastic::{LostVolume, deform_after, deform_at};
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::{Motion, PlasticUpdate};
@@ -21,7 +21,8 @@ use crate::units::Newton;
 pub(super) struct Pass {
     pub(super) contacts: Vec<Contact>,
     pub(super) pair: Pair,
-    pub(super) lost: LostVolume,
+    /// What each law took from it.
+    pub(super) lost: Vec<LostVolume>,
 }
 
 impl Pass {
@@ -37,6 +38,7 @@ pub(super) struct Solver<'a> {
     pub(super) positions: &'a [Position],
     pub(super) motion: &'a Motion,
     pub(super) interiors: &'a [Interior; 2],
+    pub(super) laws: &'a [Box<dyn Law>],
     pub(super) watch: &'a dyn Watch,
     /// Pass and trial, for the watch.
     pub(super) progress: Progress,
@@ -82,7 +84,7 @@ impl Solver<'_> {
                 return Err(Error::Interrupted);
             }
             let position = self.positions[index];
-            let start = first_guess(earlier, index, control, pair.lower.ncols());
+            let start = first_guess(earlier, index, control, pair.lower.width());
             let contact =
                 Contact::solve(pair, self.operators, position, sliding, control, start.as_ref(), params);
             let mut contact = contact.map_err(|source| Error::AtPosition {
@@ -99,12 +101,16 @@ impl Solver<'_> {
             Ok(contact)
         };
         let mut after = pair.clone();
+        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::none(law.as_ref())).collect();
+        let distance = self.motion.sliding_distance(pair.pitch()[0]);
+        let mut change = |after: &mut Pair, contacts: &[Contact]| {
+            law::apply(self.laws, after, contacts, distance, self.interiors, &mut lost);
+        };
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
-            let mut lost = LostVolume::default();
             for index in 0..self.positions.len() {
                 let contact = solve(&after, index)?;
-                lost.add(&deform_at(&mut after, self.interiors, &contact));
+                change(&mut after, std::slice::from_ref(&contact));
                 contacts.push(contact);
             }
             return Ok(Pass { contacts, pair: after, lost });
@@ -113,7 +119,7 @@ impl Solver<'_> {
             .into_par_iter()
             .map(|index| solve(pair, index))
             .collect::<Result<_>>()?;
-        let lost = deform_after(&mut after, self.interiors, &contacts);
+        change(&mut after, &contacts);
         Ok(Pass { contacts, pair: after, lost })
     }
 }

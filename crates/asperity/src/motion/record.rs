@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::motion::law::LostVolume;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre};
 
 /// A static contact in numbers: `static` in `summary.json`.
@@ -31,8 +32,6 @@ pub struct StaticRecord {
     pub convolutions: f64,
     /// Scale-free complementarity residual η.
     pub residual: f64,
-    /// Whether the residual is below the tolerance.
-    pub converged: bool,
     /// What friction adds to it.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub shear: Option<ShearRecord>,
@@ -226,14 +225,10 @@ pub struct PassRecord {
     pub largest_spot_cells: usize,
     /// Largest pressure met.
     pub max_pressure: Pascal,
-    /// Volume that the lower body lost in this pass.
-    pub plastic_volume_lower: CubicMetre,
-    /// Volume that the upper body lost in this pass.
-    pub plastic_volume_upper: CubicMetre,
-    /// Volume that the interior of the lower body lost in this pass.
-    pub plastic_volume_lower_interior: CubicMetre,
-    /// Volume that the interior of the upper body lost in this pass.
-    pub plastic_volume_upper_interior: CubicMetre,
+    /// Volumes that each law took from the bodies in this pass: of the plastic flow the columns `plastic_volume_lower`,
+    /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
+    #[serde(flatten, with = "lost_volumes")]
+    pub lost: Vec<LostVolume>,
     /// Rms height of the lower surface after the pass.
     pub sq_lower: Metre,
     /// Rms height of the upper surface after the pass.
@@ -248,4 +243,56 @@ pub struct PassRecord {
     pub convolutions: f64,
     /// Time the pass took.
     pub wall_time_s: Second,
+}
+
+impl PassRecord {
+    /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 where there is no such law.
+    pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
+        self.of(law).map_or([0.0; 2], |lost| lost.whole)
+    }
+
+    /// Volumes that the interiors of the lower and of the upper body lost in this pass to the law of that name.
+    pub fn lost_inside(&self, law: &str) -> [CubicMetre; 2] {
+        self.of(law).map_or([0.0; 2], |lost| lost.interior)
+    }
+
+    fn of(&self, law: &str) -> Option<&LostVolume> {
+        self.lost.iter().find(|lost| lost.law == law)
+    }
+}
+
+/// Volumes as columns: four for each law, by its name.
+mod lost_volumes {
+    use std::collections::BTreeMap;
+
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    use super::{CubicMetre, LostVolume};
+
+    const COLUMNS: [&str; 4] =
+        ["_volume_lower", "_volume_upper", "_volume_lower_interior", "_volume_upper_interior"];
+
+    pub(super) fn serialize<S: Serializer>(lost: &[LostVolume], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(lost.iter().flat_map(|lost| {
+            let values = [lost.whole[0], lost.whole[1], lost.interior[0], lost.interior[1]];
+            let columns = COLUMNS.map(|column| format!("{}{column}", lost.law));
+            columns.into_iter().zip(values)
+        }))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<LostVolume>, D::Error> {
+        let columns = BTreeMap::<String, CubicMetre>::deserialize(deserializer)?;
+        let laws = columns.keys().filter_map(|column| column.strip_suffix(COLUMNS[0]));
+        laws.map(|law| {
+            let value = |column: &str| {
+                let column = format!("{law}{column}");
+                columns.get(&column).copied().ok_or_else(|| D::Error::custom(format!("no column `{column}`")))
+            };
+            let [a, b, c, d] = COLUMNS.map(value);
+            Ok(LostVolume { law: law.to_owned(), whole: [a?, b?], interior: [c?, d?] })
+        })
+        .collect()
+    }
 }

@@ -1,15 +1,14 @@
 //! A static contact under one load after another, each on virgin bodies.
 
-use ndarray::Array2;
-
 use crate::error::{Error, Result};
-use crate::motion::loading::{Equilibrium, LoadedContact, facing};
+use crate::motion::contact::facing;
+use crate::motion::loading::LoadedContact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{Progress, Watch};
 use crate::operator::{Boundary, Operator};
-use crate::solver::{Control, Friction, Params, Rolling, normal_stiffness};
+use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
 /// What is prescribed at a point of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +85,7 @@ pub fn sweep(
                 }
                 _ => LoadedContact::pressed(pair, normal.as_mut(), &gap, point.control, params)?,
             };
-            Ok((record(pair, boundary, normal.as_mut(), index, &contact, params)?, contact))
+            Ok((record(boundary, normal.as_mut(), index, &contact, params)?, contact))
         };
         let (record, contact) = solve().map_err(|source| Error::AtPoint {
             point: index,
@@ -106,17 +105,17 @@ pub fn sweep(
 
 /// A contact in numbers, with its stiffness.
 fn record(
-    pair: &Pair,
     boundary: Boundary,
     operator: &mut dyn Operator,
     point: usize,
     contact: &LoadedContact,
     params: &Params,
 ) -> Result<SweepRecord> {
-    let (stiffness, stats) = normal_stiffness(operator, &elastic(pair, &contact.solution), params)?;
+    let (stiffness, stats) = normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?;
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
-    let pressure = &contact.solution.normal().pressure;
-    let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
+    let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
+    let cells = pressure.iter().enumerate();
+    let touching = cells.filter(|(cell, p)| bounds.touches(*cell, **p)).map(|(cell, _)| cell);
     let shear = contact.record.shear.as_ref();
     let of_shear = |value: fn(&ShearRecord) -> f64| shear.map_or(0.0, value);
     Ok(SweepRecord {
@@ -127,9 +126,9 @@ fn record(
         mean_gap: contact.record.mean_gap,
         contact_area,
         contact_fraction: contact_area / apparent_area,
-        largest_spot_cells: largest_spot(touching, pair.lower_grid().shape, boundary.wraps()),
+        largest_spot_cells: largest_spot(touching, grid.shape, boundary.wraps()),
         max_pressure: contact.record.max_pressure,
-        plastic_area: pair.cell_area() * contact.record.plastic_cells as f64,
+        plastic_area: grid.cell_area() * contact.record.plastic_cells as f64,
         plastic_volume: contact.record.plastic_volume,
         elastic_energy: contact.record.elastic_energy,
         stiffness,
@@ -144,14 +143,4 @@ fn record(
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,
     })
-}
-
-/// The cells that touch and do not yield.
-fn elastic(pair: &Pair, solution: &Equilibrium) -> Array2<bool> {
-    let pressure = &solution.normal().pressure;
-    let mut elastic = pressure.mapv(|p| p > 0.0 && p < pair.hardness());
-    if let Some(solution) = solution.frictional() {
-        ndarray::Zip::from(&mut elastic).and(pressure).and(&solution.cap).for_each(|e, p, cap| *e &= p < cap);
-    }
-    elastic
 }

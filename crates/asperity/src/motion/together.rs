@@ -12,11 +12,11 @@ use crate::motion::path::Position;
 use crate::motion::watch::Progress;
 use crate::motion::{Control, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
-use crate::solver::{Kept, Method, Params, Residual, Site, coarse_gap, solve_together};
-use crate::units::{Newton, Pascal};
+use crate::solver::{Bounds, Method, Params, Residual, Site, Sliding, coarse_site, solve_together};
+use crate::units::Newton;
 
 /// Cells of all positions above which they are not held at once.
-const MOST_CELLS: usize = 40_000_000;
+const MAX_CELLS: usize = 40_000_000;
 /// Memory that a cell takes then, bytes.
 const PER_CELL: f64 = 60.0;
 
@@ -33,15 +33,15 @@ const RESIDUAL_PER_ACCURACY: f64 = 300.0;
 pub(crate) fn memory_together(
     motion: &Motion,
     method: Method,
-    hardness: Pascal,
+    yields: bool,
     columns: &[usize],
     width: usize,
 ) -> Option<f64> {
     let cells = width * columns.iter().sum::<usize>();
-    let frozen = motion.plastic_update == PlasticUpdate::Pass || hardness.is_infinite();
+    let frozen = motion.plastic_update == PlasticUpdate::Pass || !yields;
     let iterative = matches!(method, Method::Auto | Method::ActiveSet);
     let searched = matches!(motion.control, Control::PassLoad(_));
-    (frozen && iterative && searched && cells <= MOST_CELLS).then_some(PER_CELL * cells as f64)
+    (frozen && iterative && searched && cells <= MAX_CELLS).then_some(PER_CELL * cells as f64)
 }
 
 /// The part of the residual at the start, at which even a good start must arrive: it is wrong where the geometry has
@@ -62,10 +62,12 @@ impl Solver<'_> {
         params: &Params,
         earlier: Option<&Vec<Contact>>,
     ) -> Result<Vec<Contact>> {
-        let facing = |position: &Position| Facing { pair, operators: self.operators, position: *position };
+        let sliding = self.motion.sliding();
+        let facing =
+            |position: &Position| Facing { pair, operators: self.operators, sliding, position: *position };
         let facing: Vec<Facing> = self.positions.iter().map(facing).collect();
         let sites: Vec<&dyn Site> = facing.iter().map(|site| site as &dyn Site).collect();
-        let width = pair.lower.ncols();
+        let width = pair.lower.width();
         let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
         let total = load * self.positions.len() as f64;
         let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(LOOSEST);
@@ -79,7 +81,7 @@ impl Solver<'_> {
             // Whoever wants to stop takes anything.
             if self.watch.stop() { f64::INFINITY } else { wanted }
         };
-        let found = solve_together(&sites, pair.cap(), total, start, &tolerance, params.max_convolutions)?;
+        let found = solve_together(&sites, total, start, &tolerance, params.max_convolutions)?;
         if self.watch.stop() {
             return Err(Error::Interrupted);
         }
@@ -94,6 +96,7 @@ impl Solver<'_> {
 struct Facing<'a> {
     pair: &'a Pair,
     operators: &'a Operators,
+    sliding: Option<Sliding>,
     position: Position,
 }
 
@@ -106,12 +109,16 @@ impl Site for Facing<'_> {
         Cow::Owned(self.pair.initial_gap(&self.position))
     }
 
+    fn bounds(&self) -> Cow<'_, Bounds> {
+        Cow::Owned(self.pair.bounds(&self.position, self.sliding.as_ref().map(|sliding| &sliding.friction)))
+    }
+
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {
         task(self.operators.on(self.grid().shape).as_mut());
     }
 
     fn coarse(&self) -> Box<dyn Site> {
         let operator = self.operators.on(self.grid().shape).coarse();
-        Box::new(Kept::new(operator, Cow::Owned(coarse_gap(&self.initial_gap()))))
+        Box::new(coarse_site(operator, &self.initial_gap(), &self.bounds()))
     }
 }

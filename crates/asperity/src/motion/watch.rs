@@ -76,7 +76,7 @@ impl PassReport<'_> {
 
     /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
     pub fn mean_pressure(&self) -> [Field; 2] {
-        let mut mean = [Field::zeros(self.pair.lower.raw_dim()), Field::zeros(self.pair.upper.raw_dim())];
+        let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {
             for &(cell, p) in &contact.pressure {
                 let bodies = self.pair.cells_of_bodies(&contact.position, cell as usize);

@@ -1,127 +1,187 @@
-//! The feasible pressures: 0 ≤ p ≤ H, and under load Σ p given.
+//! Between which bounds the pressure of each cell lies.
 
-use crate::grid::Field;
-use crate::math::sum::sums;
-use crate::solver::Terms;
-use crate::units::Pascal;
+use crate::error::{Result, check_in};
+use crate::grid::CellValues;
+use crate::units::{Dimension, Pascal};
 
-/// Relative error of the load of a feasible pressure.
-const LOAD_ACCURACY: f64 = 1e-11;
-/// Relative error of a sum of pressures that is as good as none: above the rounding of millions of terms.
-const SUM_ACCURACY: f64 = 1e-13;
-
-/// Pressures that are summed and changed all together.
-pub(super) trait Cells {
-    /// The sums of what `terms` makes of each pressure.
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal) -> [f64; N] + Sync) -> [f64; N];
-
-    /// Changes each pressure.
-    fn map(&mut self, change: impl Fn(Pascal) -> Pascal + Sync);
-
-    /// Their range.
-    fn range(&mut self) -> Range;
-}
-
-impl Cells for Field {
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal) -> [f64; N] + Sync) -> [f64; N] {
-        sums(self.as_slice().expect("standard layout"), terms)
-    }
-
-    fn map(&mut self, change: impl Fn(Pascal) -> Pascal + Sync) {
-        self.mapv_inplace(change);
-    }
-
-    fn range(&mut self) -> Range {
-        Range::of(self.as_slice().expect("standard layout"))
-    }
-}
-
-impl Terms {
-    /// Whether pressures of this sum bear the load, if one is prescribed.
-    pub(super) fn bears_the_load(&self, sum: f64) -> bool {
-        self.pressure_sum().is_none_or(|wanted| (sum - wanted).abs() <= LOAD_ACCURACY * wanted)
-    }
-}
-
-/// Brings pressures into their bounds and, under load control, to the load: first by scaling the cells between the
-/// bounds, and where these cannot bear it, by a uniform shift.
-pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Terms) {
-    let hardness = terms.hardness;
-    cells.map(|p| p.clamp(0.0, hardness));
-    let Some(wanted) = terms.pressure_sum() else { return };
-    for _ in 0..60 {
-        let [sum, between] = cells.sum(|p| [p, if p < hardness { p } else { 0.0 }]);
-        if (sum - wanted).abs() <= SUM_ACCURACY * wanted {
-            return;
-        }
-        if between <= 0.0 || between <= 0.5 * (sum - wanted) {
-            break;
-        }
-        let factor = 1.0 + (wanted - sum) / between;
-        cells.map(|p| if p < hardness { (p * factor).clamp(0.0, hardness) } else { p });
-    }
-    let range = cells.range();
-    let shift = shift_for_sum(range, wanted, |shift| cells.sum(|p| in_bounds(p + shift, hardness)));
-    cells.map(|p| (p + shift).clamp(0.0, hardness));
-}
-
-/// A pressure brought into its bounds, and 1 where it is between them.
-pub(super) fn in_bounds(pressure: Pascal, hardness: Pascal) -> [f64; 2] {
-    let p = pressure.clamp(0.0, hardness);
-    [p, if 0.0 < p && p < hardness { 1.0 } else { 0.0 }]
-}
-
-/// The least and the largest of some values, and their number.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Range {
-    least: f64,
-    most: f64,
-    count: usize,
-}
-
-impl Range {
-    pub(super) fn of<T: Copy + Into<f64>>(values: &[T]) -> Self {
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for y in values {
-            (least, most) = (least.min((*y).into()), most.max((*y).into()));
-        }
-        Self { least, most, count: values.len() }
-    }
-
-    /// The range of both.
-    pub(super) fn and(self, other: Self) -> Self {
-        Self {
-            least: self.least.min(other.least),
-            most: self.most.max(other.most),
-            count: self.count + other.count,
-        }
-    }
-}
-
-/// The c at which Σ clip(y + c, 0, H) is `wanted`, for 0 ≤ `wanted` ≤ n H, over values y in the `range`: the Euclidean
-/// projection onto the bounds and the sum. `sums` gives that sum, and how many of the values are between the bounds.
+/// Bounds of the pressure, cell by cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
 ///
-/// The sum grows piecewise linearly with c: bracketed Newton iteration, exact to round-off in a few passes.
-pub(super) fn shift_for_sum(range: Range, wanted: f64, mut sums: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let (mut low, mut high) = (-range.most, wanted / range.count as f64 - range.least);
-    let mut shift = high.min(0.0).max(low);
-    for _ in 0..200 {
-        let [sum, between] = sums(shift);
-        let excess = sum - wanted;
-        if excess.abs() <= SUM_ACCURACY * wanted {
-            break;
-        }
-        if excess < 0.0 {
-            low = shift;
-        } else {
-            high = shift;
-        }
-        let newton = shift - excess / between;
-        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-        if next <= low || next >= high {
-            break;
-        }
-        shift = next;
+/// Without adhesion the lower bound is 0. The upper one is the hardness, or what of it a shear or a film leaves to a
+/// cell; infinite where the bodies are elastic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    lower: CellValues,
+    upper: CellValues,
+}
+
+impl Bounds {
+    /// Bounds for elastic bodies without adhesion: 0 ≤ p.
+    pub const ELASTIC: Self =
+        Self { lower: CellValues::Uniform(0.0), upper: CellValues::Uniform(f64::INFINITY) };
+
+    /// Bounds for bodies without adhesion that bear at most the pressure `upper`, a number or a field:
+    /// 0 ≤ p ≤ upper.
+    pub fn up_to(upper: impl Into<CellValues>) -> Self {
+        Self { lower: CellValues::Uniform(0.0), upper: upper.into() }
     }
-    shift
+
+    /// The same upper bounds above `lower` ones: finite, 0 or below it where the bodies attract each other.
+    pub fn above(self, lower: impl Into<CellValues>) -> Self {
+        Self { lower: lower.into(), ..self }
+    }
+
+    /// The lower bounds.
+    pub fn lower(&self) -> &CellValues {
+        &self.lower
+    }
+
+    /// The upper bounds.
+    pub fn upper(&self) -> &CellValues {
+        &self.upper
+    }
+
+    /// Whether a cell at `pressure` is in contact: above its lower bound.
+    pub fn touches(&self, cell: usize, pressure: Pascal) -> bool {
+        pressure > self.lower.at(cell)
+    }
+
+    /// Whether a cell at `pressure` is capped: at its upper bound, and that above the lower one.
+    pub fn caps(&self, cell: usize, pressure: Pascal) -> bool {
+        pressure >= self.upper.at(cell) && self.touches(cell, pressure)
+    }
+
+    /// The bounds of a flat `cell`.
+    #[inline]
+    pub(super) fn at(&self, cell: usize) -> Interval {
+        Interval { lower: self.lower.at(cell), upper: self.upper.at(cell) }
+    }
+
+    /// The bounds of all cells, where they are given as one.
+    pub(super) fn uniform(&self) -> Option<Interval> {
+        Some(Interval { lower: self.lower.uniform()?, upper: self.upper.uniform()? })
+    }
+
+    /// The bounds on a grid of about half as many cells along each axis: means over the cells that one stands for.
+    pub(crate) fn coarse(&self) -> Self {
+        let coarse = |values: &CellValues| match values {
+            CellValues::Uniform(value) => CellValues::Uniform(*value),
+            CellValues::Field(field) => CellValues::Field(super::site::coarse_means(field)),
+        };
+        Self { lower: coarse(&self.lower), upper: coarse(&self.upper) }
+    }
+
+    /// Whether these are bounds for a grid of that shape, and each has a meaning.
+    pub(super) fn validate(&self, shape: [usize; 2]) -> Result<()> {
+        assert!(self.lower.fits(shape) && self.upper.fits(shape), "shape of the bounds");
+        let wrong = |value: &f64| !(value.is_finite() && *value <= 0.0);
+        let lower = match &self.lower {
+            CellValues::Uniform(value) => Some(*value).filter(wrong),
+            CellValues::Field(field) => field.iter().copied().find(wrong),
+        };
+        if let Some(value) = lower {
+            check_in(Dimension::Pressure, "lower bound", value, false, "a finite pressure of at most 0")?;
+        }
+        let cells = match self.uniform() {
+            Some(_) => 1,
+            None => shape[0] * shape[1],
+        };
+        for cell in 0..cells {
+            let Interval { lower, upper } = self.at(cell);
+            let (what, expected) = match lower {
+                0.0 => ("hardness", "a hardness above 0"),
+                _ => ("upper bound", "a pressure above the lower bound"),
+            };
+            check_in(Dimension::Pressure, what, upper, upper > lower, expected)?;
+        }
+        Ok(())
+    }
+}
+
+impl From<Pascal> for Bounds {
+    /// Bounds for bodies of that hardness, see [`Bounds::up_to`].
+    fn from(hardness: Pascal) -> Self {
+        Self::up_to(hardness)
+    }
+}
+
+/// The bounds of one cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Interval {
+    pub(super) lower: Pascal,
+    pub(super) upper: Pascal,
+}
+
+impl Interval {
+    /// The nearest pressure between the bounds.
+    #[inline]
+    pub(super) fn clamp(self, pressure: Pascal) -> Pascal {
+        pressure.clamp(self.lower, self.upper)
+    }
+
+    /// Whether a pressure is at neither bound.
+    #[inline]
+    pub(super) fn is_free(self, pressure: Pascal) -> bool {
+        self.lower < pressure && pressure < self.upper
+    }
+}
+
+/// Evaluates an expression with `$of` the [`Interval`] of a cell, once for uniform bounds, which then cost no more than
+/// two numbers, and once for fields.
+macro_rules! with_bounds {
+    ($bounds:expr, $of:ident => $do:expr) => {{
+        let bounds = &$bounds;
+        match bounds.uniform() {
+            Some(interval) => {
+                let $of = |_: usize| interval;
+                $do
+            }
+            None => {
+                let $of = |cell: usize| bounds.at(cell);
+                $do
+            }
+        }
+    }};
+}
+pub(super) use with_bounds;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Field;
+
+    #[test]
+    fn a_cell_touches_above_its_lower_bound_and_is_capped_at_its_upper_one() {
+        let upper = Field::from_shape_fn([1, 3], |(_, j)| [1.0, 2.0, 3.0][j]);
+        let bounds = Bounds::up_to(upper).above(-1.0);
+        assert!(!bounds.touches(0, -1.0) && bounds.touches(0, -0.5) && bounds.touches(2, 0.0));
+        assert!(bounds.caps(0, 1.0) && !bounds.caps(1, 1.0) && bounds.caps(1, 2.0));
+        assert_eq!(bounds.at(2), Interval { lower: -1.0, upper: 3.0 });
+        assert_eq!(bounds.uniform(), None);
+    }
+
+    #[test]
+    fn bounds_without_meaning_are_refused() {
+        let field = |third: f64| Field::from_shape_fn([1, 3], |(_, j)| if j == 2 { third } else { 1.0 });
+        assert!(Bounds::up_to(field(1.0)).validate([1, 3]).is_ok());
+        for bounds in [
+            Bounds::up_to(0.0),
+            Bounds::up_to(f64::NAN),
+            Bounds::up_to(field(0.0)),
+            Bounds::up_to(field(f64::NAN)),
+            Bounds::up_to(field(-2.0)).above(-1.0),
+            Bounds::ELASTIC.above(0.5),
+            Bounds::ELASTIC.above(f64::NEG_INFINITY),
+            Bounds::ELASTIC.above(field(f64::NAN)),
+        ] {
+            assert!(bounds.validate([1, 3]).is_err(), "{bounds:?}");
+        }
+    }
+
+    #[test]
+    fn a_coarse_cell_bears_the_mean_of_those_that_it_stands_for() {
+        let upper = Field::from_shape_fn([2, 3], |(i, j)| (3 * i + j) as f64);
+        let coarse = Bounds::up_to(upper).coarse();
+        assert_eq!(coarse.upper, CellValues::Field(ndarray::array![[2.0, 3.5]]));
+        assert_eq!(Bounds::ELASTIC.coarse(), Bounds::ELASTIC);
+    }
 }

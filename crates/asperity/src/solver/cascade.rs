@@ -4,15 +4,15 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::solver::active_set::{self, Equilibrium};
 use crate::solver::site::Site;
-use crate::solver::{Residual, Terms};
+use crate::solver::{Residual, Terms, attraction};
 
-/// Residual to which the coarse grids are solved: of std(u), or of what the hardness does to a cell where that is
-/// less, for φ never exceeds it.
+/// Residual to which the coarse grids are solved: of std(u), or of what the largest upper bound does to a cell where that
+/// is less, for φ never exceeds it.
 const COARSE_TOLERANCE: f64 = 1e-2;
 /// Convolutions after which a coarse grid is given up.
 const COARSE_CONVOLUTIONS: usize = 100;
 /// Grids are not coarsened where none has as many cells as this along both axes.
-const LEAST_CELLS: usize = 64;
+const MIN_CELLS: usize = 64;
 
 /// The caution from a start that is given: unlike a guess from coarse grids, which is wrong smoothly, the answer at another
 /// approach or of another geometry is wrong at single cells, and so are the sets that these predict.
@@ -43,7 +43,7 @@ fn first_guess(
     terms: &Terms,
     tolerance: &dyn Fn(&Residual) -> f64,
 ) -> Result<(Option<Vec<Field>>, f64)> {
-    let large = |site: &&dyn Site| site.grid().shape.iter().all(|n| *n >= LEAST_CELLS);
+    let large = |site: &&dyn Site| site.grid().shape.iter().all(|n| *n >= MIN_CELLS);
     if !sites.iter().any(large) {
         return Ok((None, 0.0));
     }
@@ -53,11 +53,14 @@ fn first_guess(
     let share = cells(&coarse) / cells(sites);
     let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), ..*terms };
     coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
-    if terms.hardness * cells(&coarse) <= coarse_terms.pressure_sum().unwrap_or(0.0) {
+    let bearable: f64 = coarse.iter().map(|site| site.bounds().upper().sum(site.grid().cells())).sum();
+    if coarse_terms.pressure_sum().is_some_and(|wanted| bearable <= wanted) {
         return Ok((None, 0.0));
     }
+    coarse_terms.attraction = coarse.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum();
     let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance)?;
-    let saturation = coarse_terms.self_influence * terms.hardness;
+    let most = coarse.iter().map(|site| site.bounds().upper().max()).fold(0.0, f64::max);
+    let saturation = coarse_terms.self_influence * most;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
     match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, COARSE_CONVOLUTIONS) {

@@ -2,12 +2,14 @@
 
 use faer::Mat;
 use faer::linalg::solvers::{Llt, Solve};
+use ndarray::Array2;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
-use crate::solver::bounds::make_feasible;
-use crate::solver::{Control, Params, Problem, Solution, Stats, Terms};
+use crate::solver::feasible::{Bounded, make_feasible};
+use crate::solver::sets::Set;
+use crate::solver::{Answer, Control, Params, Problem, Stats, Terms};
 use crate::units::Metre;
 
 /// Cells between the bounds above which the dense matrix would be out of proportion (3 GB).
@@ -21,19 +23,20 @@ pub(super) fn solve(
     problem: &Problem,
     start: Option<&Field>,
     params: &Params,
-) -> Result<Solution> {
+) -> Result<Answer> {
     let mut pivoting = Pivoting::new(operator, problem);
-    let mut bounds = start.map(|p| p.mapv(|p| Bound::of(p, problem.terms.hardness)));
+    let sets = start.map(|start| problem.sets_of(start));
     let (mut answer, approach) = match problem.terms.control {
         Control::Approach(approach) => {
-            let first = bounds.take().unwrap_or_else(|| pivoting.first_guess(approach));
+            let first = sets.unwrap_or_else(|| problem.sets_at(approach));
             (pivoting.solve(approach, first)?, approach)
         }
-        Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, bounds)?,
+        Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, sets)?,
     };
     if !problem.terms.bears_the_load(answer.pressure.sum()) {
         // Between one approach and the next in double precision.
-        make_feasible(&mut answer.pressure, &problem.terms);
+        let mut cells = Bounded { pressure: &mut answer.pressure, bounds: problem.bounds };
+        make_feasible(&mut cells, &problem.terms);
         pivoting.respond(&answer.pressure, &mut answer.displacement);
     }
     let stats = Stats {
@@ -52,7 +55,7 @@ pub(super) fn solve(
             tolerance: params.tolerance,
         });
     }
-    Ok(Solution { pressure: answer.pressure, displacement, approach, residual, stats })
+    Ok(Answer { pressure: answer.pressure, displacement, approach, residual, stats })
 }
 
 impl Problem<'_> {
@@ -62,30 +65,35 @@ impl Problem<'_> {
         let problem = Problem { terms, ..*self };
         problem.residual(pressure, displacement).eta
     }
-}
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Bound {
-    Zero,
-    Free,
-    Hardness,
-}
+    /// The sets of a pressure.
+    fn sets_of(&self, pressure: &Field) -> Array2<Set> {
+        let sets = pressure.iter().enumerate().map(|(cell, p)| Set::of(*p, self.bounds.at(cell)));
+        Array2::from_shape_vec(pressure.raw_dim(), sets.collect()).expect("a set for each cell")
+    }
 
-impl Bound {
-    fn of(pressure: f64, hardness: f64) -> Self {
-        match pressure {
-            p if p <= 0.0 => Self::Zero,
-            p if p >= hardness => Self::Hardness,
-            _ => Self::Free,
-        }
+    /// The sets of undeformed bodies at an approach: the cells that overlap are free.
+    fn sets_at(&self, approach: Metre) -> Array2<Set> {
+        self.initial_gap.mapv(|h| if h < approach { Set::Free } else { Set::Lower })
+    }
+
+    /// The pressure of the cells at their bounds, 0 at the free ones.
+    fn pressure_at_bounds(&self, sets: &Array2<Set>) -> Field {
+        let at_bound = |(cell, set): (usize, &Set)| match set {
+            Set::Lower => self.bounds.at(cell).lower,
+            Set::Upper => self.bounds.at(cell).upper,
+            Set::Free => 0.0,
+        };
+        let pressures = sets.iter().enumerate().map(at_bound).collect();
+        Field::from_shape_vec(sets.raw_dim(), pressures).expect("a pressure for each cell")
     }
 }
 
 /// The exact answer at one approach.
-struct Answer {
+struct AtApproach {
     pressure: Field,
     displacement: Field,
-    bounds: ndarray::Array2<Bound>,
+    sets: Array2<Set>,
     /// dΣp/dδ = 1ᵀ C_FF⁻¹ 1 over the cells between the bounds.
     slope: f64,
 }
@@ -111,38 +119,32 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Self { operator, problem, influence, stiffening, factorisations: 0, convolutions: 0 }
     }
 
-    fn first_guess(&self, approach: Metre) -> ndarray::Array2<Bound> {
-        self.problem.initial_gap.mapv(|h| if h < approach { Bound::Free } else { Bound::Zero })
-    }
-
-    fn solve(&mut self, approach: Metre, mut bounds: ndarray::Array2<Bound>) -> Result<Answer> {
-        const MOST_BLOCK_STEPS_WITHOUT_PROGRESS: usize = 10;
-        let hardness = self.problem.terms.hardness;
+    fn solve(&mut self, approach: Metre, mut sets: Array2<Set>) -> Result<AtApproach> {
         let (mut best, mut stalled) = (usize::MAX, 0);
-        let mut displacement = Field::zeros(bounds.raw_dim());
+        let mut displacement = Field::zeros(sets.raw_dim());
         let mut pivots = 0;
         loop {
-            self.anchor(approach, &mut bounds)?;
-            let (pressure, slope) = self.between_bounds(approach, &bounds)?;
+            self.anchor(approach, &mut sets)?;
+            let (pressure, slope) = self.between_bounds(approach, &sets)?;
             self.respond(&pressure, &mut displacement);
             let largest = |field: &Field| field.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-            let (tiny_p, most_u) = (1e-14 * largest(&pressure), largest(&displacement));
-            let mut next = bounds.clone();
+            let (tiny_p, most_u) = (ROUNDING * largest(&pressure), largest(&displacement));
+            let mut next = sets.clone();
             let mut wrong = Vec::new();
-            for (index, bound) in next.indexed_iter_mut() {
-                let p = pressure[index];
+            for (cell, (index, set)) in next.indexed_iter_mut().enumerate() {
+                let (p, bounds) = (pressure[index], self.problem.bounds.at(cell));
                 let interference = approach - self.problem.initial_gap[index];
                 let w = interference - displacement[index];
-                let tiny_w = 1e-14 * interference.abs().max(most_u);
-                let better = match *bound {
-                    Bound::Free if p < -tiny_p => Bound::Zero,
-                    Bound::Free if p > hardness + tiny_p => Bound::Hardness,
-                    Bound::Zero if w > tiny_w => Bound::Free,
-                    Bound::Hardness if w < -tiny_w => Bound::Free,
+                let tiny_w = ROUNDING * interference.abs().max(most_u);
+                let better = match *set {
+                    Set::Free if p < bounds.lower - tiny_p => Set::Lower,
+                    Set::Free if p > bounds.upper + tiny_p => Set::Upper,
+                    Set::Lower if w > tiny_w => Set::Free,
+                    Set::Upper if w < -tiny_w => Set::Free,
                     same => same,
                 };
-                if better != *bound {
-                    *bound = better;
+                if better != *set {
+                    *set = better;
                     wrong.push(index);
                 }
             }
@@ -152,11 +154,13 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                 // Where the pivots are given up the residual tells how far they have come.
                 given_up => {
                     let given_up = given_up.is_some();
-                    let pressure = pressure.mapv(|p| p.clamp(0.0, hardness));
+                    let mut pressure = pressure;
+                    let cells = pressure.iter_mut().enumerate();
+                    cells.for_each(|(cell, p)| *p = self.problem.bounds.at(cell).clamp(*p));
                     if given_up {
                         self.respond(&pressure, &mut displacement);
                     }
-                    return Ok(Answer { pressure, displacement, bounds, slope });
+                    return Ok(AtApproach { pressure, displacement, sets, slope });
                 }
             };
             if wrong.len() < best {
@@ -164,36 +168,41 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             } else {
                 stalled += 1;
             }
-            if stalled > MOST_BLOCK_STEPS_WITHOUT_PROGRESS {
-                bounds[last] = next[last];
+            if stalled > MAX_STALLED_BLOCKS {
+                sets[last] = next[last];
             } else {
-                bounds = next;
+                sets = next;
             }
         }
     }
 
     /// A periodic contact whose cells are all between their bounds has no stiffness against a change of their mean: under an
-    /// approach beyond the mean gap it rises until the cell with the most pressure is at the hardness, under a lesser one it
-    /// falls until the cell with the least opens.
-    fn anchor(&mut self, approach: Metre, bounds: &mut ndarray::Array2<Bound>) -> Result<()> {
+    /// approach beyond the mean gap it rises until the cell nearest to its upper bound is at it, under a lesser one it falls
+    /// until the cell nearest to its lower bound is at that.
+    fn anchor(&mut self, approach: Metre, sets: &mut Array2<Set>) -> Result<()> {
         let free_mean = self.operator.boundary().leaves_mean_free() && self.stiffening == 0.0;
-        let floats = free_mean && bounds.iter().all(|b| *b == Bound::Free);
+        let floats = free_mean && sets.iter().all(|set| *set == Set::Free);
         if !floats {
             return Ok(());
         }
         let mean_gap = self.problem.initial_gap.mean().unwrap_or(0.0);
-        let hardness = self.problem.terms.hardness;
-        let (side, bound) = match approach > mean_gap {
-            true if hardness.is_finite() => (1.0, Bound::Hardness),
-            false if approach < mean_gap => (-1.0, Bound::Zero),
+        let bounds = self.problem.bounds;
+        let (rises, set) = match approach > mean_gap {
+            true if bounds.upper().min().is_finite() => (true, Set::Upper),
+            false if approach < mean_gap => (false, Set::Lower),
             _ => return Err(Error::PeriodicFullContact { approach, mean_gap }),
         };
         self.stiffening = stiffening(self.operator, self.problem);
-        let found = self.between_bounds(mean_gap, bounds);
+        let found = self.between_bounds(mean_gap, sets);
         self.stiffening = 0.0;
         let (pressure, _) = found?;
-        let most = pressure.indexed_iter().max_by(|a, b| (side * a.1).total_cmp(&(side * b.1)));
-        bounds[most.expect("a cell").0] = bound;
+        let way = |cell: usize, p: f64| match rises {
+            true => bounds.at(cell).upper - p,
+            false => p - bounds.at(cell).lower,
+        };
+        let ways = pressure.indexed_iter().enumerate().map(|(cell, (index, p))| (index, way(cell, *p)));
+        let nearest = ways.min_by(|a, b| a.1.total_cmp(&b.1));
+        sets[nearest.expect("a cell").0] = set;
         Ok(())
     }
 
@@ -205,14 +214,15 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
     }
 
-    /// The pressure that closes the gap at the free cells while the others stay at their bounds.
-    fn between_bounds(&mut self, approach: Metre, bounds: &ndarray::Array2<Bound>) -> Result<(Field, f64)> {
-        let hardness = self.problem.terms.hardness;
-        let mut pressure = bounds.mapv(|b| if b == Bound::Hardness { hardness } else { 0.0 });
-        let cells_at = |wanted| -> Vec<(usize, usize)> {
-            bounds.indexed_iter().filter(|(_, b)| **b == wanted).map(|(index, _)| index).collect()
+    /// The pressure that closes the gap at the free cells while the others stay at their bounds, and its slope.
+    fn between_bounds(&mut self, approach: Metre, sets: &Array2<Set>) -> Result<(Field, f64)> {
+        let mut pressure = self.problem.pressure_at_bounds(sets);
+        let cells = |is: fn(&Set, f64) -> bool| -> Vec<(usize, usize)> {
+            let cells = sets.indexed_iter().filter(|(index, set)| is(set, pressure[*index]));
+            cells.map(|(index, _)| index).collect()
         };
-        let (free, capped) = (cells_at(Bound::Free), cells_at(Bound::Hardness));
+        let free = cells(|set, _| *set == Set::Free);
+        let loaded = cells(|set, p| *set != Set::Free && p != 0.0);
         if free.is_empty() {
             return Ok((pressure, 0.0));
         }
@@ -227,9 +237,9 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let matrix = Mat::from_fn(free.len(), free.len(), |i, j| coefficient(free[i], free[j]));
         let right = Mat::from_fn(free.len(), 2, |i, column| match column {
             0 => {
-                let capped: f64 = capped.iter().map(|c| coefficient(free[i], *c)).sum();
-                let lift = if capped == 0.0 { 0.0 } else { hardness * capped };
-                approach - self.problem.initial_gap[free[i]] - lift
+                let given: f64 =
+                    loaded.iter().map(|cell| coefficient(free[i], *cell) * pressure[*cell]).sum();
+                approach - self.problem.initial_gap[free[i]] - given
             }
             _ => 1.0,
         });
@@ -243,22 +253,20 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Ok((pressure, (0..free.len()).map(|i| solved[(i, 1)]).sum()))
     }
 
-    fn solve_load(
-        &mut self,
-        wanted: f64,
-        mut bounds: Option<ndarray::Array2<Bound>>,
-    ) -> Result<(Answer, Metre)> {
-        let gap = self.problem.initial_gap;
-        let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    /// Bracketed Newton iteration on the approach.
+    fn solve_load(&mut self, wanted: f64, mut sets: Option<Array2<Set>>) -> Result<(AtApproach, Metre)> {
+        let Terms { self_influence, .. } = self.problem.terms;
+        let scale = self.problem.terms.sum_scale(wanted);
+        let lowest = self.first_touch();
         // A cell that bears the whole load alone is an upper start; the slope then leads back.
         let mut approach = lowest
-            + self.problem.terms.self_influence * (wanted / 4.0).min(self.problem.terms.hardness)
+            + self_influence * (scale / 4.0).min(self.problem.bounds.upper().max())
             + self.stiffening * wanted;
         let (mut low, mut high) = (lowest, f64::INFINITY);
         let mut trials = 0;
         loop {
             trials += 1;
-            let first = bounds.take().unwrap_or_else(|| self.first_guess(approach));
+            let first = sets.take().unwrap_or_else(|| self.problem.sets_at(approach));
             let answer = self.solve(approach, first)?;
             let excess = answer.pressure.sum() - wanted;
             if excess < 0.0 {
@@ -268,7 +276,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             }
             let newton = approach - excess / answer.slope;
             let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * high.abs().max(low.abs());
-            if excess.abs() <= 1e-13 * wanted || exhausted || trials == MAX_TRIALS {
+            if excess.abs() <= self.problem.terms.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS {
                 return Ok((answer, approach));
             }
             approach = if answer.slope > 0.0 && low < newton && newton < high {
@@ -276,10 +284,24 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             } else if high.is_finite() {
                 0.5 * (low + high)
             } else {
-                approach + (approach - lowest).max(self.problem.terms.self_influence * wanted)
+                approach + (approach - lowest).max(self_influence * scale)
             };
-            bounds = Some(answer.bounds);
+            sets = Some(answer.sets);
         }
+    }
+
+    /// The approach up to which all cells are at their lower bounds.
+    fn first_touch(&mut self) -> Metre {
+        let gap = self.problem.initial_gap;
+        let lowest = |touch: &Field| touch.iter().copied().fold(f64::INFINITY, f64::min);
+        if self.problem.terms.attraction == 0.0 {
+            return lowest(gap);
+        }
+        let pressure = self.problem.pressure_at_bounds(&gap.mapv(|_| Set::Lower));
+        let mut touch = Field::zeros(gap.raw_dim());
+        self.respond(&pressure, &mut touch);
+        touch += gap;
+        lowest(&touch)
     }
 }
 
@@ -288,5 +310,11 @@ fn stiffening(operator: &dyn Operator, problem: &Problem) -> f64 {
     problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
 }
 
+/// Changes of the sets at one approach after which the pivots are given up.
 const MAX_PIVOTS: usize = 2000;
+/// Block steps without progress after which a single cell changes its set at a time.
+const MAX_STALLED_BLOCKS: usize = 10;
+/// Approaches tried for a load.
 const MAX_TRIALS: usize = 200;
+/// Share of the largest pressure, or displacement, that rounding takes.
+const ROUNDING: f64 = 1e-14;

@@ -1,10 +1,11 @@
-//! The contact problem: pressures 0 ≤ p ≤ H that close the gap, under a load or at an approach.
+//! The contact problem: pressures between their bounds that close the gap, under a load or at an approach.
 
 mod active_set;
 mod bounds;
 mod cascade;
 mod coarse_correction;
 mod direct;
+mod feasible;
 mod friction;
 mod polonsky_keer;
 mod preconditioner;
@@ -15,21 +16,24 @@ mod sparse_inverse;
 mod stiffness;
 mod together;
 
+pub use bounds::Bounds;
 pub(crate) use friction::solve_sliding;
 pub use friction::{
-    Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, Sliding, Tangential, solve_frictional,
-    solve_rolling,
+    Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,
+    solve_frictional, solve_rolling,
 };
 pub use residual::{Residual, residual};
-pub(crate) use site::{Kept, Site, coarse_gap};
+pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
 pub(crate) use together::solve_together;
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use ndarray::Array2;
+
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::Field;
+use crate::grid::{Field, Grid};
 use crate::operator::Operator;
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
@@ -97,7 +101,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// Of both.
+    /// What two answers cost together.
     pub(crate) fn and(&self, other: &Self) -> Self {
         Self {
             iterations: self.iterations + other.iterations,
@@ -107,14 +111,20 @@ impl Stats {
     }
 }
 
-/// A contact in equilibrium.
+/// A contact in equilibrium, with the problem that it solves.
 #[derive(Debug, Clone)]
 pub struct Solution {
-    /// Pressure p, Pa; exactly 0 outside the contact, exactly the hardness at capped cells.
+    /// Grid of the contact.
+    pub grid: Grid,
+    /// Undeformed gap h, m.
+    pub initial_gap: Field,
+    /// Bounds of the pressure.
+    pub bounds: Bounds,
+    /// Pressure p, Pa; exactly the bound at cells that are at one: 0 outside the contact where nothing attracts.
     pub pressure: Field,
     /// Composite displacement u = C p, m; to a tenth of the tolerance, as a share of std(u).
     pub displacement: Field,
-    /// Rigid-body approach δ.
+    /// Rigid-body approach δ, m.
     pub approach: Metre,
     /// Scale-free complementarity residual η of this very pressure, with what rounding may have left in the displacement.
     pub residual: f64,
@@ -124,50 +134,58 @@ pub struct Solution {
 
 impl Solution {
     /// Load W = ΔA Σ p.
-    pub fn load(&self, cell_area: SquareMetre) -> Newton {
-        cell_area * self.pressure.sum()
+    pub fn load(&self) -> Newton {
+        self.grid.cell_area() * self.pressure.sum()
     }
 
-    /// Number of cells in contact, p > 0.
+    /// Number of cells in contact: above their lower bound, where nothing attracts those with p > 0.
     pub fn contact_cells(&self) -> usize {
-        self.pressure.iter().filter(|p| **p > 0.0).count()
+        self.count(|cell, p| self.bounds.touches(cell, p))
     }
 
-    /// Number of cells at the `hardness`.
-    pub fn plastic_cells(&self, hardness: Pascal) -> usize {
-        self.pressure.iter().filter(|p| **p >= hardness).count()
+    /// Number of capped cells: at their upper bound, which is the hardness, or what a shear leaves of it.
+    pub fn capped_cells(&self) -> usize {
+        self.count(|cell, p| self.bounds.caps(cell, p))
     }
 
-    /// Largest pressure.
+    /// The cells between their bounds, whose gap is closed elastically.
+    pub fn elastic_cells(&self) -> Array2<bool> {
+        let mut cells = self.pressure.iter().enumerate();
+        Array2::from_shape_simple_fn(self.pressure.raw_dim(), || {
+            cells.next().is_some_and(|(cell, p)| self.bounds.at(cell).is_free(*p))
+        })
+    }
+
+    fn count(&self, is: impl Fn(usize, Pascal) -> bool) -> usize {
+        self.pressure.iter().enumerate().filter(|(cell, p)| is(*cell, **p)).count()
+    }
+
+    /// Largest pressure, at least 0.
     pub fn max_pressure(&self) -> Pascal {
         self.pressure.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Deformed gap g = h + u − δ. It is negative where interference is left at capped cells.
-    pub fn gap(&self, initial_gap: &Field) -> Field {
-        initial_gap + &self.displacement - self.approach
+    /// Deformed gap g = h + u − δ, m. It is negative where interference is left at capped cells.
+    pub fn gap(&self) -> Field {
+        &self.initial_gap + &self.displacement - self.approach
     }
 
-    /// Plastic interference w = δ − h − u ≥ 0 at the cells at the `hardness`, 0 elsewhere.
-    pub fn plastic_interference(&self, initial_gap: &Field, hardness: Pascal) -> Field {
-        let mut interference = -self.gap(initial_gap);
-        interference.zip_mut_with(&self.pressure, |w, p| *w = if *p >= hardness { w.max(0.0) } else { 0.0 });
+    /// Plastic interference w = δ − h − u ≥ 0 at the capped cells, m; 0 elsewhere.
+    pub fn plastic_interference(&self) -> Field {
+        let mut interference = -self.gap();
+        let cells = interference.iter_mut().zip(&self.pressure).enumerate();
+        cells.for_each(|(cell, (w, p))| *w = if self.bounds.caps(cell, *p) { w.max(0.0) } else { 0.0 });
         interference
     }
 
-    /// ΔA Σ w of the [`Solution::plastic_interference`].
-    pub fn plastic_volume(
-        &self,
-        initial_gap: &Field,
-        hardness: Pascal,
-        cell_area: SquareMetre,
-    ) -> CubicMetre {
-        cell_area * self.plastic_interference(initial_gap, hardness).sum()
+    /// Volume ΔA Σ w of the [`Solution::plastic_interference`].
+    pub fn plastic_volume(&self) -> CubicMetre {
+        self.grid.cell_area() * self.plastic_interference().sum()
     }
 
     /// Elastic energy ½ ΔA Σ p u (periodic: without that of the mean displacement, which is free).
-    pub fn elastic_energy(&self, cell_area: SquareMetre) -> Joule {
-        0.5 * cell_area * (&self.pressure * &self.displacement).sum()
+    pub fn elastic_energy(&self) -> Joule {
+        0.5 * self.grid.cell_area() * (&self.pressure * &self.displacement).sum()
     }
 }
 
@@ -175,17 +193,28 @@ impl Solution {
 #[derive(Clone, Copy)]
 struct Problem<'a> {
     initial_gap: &'a Field,
+    bounds: &'a Bounds,
     terms: Terms,
+}
+
+/// What a method finds for a [`Problem`].
+struct Answer {
+    pressure: Field,
+    displacement: Field,
+    approach: Metre,
+    residual: f64,
+    stats: Stats,
 }
 
 /// What is asked of a contact, or of several together.
 #[derive(Clone, Copy)]
 struct Terms {
-    hardness: Pascal,
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
     self_influence: f64,
     cell_area: SquareMetre,
+    /// Σ |p| of all cells at their lower bounds, where these are below 0.
+    attraction: Pascal,
 }
 
 impl Terms {
@@ -198,42 +227,46 @@ impl Terms {
     }
 
     /// The residual does not see the load.
-    fn check_load(&self, solution: &Solution) -> Result<()> {
+    fn check_load(&self, answer: &Answer) -> Result<()> {
         let Some(wanted) = self.pressure_sum() else { return Ok(()) };
-        let error = (solution.pressure.sum() / wanted - 1.0).abs();
-        if error <= LOAD_TOLERANCE {
+        let sum = answer.pressure.sum();
+        if (sum - wanted).abs() <= LOAD_TOLERANCE * self.sum_scale(wanted) {
             return Ok(());
         }
-        let borne = self.cell_area * solution.pressure.sum();
         check_in(
             Dimension::Force,
             "load borne",
-            borne,
+            self.cell_area * sum,
             false,
             "the load prescribed, to 10 digits in double precision",
         )
     }
 }
 
-/// Solves the frictionless contact of a half-space pair: 0 ≤ p ≤ H,
+/// Σ |p| of so many `cells` at their lower bounds, where these are below 0.
+fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
+    bounds.lower().map(|lower| (-lower).max(0.0)).sum(cells)
+}
+
+/// Solves the frictionless contact of a pair of bodies: lower ≤ p ≤ upper in each cell,
 ///
 /// ```text
-/// p = 0 ⇒ g ≥ 0;   0 < p < H ⇒ g = 0;   p = H ⇒ g ≤ 0;   g = h + C p − δ
+/// p = lower ⇒ g ≥ 0;   lower < p < upper ⇒ g = 0;   p = upper ⇒ g ≤ 0;   g = h + C p − δ
 /// ```
 ///
-/// which minimises ½ pᵀCp − pᵀ(δ − h) over the box. `initial_gap` is h, `hardness` H (infinite: elastic), `start` a
-/// pressure near the answer, if one is known.
+/// which minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h, `start` a pressure near the
+/// answer, if one is known.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for input without meaning, [`Error::BeyondPlasticLimit`] for more load than H bears,
+/// [`Error::OutOfRange`] for input without meaning, [`Error::BeyondPlasticLimit`] for more load than the upper bounds bear,
 /// [`Error::PeriodicFullContact`], [`Error::NotConverged`].
 ///
 /// # Panics
-/// If a field has another shape than the operator's grid.
+/// If a field has another shape than the operator's grid, or a bound is not in standard layout.
 pub fn solve_normal(
     operator: &mut dyn Operator,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     control: Control,
     start: Option<&Field>,
     params: &Params,
@@ -242,11 +275,13 @@ pub fn solve_normal(
     let shape = (grid.shape[0], grid.shape[1]);
     assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
     assert!(start.is_none_or(|p| p.dim() == shape), "shape of the start");
-    validate(operator, initial_gap, hardness, control, params)?;
+    validate(operator, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
-    let terms = Terms { hardness, control, self_influence, cell_area: grid.cell_area() };
-    let solution = match far_datum(initial_gap, &terms) {
-        None => solve_as_given(operator, initial_gap, terms, start, params)?,
+    let attraction = attraction(bounds, grid.cells());
+    let terms = Terms { control, self_influence, cell_area: grid.cell_area(), attraction };
+    let problem = Problem { initial_gap, bounds, terms };
+    let answer = match far_datum(&problem) {
+        None => solve_as_given(operator, &problem, start, params)?,
         Some(datum) => {
             let near = initial_gap.mapv(|h| h - datum);
             let nearer = match control {
@@ -254,44 +289,47 @@ pub fn solve_normal(
                 load => load,
             };
             let terms = Terms { control: nearer, ..terms };
-            let solution = solve_as_given(operator, &near, terms, start, params)?;
-            Solution { approach: control.approach().unwrap_or(solution.approach + datum), ..solution }
+            let near = Problem { initial_gap: &near, bounds, terms };
+            let answer = solve_as_given(operator, &near, start, params)?;
+            Answer { approach: control.approach().unwrap_or(answer.approach + datum), ..answer }
         }
     };
-    finite("load", solution.load(grid.cell_area()))?;
+    let Answer { pressure, displacement, approach, residual, stats } = answer;
+    let (initial_gap, bounds) = (initial_gap.clone(), bounds.clone());
+    let solution = Solution { grid, initial_gap, bounds, pressure, displacement, approach, residual, stats };
+    finite("load", solution.load())?;
     finite("approach", solution.approach)?;
-    finite("elastic energy", solution.elastic_energy(grid.cell_area()))?;
+    finite("elastic energy", solution.elastic_energy())?;
     Ok(solution)
 }
 
 /// Solves by the method of the `params`, with the heights as they are given.
 fn solve_as_given(
     operator: &mut dyn Operator,
-    initial_gap: &Field,
-    terms: Terms,
+    problem: &Problem,
     start: Option<&Field>,
     params: &Params,
-) -> Result<Solution> {
-    let problem = Problem { initial_gap, terms };
-    if let Some(solution) = no_contact(&problem) {
-        return Ok(solution);
+) -> Result<Answer> {
+    if let Some(answer) = no_contact(problem) {
+        return Ok(answer);
     }
-    let solution = match params.method {
-        Method::Direct => direct::solve(operator, &problem, start, params),
-        Method::Auto if initial_gap.len() <= DIRECT_CELLS => direct::solve(operator, &problem, start, params),
-        Method::PolonskyKeer => polonsky_keer::solve(operator, &problem, start, params),
+    let Problem { initial_gap, bounds, terms } = *problem;
+    let answer = match params.method {
+        Method::Direct => direct::solve(operator, problem, start, params),
+        Method::Auto if initial_gap.len() <= DIRECT_CELLS => direct::solve(operator, problem, start, params),
+        Method::PolonskyKeer => polonsky_keer::solve(operator, problem, start, params),
         Method::Auto | Method::ActiveSet => {
-            let site = Kept::new(operator, Cow::Borrowed(initial_gap));
+            let site = OwnedSite::new(operator, Cow::Borrowed(initial_gap), Cow::Borrowed(bounds));
             let start = start.map(|pressure| vec![pressure.clone()]);
             let found =
                 cascade::solve(&[&site], &terms, start, &|_| params.tolerance, params.max_convolutions)?;
             let (pressure, displacement) = found.fields.into_iter().next().expect("one contact");
             let Residual { eta, approach, .. } = found.residual;
-            Ok(Solution { pressure, displacement, approach, residual: eta, stats: found.stats })
+            Ok(Answer { pressure, displacement, approach, residual: eta, stats: found.stats })
         }
     }?;
-    terms.check_load(&solution)?;
-    Ok(solution)
+    terms.check_load(&answer)?;
+    Ok(answer)
 }
 
 /// Displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
@@ -305,15 +343,18 @@ fn self_influence(operator: &dyn Operator) -> f64 {
 
 /// The lowest height, where the heights are so far from zero against what they differ by, or against what they are pressed
 /// together, that h + u keeps too few digits of u: they are then taken from there, which costs them none.
-fn far_datum(initial_gap: &Field, terms: &Terms) -> Option<Metre> {
+fn far_datum(problem: &Problem) -> Option<Metre> {
+    let Problem { initial_gap, bounds, terms } = problem;
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
-    for h in initial_gap {
+    for h in *initial_gap {
         (lowest, highest) = (lowest.min(*h), highest.max(*h));
     }
     let depth = match terms.control {
         Control::Approach(approach) => (approach - lowest).max(0.0),
         // No deeper than one cell under all of the load.
-        Control::Load(load) => terms.self_influence * (load / terms.cell_area).min(terms.hardness),
+        Control::Load(load) => {
+            terms.self_influence * (load.abs() / terms.cell_area + terms.attraction).min(bounds.upper().max())
+        }
     };
     let far = lowest.abs() > FAR * depth.min(highest - lowest);
     far.then_some(lowest)
@@ -341,11 +382,12 @@ const DIRECT_CELLS: usize = 400;
 fn validate(
     operator: &dyn Operator,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     control: Control,
     params: &Params,
 ) -> Result<()> {
-    check_in(Dimension::Pressure, "hardness", hardness, hardness > 0.0, "a hardness above 0")?;
+    let grid = operator.grid();
+    bounds.validate(grid.shape)?;
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
     if let Some(&value) = initial_gap.iter().find(|h| !h.is_finite()) {
         check_in(
@@ -358,20 +400,23 @@ fn validate(
     }
     match control {
         Control::Load(load) => {
-            check_in(
-                Dimension::Force,
-                "load",
-                load,
-                load > 0.0 && load.is_finite(),
-                "a finite load above 0",
-            )?;
-            let limit = hardness * operator.grid().area();
+            let least = grid.cell_area() * bounds.lower().sum(grid.cells());
+            let expected = match least {
+                0.0 => "a finite load above 0",
+                _ => "a finite load above that of all cells at their lower bounds",
+            };
+            check_in(Dimension::Force, "load", load, load > least && load.is_finite(), expected)?;
+            let limit = match bounds.upper().uniform() {
+                Some(hardness) => hardness * grid.area(),
+                None => grid.cell_area() * bounds.upper().sum(grid.cells()),
+            };
             if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
         }
         Control::Approach(approach) => {
             check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite approach")?;
             let mean_gap = initial_gap.mean().unwrap_or(0.0);
-            if operator.boundary().leaves_mean_free() && hardness.is_infinite() && approach >= mean_gap {
+            let elastic = bounds.upper().min().is_infinite();
+            if operator.boundary().leaves_mean_free() && elastic && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });
             }
             Ok(())
@@ -379,10 +424,12 @@ fn validate(
     }
 }
 
-/// The answer where the bodies do not reach each other.
-fn no_contact(problem: &Problem) -> Option<Solution> {
+/// The answer where the bodies neither reach nor attract each other.
+fn no_contact(problem: &Problem) -> Option<Answer> {
     let Control::Approach(approach) = problem.terms.control else { return None };
-    problem.initial_gap.iter().all(|h| *h >= approach).then(|| Solution {
+    let attracts = problem.bounds.lower().min() < 0.0;
+    let apart = !attracts && problem.initial_gap.iter().all(|h| *h >= approach);
+    apart.then(|| Answer {
         pressure: Field::zeros(problem.initial_gap.raw_dim()),
         displacement: Field::zeros(problem.initial_gap.raw_dim()),
         approach,

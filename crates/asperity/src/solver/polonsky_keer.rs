@@ -1,27 +1,27 @@
-//! The constrained conjugate gradient method of Polonsky and Keer, with the cap on the pressure.
+//! The constrained conjugate gradient method of Polonsky and Keer, with an upper bound of the pressure.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
-use crate::solver::bounds::make_feasible;
-use crate::solver::{Control, Params, Problem, Solution, Stats, finite};
+use crate::solver::feasible::{Bounded, make_feasible};
+use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
 
-/// Part of the hardness that rounding takes.
+/// Share of an upper bound that rounding takes.
 const ROUNDING: f64 = 1e-12;
 /// Convolutions without a new least residual after which steps are halved: the printed ones, cut off at two bounds, may go
 /// back and forth for ever.
 const PATIENCE: f64 = 100.0;
 
-/// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at the hardness
-/// leave the conjugate directions as those at zero do.
+/// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at their upper bound
+/// leave the conjugate directions as those at their lower one do.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
     start: Option<&Field>,
     params: &Params,
-) -> Result<Solution> {
-    let Problem { initial_gap, terms } = *problem;
-    let hardness = terms.hardness;
+) -> Result<Answer> {
+    let Problem { initial_gap, bounds, terms } = *problem;
+    let feasible = |pressure: &mut Field| make_feasible(&mut Bounded { pressure, bounds }, &terms);
     let mut pressure = match (start, terms.pressure_sum(), terms.control) {
         (Some(start), ..) => start.clone(),
         (None, Some(sum), _) => Field::from_elem(initial_gap.raw_dim(), sum / initial_gap.len() as f64),
@@ -30,7 +30,7 @@ pub(super) fn solve(
         }
         (None, None, Control::Load(_)) => unreachable!("a load has a pressure sum"),
     };
-    make_feasible(&mut pressure, &terms);
+    feasible(&mut pressure);
     let mut displacement = Field::zeros(pressure.raw_dim());
     let mut direction = Field::zeros(pressure.raw_dim());
     let mut response = Field::zeros(pressure.raw_dim());
@@ -42,9 +42,12 @@ pub(super) fn solve(
         stats.convolutions += 1.0;
         let state = problem.residual(&pressure, &displacement);
         if state.eta < params.tolerance {
-            // A cell that only rounding has taken off the hardness is at it.
-            pressure.mapv_inplace(|p| if hardness - p < ROUNDING * hardness { hardness } else { p });
-            return Ok(Solution {
+            // A cell that only rounding has taken off its upper bound is at it.
+            for (cell, p) in pressure.iter_mut().enumerate() {
+                let upper = bounds.at(cell).upper;
+                *p = if upper - *p < ROUNDING * upper { upper } else { *p };
+            }
+            return Ok(Answer {
                 pressure,
                 displacement,
                 approach: state.approach,
@@ -65,46 +68,47 @@ pub(super) fn solve(
         } else if stats.convolutions - least_at > PATIENCE {
             (caution, least_at) = (0.5 * caution, stats.convolutions);
         }
-        let between = |p: f64| 0.0 < p && p < hardness;
-        let free = pressure.iter().filter(|p| between(**p)).count();
-        if free == 0 {
+        let is_free: Vec<bool> =
+            pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
+        if !is_free.contains(&true) {
             // Every cell at a bound and not in equilibrium: one step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
                 *p += 0.5 * caution * (state.approach - h - u) / terms.self_influence;
             });
-            make_feasible(&mut pressure, &terms);
+            feasible(&mut pressure);
             continue;
         }
         let mut gap = initial_gap + &displacement;
         let datum = match terms.control {
             Control::Approach(approach) => approach,
-            Control::Load(_) => mean_where(&gap, &pressure, between),
+            Control::Load(_) => mean_where(&gap, &is_free),
         };
         gap -= datum;
-        let squared: f64 = gap.iter().zip(&pressure).filter(|(_, p)| between(**p)).map(|(g, _)| g * g).sum();
+        let squared: f64 = gap.iter().zip(&is_free).filter(|(_, free)| **free).map(|(g, _)| g * g).sum();
         let conjugate = squared / squared_before;
         squared_before = squared;
-        ndarray::Zip::from(&mut direction).and(&gap).and(&pressure).for_each(|t, g, p| {
-            *t = if between(*p) { g + conjugate * *t } else { 0.0 };
-        });
+        for ((t, g), free) in direction.iter_mut().zip(&gap).zip(&is_free) {
+            *t = if *free { g + conjugate * *t } else { 0.0 };
+        }
         operator.apply(&direction, &mut response);
         stats.convolutions += 1.0;
         if let Control::Load(_) = terms.control {
-            response -= mean_where(&response, &pressure, between);
+            response -= mean_where(&response, &is_free);
         }
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
         // A single free cell under load cannot move, but the cells at the bounds can.
         let step = caution * if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
         let mut reentered = false;
-        ndarray::Zip::from(&mut pressure).and(&direction).and(&gap).for_each(|p, t, g| {
-            *p = (*p - step * t).clamp(0.0, hardness);
-            if (*p == 0.0 && *g < 0.0) || (*p == hardness && *g > 0.0) {
+        for (cell, ((p, t), g)) in pressure.iter_mut().zip(&direction).zip(&gap).enumerate() {
+            let bounds = bounds.at(cell);
+            *p = bounds.clamp(*p - step * t);
+            if (*p == bounds.lower && *g < 0.0) || (*p == bounds.upper && *g > 0.0) {
                 *p -= step * g;
                 reentered = true;
             }
-        });
-        make_feasible(&mut pressure, &terms);
+        }
+        feasible(&mut pressure);
         if reentered {
             squared_before = f64::INFINITY;
         }
@@ -112,11 +116,11 @@ pub(super) fn solve(
     }
 }
 
-/// Mean of `values` over the cells whose pressure is `wanted`.
-fn mean_where(values: &Field, pressure: &Field, wanted: impl Fn(f64) -> bool) -> f64 {
+/// Mean of `values` over the free cells.
+fn mean_where(values: &Field, is_free: &[bool]) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
-    for (v, p) in values.iter().zip(pressure) {
-        if wanted(*p) {
+    for (v, free) in values.iter().zip(is_free) {
+        if *free {
             sum += v;
             count += 1;
         }

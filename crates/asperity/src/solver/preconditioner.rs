@@ -50,7 +50,7 @@ mod tests {
     /// The sets with `free` cells on a grid of `shape`.
     fn sets(shape: [usize; 2], free: impl Fn(usize) -> bool) -> Sets {
         let mut sets = Sets::new(shape);
-        sets.assign((0..shape[0] * shape[1]).map(|cell| f64::from(u8::from(free(cell)))), f64::INFINITY);
+        sets.free_where((0..shape[0] * shape[1]).map(free));
         sets
     }
 

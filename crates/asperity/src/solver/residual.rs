@@ -1,6 +1,7 @@
 //! The measure by which every answer is judged.
 
 use crate::grid::Field;
+use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::solver::{Problem, Terms};
 use crate::units::{Metre, Pascal};
 
@@ -15,42 +16,39 @@ pub struct Residual {
     pub scale: Metre,
 }
 
-/// Scale-free complementarity residual η of a `pressure` and its `displacement` u = C p.
+/// Scale-free complementarity residual η of a `pressure` within its `bounds` and its `displacement` u = C p.
 ///
 /// ```text
-/// φ = c₀ (p − clip(p + w/c₀, 0, H)),   w = δ − h − u,   η = max|φ| / max(std(u), 10⁻⁴ max|u|, 10⁻⁴ c₀ max p)
+/// φ = c₀ (p − clip(p + w/c₀)),   w = δ − h − u,   η = max|φ| / max(std(u), 10⁻⁴ max|u|, 10⁻⁴ c₀ max p)
 /// ```
 ///
-/// c₀ is the displacement of a cell per unit pressure on itself. φ is zero exactly in equilibrium. Without an
-/// `approach` (load control) δ is the multiplier of the load: the mean of h + u over the cells with 0 < p < H,
-/// weighted by the pressure.
+/// clip brings a pressure into the bounds of its cell, c₀ is the displacement of a cell per unit pressure on itself. φ is
+/// zero exactly in equilibrium. Without an `approach` (load control) δ is the multiplier of the load: the mean of h + u
+/// over the cells between their bounds, weighted by the pressure above the lower one.
+///
+/// # Panics
+/// If a field has another shape than the others, or is not in standard layout.
 pub fn residual(
     pressure: &Field,
     displacement: &Field,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     self_influence: f64,
     approach: Option<Metre>,
 ) -> Residual {
-    let caps = || std::iter::repeat(hardness);
-    residual_under(caps, pressure, displacement, initial_gap, self_influence, approach)
-}
-
-/// The [`residual`] where each cell has its own cap.
-pub(super) fn residual_under<I: Iterator<Item = Pascal>>(
-    caps: impl Fn() -> I,
-    pressure: &Field,
-    displacement: &Field,
-    initial_gap: &Field,
-    self_influence: f64,
-    approach: Option<Metre>,
-) -> Residual {
-    let cells = || {
-        let cells = pressure.iter().zip(displacement).zip(initial_gap).zip(caps());
-        cells.map(|(((p, u), h), cap)| Cell { pressure: *p, displacement: *u, touch: h + u, cap })
-    };
-    let approach = approach.unwrap_or_else(|| Multiplier::of(cells()).approach());
-    Tally::of(cells(), approach, self_influence).residual(approach, self_influence)
+    with_bounds!(bounds, of => {
+        let cells = || {
+            let cells = pressure.iter().zip(displacement).zip(initial_gap).enumerate();
+            cells.map(|(cell, ((p, u), h))| Cell {
+                pressure: *p,
+                displacement: *u,
+                touch: h + u,
+                bounds: of(cell),
+            })
+        };
+        let approach = approach.unwrap_or_else(|| Multiplier::of(cells()).approach());
+        ResidualSums::of(cells(), approach, self_influence).residual(approach, self_influence)
+    })
 }
 
 /// What a residual is a share of, for displacements of this deviation, of which the largest, and the largest that a cell makes
@@ -70,15 +68,15 @@ pub(super) struct Cell {
     pub(super) displacement: Metre,
     /// h + u: the approach at which it touches.
     pub(super) touch: Metre,
-    /// The most pressure that it bears.
-    pub(super) cap: Pascal,
+    /// Between which its pressure lies.
+    pub(super) bounds: Interval,
 }
 
 impl Problem<'_> {
     /// The [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
-        let Terms { hardness, self_influence, control, .. } = self.terms;
-        residual(pressure, displacement, self.initial_gap, hardness, self_influence, control.approach())
+        let Terms { self_influence, control, .. } = self.terms;
+        residual(pressure, displacement, self.initial_gap, self.bounds, self_influence, control.approach())
     }
 }
 
@@ -93,18 +91,19 @@ pub(super) struct Multiplier {
 impl Multiplier {
     pub(super) fn of(cells: impl Iterator<Item = Cell>) -> Self {
         let mut this = Self { weight: 0.0, moment: 0.0, deepest: f64::NEG_INFINITY };
-        for Cell { pressure: p, touch, cap, .. } in cells {
-            if 0.0 < p && p < cap {
-                this.weight += p;
-                this.moment += p * touch;
-            } else if p >= cap {
+        for Cell { pressure: p, touch, bounds, .. } in cells {
+            if bounds.is_free(p) {
+                let weight = p - bounds.lower;
+                this.weight += weight;
+                this.moment += weight * touch;
+            } else if p > bounds.lower {
                 this.deepest = this.deepest.max(touch);
             }
         }
         this
     }
 
-    /// Of the cells of both.
+    /// The multiplier of the cells of both.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             weight: self.weight + other.weight,
@@ -119,9 +118,9 @@ impl Multiplier {
     }
 }
 
-/// What φ and the displacement of some cells come to.
+/// What the residual of some cells is made of: sums and maxima, which those of several contacts are merged from.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Tally {
+pub(super) struct ResidualSums {
     /// Largest |φ|.
     largest: Metre,
     max_pressure: Pascal,
@@ -132,15 +131,15 @@ pub(super) struct Tally {
     squares: f64,
 }
 
-impl Tally {
-    /// At an approach.
+impl ResidualSums {
+    /// The sums at an approach.
     pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
         let mut this = Self::default();
         // Deviations from some displacement rather than from zero: nothing cancels.
         let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
-        for Cell { pressure: p, displacement: u, touch, cap } in cells {
+        for Cell { pressure: p, displacement: u, touch, bounds } in cells {
             let w = approach - touch;
-            let phi = self_influence * (p - (p + w / self_influence).clamp(0.0, cap));
+            let phi = self_influence * (p - bounds.clamp(p + w / self_influence));
             this.largest = this.largest.max(phi.abs());
             this.max_pressure = this.max_pressure.max(p.abs());
             this.max_displacement = this.max_displacement.max(u.abs());
@@ -153,7 +152,7 @@ impl Tally {
         Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
     }
 
-    /// Of the cells of both.
+    /// The sums of the cells of both: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
     pub(super) fn and(self, other: Self) -> Self {
         let cells = self.cells + other.cells;
         let apart = other.mean - self.mean;
@@ -167,7 +166,7 @@ impl Tally {
         }
     }
 
-    /// Their residual at that approach.
+    /// The residual of the cells, at the approach of the sums.
     pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
         let deviation = (self.squares.max(0.0) / self.cells).sqrt();
         let local = self_influence * self.max_pressure;
@@ -175,5 +174,54 @@ impl Tally {
         // What is not a number is no answer, though a maximum would pass over it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells whose displacements are far from zero against what they differ by.
+    fn cells(count: usize) -> Vec<Cell> {
+        let displacement = |k: usize| 7.0 + 1e-3 * ((k * k) % 17) as f64;
+        let cell = |k: usize| Cell {
+            pressure: (k % 3) as f64,
+            displacement: displacement(k),
+            touch: displacement(k) + 0.1 * (k % 5) as f64,
+            bounds: Interval { lower: 0.0, upper: 1.5 + (k % 2) as f64 },
+        };
+        (0..count).map(cell).collect()
+    }
+
+    #[test]
+    fn sums_of_parts_merge_into_those_of_the_whole() {
+        let all = cells(101);
+        let (approach, c0) = (7.2, 0.3);
+        let sums = |part: &[Cell]| ResidualSums::of(part.iter().copied(), approach, c0);
+        let whole = sums(&all);
+        let mean = all.iter().map(|cell| cell.displacement).sum::<f64>() / 101.0;
+        let squares: f64 = all.iter().map(|cell| (cell.displacement - mean).powi(2)).sum();
+        assert!((whole.mean - mean).abs() < 1e-14 * mean);
+        assert!((whole.squares / squares - 1.0).abs() < 1e-9);
+        for split in [1, 7, 50, 100] {
+            let merged = sums(&all[..split]).and(sums(&all[split..]));
+            assert!((merged.squares / squares - 1.0).abs() < 1e-9, "{split}: {merged:?}");
+            let [one, other] = [merged, whole].map(|sums| sums.residual(approach, c0));
+            assert!((one.eta / other.eta - 1.0).abs() < 1e-9 && (one.scale / other.scale - 1.0).abs() < 1e-9);
+            let parts = [&all[..split], &all[split..]].map(|part| Multiplier::of(part.iter().copied()));
+            let merged = parts[0].and(parts[1]).approach();
+            assert!((merged / Multiplier::of(all.iter().copied()).approach() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_residual_is_zero_in_equilibrium_at_either_bound_and_between() {
+        let bounds = Interval { lower: -1.0, upper: 2.0 };
+        let cell = |pressure, touch| Cell { pressure, displacement: touch, touch, bounds };
+        let eta = |cells: &[Cell]| ResidualSums::of(cells.iter().copied(), 5.0, 0.5).residual(5.0, 0.5).eta;
+        assert_eq!(eta(&[cell(-1.0, 5.5), cell(0.3, 5.0), cell(2.0, 4.0)]), 0.0);
+        for wrong in [cell(-1.0, 4.9), cell(0.3, 5.1), cell(2.0, 5.1)] {
+            assert!(eta(&[wrong, cell(0.3, 5.0), cell(2.0, 4.0)]) > 0.05, "{}", wrong.touch);
+        }
     }
 }

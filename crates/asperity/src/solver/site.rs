@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use crate::grid::{Field, Grid};
 use crate::operator::Operator;
+use crate::solver::bounds::Bounds;
 
 /// Where one of the contacts that share an approach takes place.
 ///
@@ -18,6 +19,9 @@ pub(crate) trait Site: Sync {
     /// Undeformed gap h.
     fn initial_gap(&self) -> Cow<'_, Field>;
 
+    /// Bounds of the pressure.
+    fn bounds(&self) -> Cow<'_, Bounds>;
+
     /// Lends the operator of the grid to a task.
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator));
 
@@ -25,20 +29,21 @@ pub(crate) trait Site: Sync {
     fn coarse(&self) -> Box<dyn Site>;
 }
 
-/// A site that keeps its operator.
-pub(crate) struct Kept<'a, P> {
+/// A site that owns what it lends.
+pub(crate) struct OwnedSite<'a, P> {
     grid: Grid,
     gap: Cow<'a, Field>,
+    bounds: Cow<'a, Bounds>,
     operator: Mutex<P>,
 }
 
-impl<'a, 'o, P: DerefMut<Target = dyn Operator + 'o>> Kept<'a, P> {
-    pub(crate) fn new(operator: P, gap: Cow<'a, Field>) -> Self {
-        Self { grid: *operator.grid(), gap, operator: Mutex::new(operator) }
+impl<'a, 'o, P: DerefMut<Target = dyn Operator + 'o>> OwnedSite<'a, P> {
+    pub(crate) fn new(operator: P, gap: Cow<'a, Field>, bounds: Cow<'a, Bounds>) -> Self {
+        Self { grid: *operator.grid(), gap, bounds, operator: Mutex::new(operator) }
     }
 }
 
-impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for Kept<'_, P> {
+impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for OwnedSite<'_, P> {
     fn grid(&self) -> Grid {
         self.grid
     }
@@ -47,18 +52,31 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for Kept<'_, P> {
         Cow::Borrowed(&self.gap)
     }
 
+    fn bounds(&self) -> Cow<'_, Bounds> {
+        Cow::Borrowed(&self.bounds)
+    }
+
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {
         task(&mut **self.operator.lock().expect("no holder panics"));
     }
 
     fn coarse(&self) -> Box<dyn Site> {
         let operator = self.operator.lock().expect("no holder panics").coarse();
-        Box::new(Kept::new(operator, Cow::Owned(coarse_gap(&self.gap))))
+        Box::new(coarse_site(operator, &self.gap, &self.bounds))
     }
 }
 
+/// The site of a coarse `operator`, where the fine grid has this gap and these bounds.
+pub(crate) fn coarse_site(
+    operator: Box<dyn Operator>,
+    gap: &Field,
+    bounds: &Bounds,
+) -> OwnedSite<'static, Box<dyn Operator>> {
+    OwnedSite::new(operator, Cow::Owned(coarse_means(gap)), Cow::Owned(bounds.coarse()))
+}
+
 /// Means of 2 × 2 cells (of what is there, at the end of an odd number).
-pub(crate) fn coarse_gap(fine: &Field) -> Field {
+pub(super) fn coarse_means(fine: &Field) -> Field {
     let (nx, ny) = fine.dim();
     let cells = fine.as_slice().expect("standard layout");
     Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {

@@ -41,7 +41,7 @@ pub fn normal_stiffness(
     }
     let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
     let mut sets = Sets::new(grid.shape);
-    sets.assign(mask.iter().copied(), f64::INFINITY);
+    sets.free_where(elastic.iter().copied());
     let mut preconditioner = Preconditioner::new(operator);
     preconditioner.adapt(&sets);
     let (mut rate, mut left) = (grid.zeros(), mask.clone());

@@ -2,15 +2,16 @@
 
 use crate::error::Result;
 use crate::grid::Field;
+use crate::solver::bounds::Bounds;
 use crate::solver::site::Site;
-use crate::solver::{Control, Residual, Stats, Terms, cascade};
+use crate::solver::{Control, Residual, Stats, Terms, attraction, cascade};
 use crate::units::{Metre, Newton, Pascal};
 
 /// Contacts in equilibrium under one approach.
 pub(crate) struct Together {
     /// The approach δ.
     pub(crate) approach: Metre,
-    /// Of each contact the flat cells with p > 0, and their pressure.
+    /// The flat cells in contact and their pressure, for each contact.
     pub(crate) pressures: Vec<Vec<(u32, Pascal)>>,
     /// What each contact cost, in the mean.
     pub(crate) stats: Stats,
@@ -27,26 +28,26 @@ pub(crate) struct Together {
 /// [`crate::Error::NotConverged`].
 pub(crate) fn solve_together(
     sites: &[&dyn Site],
-    hardness: Pascal,
     load: Newton,
     start: Option<Vec<Field>>,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Together> {
     let mut terms = Terms {
-        hardness,
         control: Control::Load(load),
         self_influence: 0.0,
         cell_area: sites[0].grid().cell_area(),
+        attraction: sites.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum(),
     };
     sites[0].with_operator(&mut |operator| terms.self_influence = super::self_influence(operator));
     let found = cascade::solve(sites, &terms, start, tolerance, max_convolutions)?;
-    let pressures = found.fields.into_iter().map(|(pressure, _)| bearing(&pressure)).collect();
+    let contacts = found.fields.into_iter().zip(sites);
+    let pressures = contacts.map(|((pressure, _), site)| bearing(&pressure, &site.bounds())).collect();
     Ok(Together { approach: found.residual.approach, pressures, stats: found.stats })
 }
 
-/// The flat cells that bear, and their pressure.
-fn bearing(pressure: &Field) -> Vec<(u32, Pascal)> {
-    let cells = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0);
+/// The flat cells in contact, and their pressure.
+fn bearing(pressure: &Field, bounds: &Bounds) -> Vec<(u32, Pascal)> {
+    let cells = pressure.iter().enumerate().filter(|(cell, p)| bounds.touches(*cell, **p));
     cells.map(|(cell, p)| (cell as u32, *p)).collect()
 }

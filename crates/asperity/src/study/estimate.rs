@@ -12,7 +12,7 @@ use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Position, Stage, Strategy, initial_gap};
+use crate::motion::{Control, Motion, Position, Stage, Strategy, initial_gap};
 use crate::reference::HertzSphere;
 use crate::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::study::subsurface::Plan;
@@ -67,6 +67,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let overlaps: Vec<usize> = positions.iter().map(|position| position.columns).collect();
     let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
+    let column_area = |columns: usize| columns as f64 * column;
     let apparent_area = facing as f64 * column;
     let control = match (case.motion(apparent_area), case.contact.prescribed.control(apparent_area)) {
         (Some(motion), _) => motion.control,
@@ -77,14 +78,15 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let course = case.course(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let cap = match (case.motion(apparent_area), &course) {
-        (Some(motion), _) => motion.cap(hardness),
+        (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
         (None, Some(Course::Stages(stages))) => {
             bears(law, stages, hardness, apparent_area)?;
             stage_cap(law, &stages[0], hardness)
         }
         _ => hardness,
     };
-    let plastic_limit = control.plastic_limit(&overlaps, column, cap);
+    let bearable: Vec<Newton> = overlaps.iter().map(|columns| cap * column_area(*columns)).collect();
+    let plastic_limit = control.plastic_limit(&bearable);
     control.check_limit(plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
     if let (Some(law), Some(course)) = (law, &course) {
@@ -96,7 +98,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         dundurs: compliances.dundurs(),
         course,
         hardness,
-        lower_share: plastic_share(lower, upper),
+        lower_share: plastic_share(lower.hardness, upper.hardness),
         control,
         positions: overlaps.len(),
         passes: case.motion.map_or(1, |motion| motion.passes),
@@ -337,7 +339,8 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
         Tangential::Force([x, y]) | Tangential::Displacement([x, y]) => x.hypot(y) > 0.0,
         Tangential::Sliding(_) => false,
     };
-    if first.increments == 1 && pushes && friction.coefficient > 0.0 && friction.bound(1.0).is_finite() {
+    if first.increments == 1 && pushes && friction.coefficient > 0.0 && friction.shear_limit(1.0).is_finite()
+    {
         warnings.push(
             "pressed and pushed in one step: `dissipation` is that of a push under the full load, and what sticks is \
              found as if the load had come first; give `increments` in [friction], or push in a [[history]]"
@@ -349,7 +352,7 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
         | (solver::Control::Approach(before), solver::Control::Approach(after)) => after < before,
         _ => false,
     });
-    if unloads && friction.bound(1.0).is_infinite() {
+    if unloads && friction.shear_limit(1.0).is_infinite() {
         warnings.push(
             "under an infinite coefficient unloading may have no answer: cells that bear any shear open; give a large one"
                 .to_owned(),

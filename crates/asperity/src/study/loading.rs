@@ -15,23 +15,33 @@ use std::path::{Path, PathBuf};
 use super::results::Results;
 use super::tables;
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
+use crate::grid::{CellValues, Field, Grid};
 use crate::io::fields::{Attribute, FieldFile, Fields};
-use crate::motion::{Equilibrium, Flattening, IncrementRecord, LoadingOutput, LoadingState, Origin};
-use crate::solver::{FrictionalSolution, Solution, Stats};
+use crate::motion::{Equilibrium, Flattening, IncrementRecord, LoadingOutput, LoadingState, Origin, Pair};
+use crate::solver::{Bounds, FrictionalSolution, Solution, Stats};
 
 /// Keeps each increment of a loading on the disk.
 pub struct LoadingWriter {
     results: Results,
     identity: String,
     grid: Grid,
+    gap: Field,
+    bounds: Bounds,
     increments: usize,
 }
 
 impl LoadingWriter {
-    /// Into a results directory, for a loading of so many `increments` of bodies on `grid`.
-    pub(super) fn new(results: &Results, identity: &str, grid: Grid, increments: usize) -> Self {
-        Self { results: results.clone(), identity: identity.to_owned(), grid, increments }
+    /// Into a results directory, for a loading of the `pair` in so many `increments`.
+    pub(super) fn new(results: &Results, identity: &str, pair: &Pair, increments: usize) -> Self {
+        let position = pair.at_rest();
+        Self {
+            results: results.clone(),
+            identity: identity.to_owned(),
+            grid: pair.lower_grid(),
+            gap: pair.initial_gap(&position),
+            bounds: pair.bounds(&position, None),
+            increments,
+        }
     }
 
     /// What an interrupted loading has left, if it has left anything.
@@ -55,7 +65,7 @@ impl LoadingWriter {
             return Err(Error::NotResumable { path, reason: "is of another loading" });
         }
         increments.truncate(count);
-        stored.state(increments).map(Some)
+        self.state(&stored, increments).map(Some)
     }
 
     /// Removes the state, once nothing goes on from it any more.
@@ -105,12 +115,14 @@ impl LoadingWriter {
                 add(&format!("{name}_x"), unit, x);
                 add(&format!("{name}_y"), unit, y);
             }
-            add("cap", "Pa", &solution.cap);
-            add("bound", "Pa", &solution.bound);
+            if let CellValues::Field(cap) = normal.bounds.upper() {
+                add("cap", "Pa", cap);
+            }
+            add("shear_limit", "Pa", &solution.shear_limit);
             add("stick", "1", &solution.stick);
-            file.set("shift", solution.shift.to_vec());
+            file.set("rigid_displacement", solution.rigid_displacement.to_vec());
         }
-        let Origin { load, approach, force, shift } = state.origin;
+        let Origin { load, approach, force, displacement } = state.origin;
         file.set("increments", state.increments.len())
             .set("approach", normal.approach)
             .set("residual", normal.residual)
@@ -121,8 +133,58 @@ impl LoadingWriter {
             .set("origin_load", load)
             .set("origin_approach", approach)
             .set("origin_force", force.to_vec())
-            .set("origin_shift", shift.to_vec());
+            .set("origin_displacement", displacement.to_vec());
         file.write(&self.results.increment_state_path())
+    }
+
+    /// The state of a loading as it is `stored`.
+    fn state(&self, stored: &Stored, increments: Vec<IncrementRecord>) -> Result<LoadingState> {
+        let kept = stored.holds("kept").then(|| stored.field("kept")).transpose()?;
+        let flattening = Flattening { kept, deepest: stored.field("deepest")? };
+        let bounds = match stored.holds("cap") {
+            true => Bounds::up_to(stored.field("cap")?),
+            false => self.bounds.clone(),
+        };
+        let normal = Solution {
+            grid: self.grid,
+            initial_gap: flattening.open(&self.gap).into_owned(),
+            bounds,
+            pressure: stored.field("pressure")?,
+            displacement: stored.field("displacement")?,
+            approach: stored.number("approach")?,
+            residual: stored.number("residual")?,
+            stats: Stats {
+                iterations: stored.number("iterations")? as usize,
+                convolutions: stored.number("convolutions")?,
+                restarts: stored.number("restarts")? as usize,
+            },
+        };
+        let has_friction = stored.holds("stick");
+        let contact = match has_friction {
+            false => Equilibrium::Frictionless(Box::new(normal)),
+            true => Equilibrium::Frictional(Box::new(FrictionalSolution {
+                normal,
+                shear: stored.both("traction")?,
+                shear_limit: stored.field("shear_limit")?,
+                displacement: stored.both("displacement")?,
+                rigid_displacement: stored.pair("rigid_displacement")?,
+                slip: stored.both("last_slip")?,
+                stick: stored.field("stick")?,
+            })),
+        };
+        Ok(LoadingState {
+            increments,
+            contact,
+            origin: Origin {
+                load: stored.number("origin_load")?,
+                approach: stored.number("origin_approach")?,
+                force: stored.pair("origin_force")?,
+                displacement: stored.pair("origin_displacement")?,
+            },
+            flattening,
+            slip: has_friction.then(|| stored.both("slip")).transpose()?,
+            dissipation_error: stored.number("dissipation_error")?,
+        })
     }
 }
 
@@ -141,46 +203,8 @@ impl Stored {
         Ok(Self { path: path.to_owned(), fields, names, attributes })
     }
 
-    fn state(&self, increments: Vec<IncrementRecord>) -> Result<LoadingState> {
-        let normal = Solution {
-            pressure: self.field("pressure")?,
-            displacement: self.field("displacement")?,
-            approach: self.number("approach")?,
-            residual: self.number("residual")?,
-            stats: Stats {
-                iterations: self.number("iterations")? as usize,
-                convolutions: self.number("convolutions")?,
-                restarts: self.number("restarts")? as usize,
-            },
-        };
-        let has_friction = self.names.iter().any(|name| name == "stick");
-        let contact = match has_friction {
-            false => Equilibrium::Frictionless(normal),
-            true => Equilibrium::Frictional(Box::new(FrictionalSolution {
-                normal,
-                cap: self.field("cap")?,
-                shear: self.both("traction")?,
-                bound: self.field("bound")?,
-                displacement: self.both("displacement")?,
-                shift: self.pair("shift")?,
-                slip: self.both("last_slip")?,
-                stick: self.field("stick")?,
-            })),
-        };
-        let kept = self.names.iter().any(|name| name == "kept").then(|| self.field("kept")).transpose()?;
-        Ok(LoadingState {
-            increments,
-            contact,
-            origin: Origin {
-                load: self.number("origin_load")?,
-                approach: self.number("origin_approach")?,
-                force: self.pair("origin_force")?,
-                shift: self.pair("origin_shift")?,
-            },
-            flattening: Flattening { kept, deepest: self.field("deepest")? },
-            slip: has_friction.then(|| self.both("slip")).transpose()?,
-            dissipation_error: self.number("dissipation_error")?,
-        })
+    fn holds(&self, name: &str) -> bool {
+        self.names.iter().any(|held| held == name)
     }
 
     fn field(&self, name: &str) -> Result<Field> {

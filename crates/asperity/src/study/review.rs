@@ -8,7 +8,7 @@ use crate::operator::Boundary;
 
 /// Of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
-    let gap = || &pair.upper - &pair.lower;
+    let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
 }
@@ -58,14 +58,10 @@ fn ploughed(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Opti
     const DENSER: f64 = 2.0;
     let strategy = case.motion?.strategy;
     let interiors = Interior::of_bodies(shapes, case.contact.boundary, strategy, case.output.rim);
-    let volumes = [
-        passes.iter().map(|p| [p.plastic_volume_lower, p.plastic_volume_lower_interior]).collect::<Vec<_>>(),
-        passes.iter().map(|p| [p.plastic_volume_upper, p.plastic_volume_upper_interior]).collect(),
-    ];
     let [mut all, mut rim, mut of_area] = [0.0; 3];
     for body in 0..2 {
-        let lost: f64 = volumes[body].iter().map(|[lost, _]| lost).sum();
-        let inside: f64 = volumes[body].iter().map(|[_, inside]| inside).sum();
+        let lost: f64 = passes.iter().map(|pass| pass.lost("plastic")[body]).sum();
+        let inside: f64 = passes.iter().map(|pass| pass.lost_inside("plastic")[body]).sum();
         let area = 1.0 - interiors[body].cells() as f64 / (shapes[body][0] * shapes[body][1]) as f64;
         all += lost;
         rim += lost - inside;

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use crate::error::Result;
 use crate::motion::{
-    Equilibrium, LoadedContact, Motion, Pair, Simulation, Watch, load_in_stages, press, roll, sweep,
+    Equilibrium, LoadedContact, Motion, Pair, Simulation, StaticContact, Watch, load_in_stages, press, roll,
+    sweep,
 };
 use crate::solver::Params;
 use crate::study::case::{Case, Course};
@@ -46,7 +47,7 @@ pub fn run(
     let (boundary, rim) = (case.contact.boundary, case.output.rim);
     let simulate = |pair, motion| Simulation::new(pair, boundary, motion, params)?.with_rim(rim);
     let work = match case.motion(area) {
-        None => Work::Rest(initial),
+        None => Work::Rest(Box::new(initial)),
         Some(motion) => Work::Motion(motion, Box::new(simulate(initial, motion)?)),
     };
     let writer = Writer::enter(directory, &resolved, existing)?;
@@ -70,9 +71,10 @@ pub fn run(
             let mut passes = writer.passes(case.output.pressure_every, estimate.subsurface)?;
             let done = passes.passes().len();
             if done == 0 {
-                writer.write_initial(simulation.pair())?;
+                writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
             } else if done < motion.passes {
-                let pair = pair(case, writer.results().surfaces_after(done)?)?;
+                let mut pair = pair(case, writer.results().surfaces_after(done)?)?;
+                [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
                 *simulation = simulate(pair, motion)?.resumed(done, writer.results().warm_start_after(done)?);
             }
             passes.passes().iter().for_each(|pass| watch.pass(pass));
@@ -102,7 +104,7 @@ pub fn run(
 
 /// What is to be solved, checked.
 enum Work {
-    Rest(Pair),
+    Rest(Box<Pair>),
     Motion(Motion, Box<Simulation>),
 }
 
@@ -154,7 +156,7 @@ fn rest(
             (contact, None, Some(loading))
         }
         _ => {
-            let (record, solution) = press(pair, boundary, control, params)?;
+            let StaticContact { record, solution } = press(pair, boundary, control, params)?;
             writer.begin()?;
             writer.write_static(pair, &solution)?;
             let tractions = Tractions::frictionless(solution.pressure);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
@@ -34,11 +34,26 @@ pub struct Summary {
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// One static contact.
+    #[serde(serialize_with = "with_converged")]
     Static(Box<StaticRecord>),
     /// Static contacts under one load after another: one record each.
     Sweep(Vec<SweepRecord>),
     /// A motion: one record per pass.
     Passes(Vec<PassRecord>),
+}
+
+/// A static contact with the word that readers of the file look for: what did not converge leaves no summary.
+fn with_converged<S: Serializer>(
+    record: &StaticRecord,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        #[serde(flatten)]
+        record: &'a StaticRecord,
+        converged: bool,
+    }
+    Keys { record, converged: true }.serialize(serializer)
 }
 
 /// Writes `summary` to `path`, atomically. JSON has no NaN: such a number becomes `null`.
@@ -83,7 +98,6 @@ mod tests {
             iterations: 12,
             convolutions: 15.5,
             residual: 3e-7,
-            converged: true,
             shear: None,
         };
         let summary = Summary {

@@ -19,7 +19,6 @@ pub struct SweepWriter {
     results: Results,
     identity: String,
     grid: Grid,
-    gap: Field,
     yields: bool,
     fields_every: usize,
 }
@@ -31,7 +30,6 @@ impl SweepWriter {
             results: results.clone(),
             identity: identity.to_owned(),
             grid: pair.lower_grid(),
-            gap: &pair.upper - &pair.lower,
             yields: pair.yields(),
             fields_every,
         }
@@ -48,7 +46,7 @@ impl SweepOutput for SweepWriter {
                 file.add_field(name, unit, &self.grid, [0.0, 0.0], field);
             };
             add("pressure", "Pa", &solution.pressure);
-            add("gap", "m", &solution.gap(&self.gap));
+            add("gap", "m", &solution.gap());
             if self.yields {
                 add("plastic", "m", &contact.plastic);
             }

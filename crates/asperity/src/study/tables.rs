@@ -4,11 +4,11 @@
 //! A table is always written whole and atomically, after each pass: a killed run leaves the tables of the last
 //! finished pass, never half a row. Numbers are written so that they read back to the same bits.
 
-use std::io;
 use std::path::Path;
+use std::{fmt, io};
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
@@ -164,7 +164,10 @@ pub(super) fn read_steps(path: &Path) -> Result<Vec<StepRecord>> {
 /// # Errors
 /// [`Error::File`].
 pub(super) fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
-    write(path, &PASS_COLUMNS, passes)
+    let rows: Vec<Row> = passes.iter().map(Row::of).collect();
+    let columns = rows.first().map_or(PASS_COLUMNS.to_vec(), Row::columns);
+    let values: Vec<_> = rows.iter().map(Row::values).collect();
+    write(path, &columns, &values)
 }
 
 /// Reads `passes.csv`, to resume.
@@ -173,6 +176,49 @@ pub(super) fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
 /// [`Error::File`]; the message has the line where a row is damaged.
 pub(super) fn read_passes(path: &Path) -> Result<Vec<PassRecord>> {
     read(path)
+}
+
+/// A record whose columns depend on what is recorded, as text.
+struct Row(Vec<(String, String)>);
+
+impl Row {
+    fn of(record: &impl Serialize) -> Self {
+        let text = serde_json::to_string(record).expect("a record of numbers is JSON");
+        serde_json::from_str(&text).expect("a record is an object")
+    }
+
+    fn columns(&self) -> Vec<&str> {
+        self.0.iter().map(|(column, _)| column.as_str()).collect()
+    }
+
+    fn values(&self) -> Vec<&str> {
+        self.0.iter().map(|(_, value)| value.as_str()).collect()
+    }
+}
+
+impl<'de> Deserialize<'de> for Row {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        struct InOrder;
+
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Row;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+                formatter.write_str("a record of numbers")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Row, A::Error> {
+                let mut row = Vec::new();
+                while let Some((column, value)) = map.next_entry::<String, serde_json::Value>()? {
+                    // JSON has no numbers that are none.
+                    row.push((column, if value.is_null() { "NaN".to_owned() } else { value.to_string() }));
+                }
+                Ok(Row(row))
+            }
+        }
+
+        deserializer.deserialize_map(InOrder)
+    }
 }
 
 fn write<T: Serialize>(path: &Path, columns: &[&str], rows: &[T]) -> Result<()> {
@@ -198,6 +244,7 @@ fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::LostVolume;
 
     fn step(step: usize) -> StepRecord {
         StepRecord {
@@ -235,10 +282,11 @@ mod tests {
             mean_contact_area_interior: 8e-11,
             largest_spot_cells: 7,
             max_pressure: 4e9,
-            plastic_volume_lower: 1e-18,
-            plastic_volume_upper: 2e-18,
-            plastic_volume_lower_interior: 6e-19,
-            plastic_volume_upper_interior: 1e-18,
+            lost: vec![LostVolume {
+                law: "plastic".to_owned(),
+                whole: [1e-18, 2e-18],
+                interior: [6e-19, 1e-18],
+            }],
             sq_lower: 2e-7,
             sq_upper: 1.0 / 7.0,
             sq_lower_interior: 1.9e-7,
@@ -310,6 +358,16 @@ mod tests {
         assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
         write_passes(&path, &[pass()]).unwrap();
         assert_eq!(read_passes(&path).unwrap(), [pass()]);
+        assert!(std::fs::read_to_string(&path).unwrap().starts_with(&PASS_COLUMNS.join(",")));
+        let wear = LostVolume { law: "wear".to_owned(), whole: [0.0, 1.0 / 3.0], interior: [0.0, 0.25] };
+        let worn = |pass: PassRecord| PassRecord { lost: [pass.lost, vec![wear.clone()]].concat(), ..pass };
+        let passes = [worn(pass()), PassRecord { friction_coefficient: f64::NAN, ..worn(pass()) }];
+        write_passes(&path, &passes).unwrap();
+        assert_eq!(
+            format!("{:?}", read_passes(&path).unwrap()),
+            format!("{passes:?}"),
+            "volumes of two laws"
+        );
         let points = [point(None), point(Some(1.0 / 3.0 * 1e7))];
         write_sweep(&path, &points).unwrap();
         assert_eq!(read_sweep(&path).unwrap(), points);

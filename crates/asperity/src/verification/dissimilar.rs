@@ -183,7 +183,7 @@ fn punch(
     let mut operator = Operators::new(grid, under_rigid(dundurs)?, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction { coupling, ..Friction::coulomb(coefficient)? };
     let solution = hold(operator.as_mut(), &gap, &friction, down(APPROACH), None)?;
-    let load = solution.normal.load(grid.cell_area());
+    let load = solution.normal.load();
     Ok((solution, load))
 }
 
@@ -201,7 +201,7 @@ fn indent(n: usize, dundurs: f64, coefficient: f64) -> Result<(FrictionalSolutio
     for radius in (4..=n).step_by(2) {
         solution = to(radius, Some(&solution))?;
     }
-    let load = solution.normal.load(grid.cell_area());
+    let load = solution.normal.load();
     Ok((solution, load))
 }
 

@@ -34,7 +34,8 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
-    Control, Friction, FrictionalSolution, Loading, Method, Params, Solution, solve_frictional, solve_normal,
+    Bounds, Control, Friction, FrictionalSolution, Loading, Method, Params, Solution, solve_frictional,
+    solve_normal,
 };
 use crate::units::Pascal;
 
@@ -187,7 +188,7 @@ fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
 const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, method: Method::Auto };
 
 fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {
-    solve_normal(operator, gap, hardness, control, None, &PARAMS)
+    solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &PARAMS)
 }
 
 fn hold(
@@ -197,7 +198,7 @@ fn hold(
     loading: Loading,
     before: Option<&FrictionalSolution>,
 ) -> Result<FrictionalSolution> {
-    solve_frictional(operator, gap, Pascal::INFINITY, friction, loading, before, &PARAMS)
+    solve_frictional(operator, gap, &Bounds::ELASTIC, friction, loading, before, &PARAMS)
 }
 
 #[cfg(test)]

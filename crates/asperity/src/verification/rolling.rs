@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Creep, Friction, Params, Rolling, solve_rolling};
+use crate::solver::{Bounds, Control, Creep, Friction, Params, Rolling, RollingSolution, solve_rolling};
 
 /// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact less that of a
 /// line of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images
@@ -46,11 +46,11 @@ fn carter() -> Result<Vec<Check>> {
             let rolling = Rolling { creep, spin: 0.0 };
             let (friction, load) =
                 (Friction::coulomb(FRICTION)?, Control::Load(contact.load_per_length * width));
-            solve_rolling(operator.as_mut(), &gap, f64::INFINITY, &friction, load, rolling, &PARAMS)
+            solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, load, rolling, &PARAMS)
         };
-        let (driven, found) = roll(Creep::Force([force, 0.0]))?;
+        let RollingSolution { contact: driven, creepage: found } = roll(Creep::Force([force, 0.0]))?;
         let across = Creep::Creepage([0.0, creepage * (1.0 + pair.lateral / pair.normal)]);
-        let (steered, _) = roll(across)?;
+        let steered = roll(across)?.contact;
         let exact = Field::from_shape_fn(grid.shape, |(i, _)| {
             let x = grid.centre(0, i) - 0.5 * grid.extent()[0];
             FRICTION * (contact.pressure(x) - stick.pressure(x - d))
@@ -59,7 +59,7 @@ fn carter() -> Result<Vec<Check>> {
             relative(found[0], creepage),
             relative_rms(&driven.shear[0], &exact),
             relative(driven.stick.sum() * grid.pitch[0], 2.0 * stick.half_width()),
-            relative(steered.force(grid.cell_area())[1], force),
+            relative(steered.force()[1], force),
         ])
     })
 }
@@ -117,9 +117,9 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 5]> {
     let mut roll = |creepage, spin| -> Result<([f64; 2], f64)> {
         let rolling = Rolling { creep: Creep::Creepage(creepage), spin };
         let control = Control::Approach(1.0);
-        let (solution, _) =
-            solve_rolling(operator.as_mut(), &gap, f64::INFINITY, &friction, control, rolling, &params)?;
-        Ok((solution.force(grid.cell_area()), solution.moment(&grid)))
+        let solution =
+            solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, control, rolling, &params)?;
+        Ok((solution.contact.force(), solution.contact.moment()))
     };
     let ([c11, _], _) = roll([1.0, 0.0], 0.0)?;
     let ([_, c22], across) = roll([0.0, 1.0], 0.0)?;

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
 use crate::reference::rough::fully_plastic_area;
-use crate::solver::{Control, Method, Params, solve_normal};
+use crate::solver::{Bounds, Control, Method, Params, solve_normal};
 use crate::surface::{Amplitude, SelfAffine};
 use crate::units::Pascal;
 
@@ -61,7 +61,7 @@ fn work() -> Result<Vec<Check>> {
         .map(|step| {
             let approach = Control::Approach(deepest * step as f64 / STEPS as f64);
             let solution = press(&mut operator, &gap, f64::INFINITY, approach)?;
-            Ok((solution.load(grid.cell_area()), solution.elastic_energy(grid.cell_area())))
+            Ok((solution.load(), solution.elastic_energy()))
         })
         .collect::<Result<Vec<_>>>()?;
     let (load, stored) = curve[STEPS];
@@ -110,7 +110,7 @@ fn disagreement(operator: &mut dyn Operator, gap: &Field, hardness: Pascal) -> R
     let load = Control::Load(0.1 * MODULUS * SLOPE * operator.grid().area());
     let mut pressure = |method| {
         let params = Params { method, ..PARAMS };
-        Ok(solve_normal(operator, gap, hardness, load, None, &params)?.pressure)
+        Ok(solve_normal(operator, gap, &Bounds::up_to(hardness), load, None, &params)?.pressure)
     };
     let exact = pressure(Method::Direct)?;
     let [conjugate, active] = [pressure(Method::PolonskyKeer)?, pressure(Method::ActiveSet)?];

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, Edge, FreeFamily, FreeFft, PeriodicFft};
 use crate::reference::{FlatPunch, HertzEllipse, HertzLine, HertzSphere};
-use crate::solver::{Control, Method, Params, solve_normal};
+use crate::solver::{Bounds, Control, Method, Params, solve_normal};
 use crate::surface::{Axis, Form};
 use crate::units::Metre;
 
@@ -44,7 +44,7 @@ fn sphere() -> Result<Vec<Check>> {
         Ok([
             relative(solution.max_pressure(), hertz.peak_pressure()),
             relative(solution.approach, hertz.approach()),
-            relative(solution.elastic_energy(grid.cell_area()), hertz.elastic_energy()),
+            relative(solution.elastic_energy(), hertz.elastic_energy()),
             relative_rms(&solution.pressure, &exact),
             relative(area, PI * a * a),
         ])
@@ -118,7 +118,7 @@ fn line_alone() -> Result<Vec<Check>> {
         let boundary = Boundary([Edge::Free, Edge::Periodic]);
         let mut operator = FreeFamily::new(&grid, MODULUS, boundary).operator(grid.shape);
         let params = Params { method: Method::Direct, ..PARAMS };
-        let solution = solve_normal(&mut operator, &gap, ELASTIC, load, None, &params)?;
+        let solution = solve_normal(&mut operator, &gap, &Bounds::ELASTIC, load, None, &params)?;
         let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
         let width = solution.contact_cells() as f64 * grid.cell_area() / grid.extent()[1];
         let along = solution.pressure.outer_iter().flat_map(|row| row.mapv(|p| p - row[0]));
@@ -185,10 +185,7 @@ fn punch() -> Result<Vec<Check>> {
         let (grid, gap) = flat_end(n)?;
         let solution =
             press(&mut FreeFft::new(grid, MODULUS), &gap, ELASTIC, Control::Approach(punch.approach()))?;
-        Ok([
-            relative(solution.load(grid.cell_area()), punch.load),
-            relative(solution.pressure[[n, n]], punch.pressure(0.0)),
-        ])
+        Ok([relative(solution.load(), punch.load), relative(solution.pressure[[n, n]], punch.pressure(0.0))])
     })
 }
 

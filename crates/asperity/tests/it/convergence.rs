@@ -1,7 +1,7 @@
 //! The active set converges on every surface, boundary, cap, load and start that we could think of.
 
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Control, Method, Params, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Field, Grid};
 
@@ -48,7 +48,8 @@ fn stress(seeds: impl Iterator<Item = u64>) {
                     let params =
                         Params { method: Method::ActiveSet, tolerance: TOLERANCE, max_convolutions: 300 };
                     let load = Control::Load(mean * grid.area());
-                    let solution = solve_normal(operator.as_mut(), &gap, hardness, load, start, &params);
+                    let solution =
+                        solve_normal(operator.as_mut(), &gap, &Bounds::up_to(hardness), load, start, &params);
                     let solution =
                         solution.unwrap_or_else(|e| panic!("{case}, start {}: {e}", start.is_some()));
                     if solution.stats.convolutions > worst.convolutions {

@@ -3,7 +3,7 @@
 use asperity::material::{Compliances, Material};
 use asperity::motion::{self, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity::operator::{Boundary, Edge, Operator, Operators};
-use asperity::solver::{Control, Method, Params, Solution, residual, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Field, Grid};
 
@@ -36,7 +36,7 @@ fn solve(
     method: Method,
 ) -> Solution {
     let params = Params { method, tolerance: 1e-9, max_convolutions: 5000 };
-    solve_normal(operator, gap, hardness, control, None, &params)
+    solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &params)
         .unwrap_or_else(|error| panic!("{error}: {method:?}, {hardness}, {control:?}, {:?}", operator.grid()))
 }
 
@@ -76,7 +76,14 @@ fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
             from.map(|((k, l), p)| p * operator.influence(i.abs_diff(k), j.abs_diff(l))).sum()
         });
         let own = operator.influence(0, 0);
-        let found = residual(&exact.pressure, &displacement, &gap, hardness, own, Some(exact.approach));
+        let found = residual(
+            &exact.pressure,
+            &displacement,
+            &gap,
+            &Bounds::up_to(hardness),
+            own,
+            Some(exact.approach),
+        );
         assert!(found.eta < 1e-8, "{grid:?}, {boundary:?}, {control:?}: {found:?}");
         Ok(())
     })

@@ -1,12 +1,14 @@
 //! What crosses the modules of the library, as one program: a module for each subject.
 
 mod bad_inputs;
+mod bounds;
 mod closed_forms;
 mod convergence;
 mod documents;
 mod extremes;
 mod friction;
 mod good_inputs;
+mod laws;
 mod line;
 mod loading;
 mod module_order;

@@ -117,7 +117,7 @@ fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them()
         let kept = run(rough_pair(24), motion);
         for pass in &kept.passes {
             let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
-            let lost = pass.plastic_volume_lower + pass.plastic_volume_upper;
+            let lost = pass.lost("plastic")[0] + pass.lost("plastic")[1];
             assert!(lost > 0.0);
             assert!((lost / steps - 1.0).abs() < 1e-12, "lost {lost:e}, deformed {steps:e}");
         }
@@ -132,7 +132,7 @@ fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
     for pass in &kept.passes {
         // A cell keeps the deepest of its interferences, not their sum.
         let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
-        assert!(pass.plastic_volume_lower + pass.plastic_volume_upper <= steps * (1.0 + 1e-12));
+        assert!(pass.lost("plastic")[0] + pass.lost("plastic")[1] <= steps * (1.0 + 1e-12));
     }
 }
 
@@ -163,11 +163,12 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         let (mut before, mut lost_inside) = (rough_pair(24), 0.0);
         for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
             let told = [
-                [pass.plastic_volume_lower_interior, pass.sq_lower_interior, pass.plastic_volume_lower],
-                [pass.plastic_volume_upper_interior, pass.sq_upper_interior, pass.plastic_volume_upper],
+                [pass.lost_inside("plastic")[0], pass.sq_lower_interior, pass.lost("plastic")[0]],
+                [pass.lost_inside("plastic")[1], pass.sq_upper_interior, pass.lost("plastic")[1]],
             ];
             for (body, [lost, sq, all]) in told.into_iter().enumerate() {
-                let [from, to] = [&before, after].map(|pair| [&pair.lower, &pair.upper][body]);
+                let [from, to] =
+                    [&before, after].map(|pair| [&pair.lower.heights, &pair.upper.heights][body]);
                 let fell = interior(&(from - to), ends[body]).sum().abs() * before.cell_area();
                 let roundoff = 1e-14 * before.cell_area() * 576.0 * 35e-9;
                 assert!(
@@ -185,16 +186,14 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
             let area = mean(&kept.steps_of(pass.pass).map(|s| s.contact_area_interior).collect::<Vec<_>>());
             assert_close(&[area], &[pass.mean_contact_area_interior], 1e-13, "contact area");
             assert_eq!(area < pass.mean_contact_area, boundary == Boundary::FREE);
-            let PassRecord {
-                mean_contact_area, plastic_volume_lower, plastic_volume_upper, sq_lower, ..
-            } = *other;
+            let [lost_lower, lost_upper] = other.lost("plastic");
             let told = [
                 other.mean_contact_area_interior,
-                other.plastic_volume_lower_interior,
-                other.plastic_volume_upper_interior,
+                other.lost_inside("plastic")[0],
+                other.lost_inside("plastic")[1],
                 other.sq_lower_interior,
             ];
-            assert_eq!(told, [mean_contact_area, plastic_volume_lower, plastic_volume_upper, sq_lower]);
+            assert_eq!(told, [other.mean_contact_area, lost_lower, lost_upper, other.sq_lower]);
         }
         assert!(whole.steps.iter().all(|s| s.plastic_volume_interior == s.plastic_volume));
     }
@@ -227,7 +226,7 @@ fn the_harder_body_loses_nothing() {
             let initial = Pair::new(surface([24, 24], 1), surface([24, 24], 2), materials).unwrap();
             let kept = run(initial.clone(), motion);
             for pass in &kept.passes {
-                let lost = [pass.plastic_volume_lower, pass.plastic_volume_upper];
+                let lost = [pass.lost("plastic")[0], pass.lost("plastic")[1]];
                 assert!(lost[harder] == 0.0 && lost[1 - harder] > 0.0, "{update:?}: {lost:?}");
                 assert!(pass.max_pressure <= 2e9);
             }
@@ -307,16 +306,17 @@ fn a_mirrored_pair_meets_the_same_loads_in_reverse() {
     let mirrored = |z: &Field| z.slice(ndarray::s![..;-1, ..]).to_owned();
     let forth = rough_pair(24);
     let mut back = forth.clone();
-    (back.lower, back.upper) = (mirrored(&forth.lower), mirrored(&forth.upper));
+    (back.lower.heights, back.upper.heights) =
+        (mirrored(&forth.lower.heights), mirrored(&forth.upper.heights));
     let control = Control::PassLoad(LOAD);
     let (forth, back) = (run(forth, motion(control, 2)), run(back, motion(control, 2)));
     for pass in [1, 2] {
         let reversed: Vec<f64> = back.loads_of(pass).into_iter().rev().collect();
         assert_close(&reversed, &forth.loads_of(pass), 1e-4, "loads");
         assert_close(&[back.passes[pass - 1].approach], &[forth.passes[pass - 1].approach], 1e-4, "approach");
-        let heights = mirrored(&back.pairs[pass - 1].lower);
+        let heights = mirrored(&back.pairs[pass - 1].lower.heights);
         let difference =
-            (&heights - &forth.pairs[pass - 1].lower).mapv(f64::abs).fold(0.0, |a: f64, b| a.max(*b));
+            (&heights - &forth.pairs[pass - 1].lower.heights).mapv(f64::abs).fold(0.0, |a: f64, b| a.max(*b));
         assert!(difference < 1e-4 * 35e-9, "surfaces differ by {difference:e} m");
     }
 }
@@ -326,7 +326,7 @@ fn exchanging_the_bodies_exchanges_their_losses() {
     // Upside down: z₁ ↔ −z₂, and what entered from the left now enters from the right.
     let forth = rough_pair(24);
     let mut over = forth.clone();
-    (over.lower, over.upper) = (-&forth.upper, -&forth.lower);
+    (over.lower.heights, over.upper.heights) = (-&forth.upper.heights, -&forth.lower.heights);
     let control = Control::PassLoad(LOAD);
     let (forth, over) = (run(forth, motion(control, 2)), run(over, motion(control, 2)));
     for pass in [1, 2] {
@@ -334,7 +334,7 @@ fn exchanging_the_bodies_exchanges_their_losses() {
         assert_close(&reversed, &forth.loads_of(pass), 1e-4, "loads");
         let lost = |kept: &Kept| {
             let pass = &kept.passes[pass - 1];
-            [pass.plastic_volume_lower, pass.plastic_volume_upper]
+            [pass.lost("plastic")[0], pass.lost("plastic")[1]]
         };
         let [lower, upper] = lost(&forth);
         assert_close(&lost(&over), &[upper, lower], 1e-3, "volumes lost");
@@ -373,7 +373,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
         assert_eq!(untimed(&one.passes), untimed(&two.passes));
         let bits = |kept: &Kept| -> Vec<u64> {
             let pair = kept.pairs.last().unwrap();
-            pair.lower.iter().chain(&pair.upper).map(|z| z.to_bits()).collect()
+            pair.lower.heights.iter().chain(&pair.upper.heights).map(|z| z.to_bits()).collect()
         };
         assert_eq!(bits(&one), bits(&two));
     }
@@ -417,7 +417,8 @@ fn a_resumed_motion_goes_on_with_the_same_bits() {
         for passes in [2, 3] {
             let (done, last) = (parts.passes.len(), parts.pairs.last().unwrap());
             let mut left = pair.clone();
-            (left.lower, left.upper) = (last.lower.clone(), last.upper.clone());
+            (left.lower.heights, left.upper.heights) =
+                (last.lower.heights.clone(), last.upper.heights.clone());
             let warm = parts.warm_starts.last().unwrap().clone();
             let next = simulation(&left, passes).resumed(done, warm);
             parts.extend(pool.install(|| continued(next)));
@@ -529,7 +530,7 @@ fn periodic_bodies_share_a_load_up_to_full_contact() {
         panic!("how the positions share it is not determined");
     };
     let pair = periodic_pair();
-    let mean_gap = pair.upper.mean().unwrap() - pair.lower.mean().unwrap();
+    let mean_gap = pair.upper.heights.mean().unwrap() - pair.lower.heights.mean().unwrap();
     assert!((approach - mean_gap).abs() < 1e-5 * 50e-9, "{approach:e} {mean_gap:e}");
     let apparent = pair.lower_grid().area();
     let mut areas = Vec::new();
@@ -734,7 +735,7 @@ fn continued(mut simulation: Simulation) -> Kept {
 }
 
 fn plastic_volumes(kept: &Kept) -> Vec<f64> {
-    kept.passes.iter().map(|p| p.plastic_volume_lower + p.plastic_volume_upper).collect()
+    kept.passes.iter().map(|p| p.lost("plastic")[0] + p.lost("plastic")[1]).collect()
 }
 
 /// The records but for the time they took.
@@ -749,7 +750,11 @@ fn assert_same_bits(found: &Kept, expected: &Kept, what: &str) {
     assert_eq!(found.mean_pressure, expected.mean_pressure, "{what}");
     assert_eq!(found.warm_starts, expected.warm_starts, "{what}");
     let heights = |kept: &Kept| -> Vec<u64> {
-        kept.pairs.iter().flat_map(|pair| pair.lower.iter().chain(&pair.upper)).map(|z| z.to_bits()).collect()
+        kept.pairs
+            .iter()
+            .flat_map(|pair| pair.lower.heights.iter().chain(&pair.upper.heights))
+            .map(|z| z.to_bits())
+            .collect()
     };
     assert!(heights(found) == heights(expected), "{what}");
 }
@@ -768,15 +773,18 @@ fn deviation(values: &[f64]) -> f64 {
 fn assert_each_body_lost_what_it_fell(initial: &Pair, kept: &Kept) {
     let area = initial.cell_area();
     // Of the sums of heights.
-    let roundoff = 1e-14 * area * initial.lower.len() as f64 * 35e-9;
+    let roundoff = 1e-14 * area * initial.lower.heights.len() as f64 * 35e-9;
     let mut before = initial;
     for (pass, after) in kept.passes.iter().zip(&kept.pairs) {
-        let fell = [(&before.lower - &after.lower).sum() * area, (&after.upper - &before.upper).sum() * area];
-        let lost = [pass.plastic_volume_lower, pass.plastic_volume_upper];
+        let fell = [
+            (&before.lower.heights - &after.lower.heights).sum() * area,
+            (&after.upper.heights - &before.upper.heights).sum() * area,
+        ];
+        let lost = [pass.lost("plastic")[0], pass.lost("plastic")[1]];
         for (fell, lost) in fell.into_iter().zip(lost) {
             assert!((fell - lost).abs() <= 1e-9 * lost + roundoff, "fell by {fell:e} m³, lost {lost:e} m³");
         }
         before = after;
     }
-    assert!(kept.passes[0].plastic_volume_lower > 0.0 && kept.passes[0].plastic_volume_upper > 0.0);
+    assert!(kept.passes[0].lost("plastic")[0] > 0.0 && kept.passes[0].lost("plastic")[1] > 0.0);
 }

@@ -71,7 +71,7 @@ impl Output for Keep {
     fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
         self.contacts.push(report.contacts.to_vec());
         self.approach.push(report.record.approach);
-        self.lost.push([report.record.plastic_volume_lower, report.record.plastic_volume_upper]);
+        self.lost.push([report.record.lost("plastic")[0], report.record.lost("plastic")[1]]);
         Ok(())
     }
 }
@@ -176,8 +176,8 @@ fn pass_mean_load_with_and_without_plasticity_is_the_references_over_three_passe
                 let plastic: f64 = contacts.iter().map(|c| c.plastic_volume(&before)).sum();
                 assert_close(&[plastic], &[expected["plastic_volume"].as_f64().unwrap()], tolerance, &what);
                 bodies = if rule == "mean" { deformed_by_the_mean(&before, contacts, share) } else { after };
-                let drop = (&before.lower - &bodies.lower).sum() * 1e-12;
-                let rise = (&bodies.upper - &before.upper).sum() * 1e-12;
+                let drop = (&before.lower.heights - &bodies.lower.heights).sum() * 1e-12;
+                let rise = (&bodies.upper.heights - &before.upper.heights).sum() * 1e-12;
                 if update != "none" {
                     assert_close(&[drop], &[expected["Z1_drop"].as_f64().unwrap()], tolerance, &what);
                     assert_close(&[rise], &[expected["Z2_rise"].as_f64().unwrap()], tolerance, &what);
@@ -191,7 +191,7 @@ fn pass_mean_load_with_and_without_plasticity_is_the_references_over_three_passe
             }
             if update != "none" {
                 let key = format!("{update}_{rule}_{share}");
-                for (body, heights) in [("Z1", &bodies.lower), ("Z2", &bodies.upper)] {
+                for (body, heights) in [("Z1", &bodies.lower.heights), ("Z2", &bodies.upper.heights)] {
                     let expected = field(&case["after_three_passes"][format!("{body}_after3_{key}")], 1.0);
                     assert_close(heights.as_slice().unwrap(), expected.as_slice().unwrap(), tolerance, &what);
                 }
@@ -207,8 +207,8 @@ fn deformed_by_the_mean(before: &Pair, contacts: &[Contact], share: f64) -> Pair
     for contact in contacts {
         for &(cell, w) in &contact.plastic {
             let [lower, upper] = before.cells_of_bodies(&contact.position, cell as usize);
-            after.lower.as_slice_mut().unwrap()[lower] -= share * w / positions;
-            after.upper.as_slice_mut().unwrap()[upper] += (1.0 - share) * w / positions;
+            after.lower.heights.as_slice_mut().unwrap()[lower] -= share * w / positions;
+            after.upper.heights.as_slice_mut().unwrap()[upper] += (1.0 - share) * w / positions;
         }
     }
     after

@@ -10,7 +10,7 @@ use asperity::motion::{
 };
 use asperity::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity::solver::{
-    self, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
+    self, Bounds, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
 };
 use asperity::surface::{Amplitude, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
@@ -39,6 +39,9 @@ struct Tally {
     largest_error: f64,
 }
 
+/// Share of the hardness that the softest cells of a map have.
+const SOFTEST: f64 = 0.6;
+
 #[derive(Debug)]
 struct Case {
     boundary: Boundary,
@@ -47,6 +50,8 @@ struct Case {
     tolerance: f64,
     young: [f64; 2],
     hardness: [f64; 2],
+    /// Whether the hardness differs from cell to cell.
+    maps: bool,
     columns: [usize; 2],
     width: usize,
     sq: f64,
@@ -89,14 +94,15 @@ impl Case {
             load_tolerance: [1e-4, 1e-2, 1e-6][pick(rng, 3)],
             friction,
         };
-        let cap =
-            friction.map_or(hardness[0].min(hardness[1]), |f| f.sliding_cap(hardness[0].min(hardness[1])));
-        let facing: Vec<usize> =
-            strategy.positions(columns[0], columns[1], stride).iter().map(|p| p.columns).collect();
-        let column = width as f64 * PITCH * PITCH;
+        let maps = pick(rng, 3) == 0;
+        let cap = if maps { SOFTEST } else { 1.0 }
+            * friction.map_or(hardness[0].min(hardness[1]), |f| f.sliding_cap(hardness[0].min(hardness[1])));
+        let column = width as f64 * PITCH * PITCH * cap.min(3e9);
+        let positions = strategy.positions(columns[0], columns[1], stride);
+        let bearable: Vec<f64> = positions.iter().map(|p| column * p.columns as f64).collect();
         // From light to 95 % of the plastic limit, evenly in the logarithm.
         let share = 0.95 * 10f64.powf(-6.0 * rng.random_range(0.0f64..1.0).powi(2));
-        let load = |control: Control| share * control.plastic_limit(&facing, column, cap.min(3e9));
+        let load = |control: Control| share * control.plastic_limit(&bearable);
         motion.control = match pick(rng, 4) {
             0 | 1 => Control::PassLoad(load(Control::PassLoad(0.0))),
             2 => Control::StepLoad(load(Control::StepLoad(0.0))),
@@ -105,7 +111,7 @@ impl Case {
         let method = [Method::Auto, Method::ActiveSet, Method::Direct, Method::PolonskyKeer][pick(rng, 4)];
         let tolerance = [1e-6, 1e-8, 1e-3][pick(rng, 3)];
         let seed = rng.random();
-        Self { boundary, motion, method, tolerance, young, hardness, columns, width, sq, seed }
+        Self { boundary, motion, method, tolerance, young, hardness, maps, columns, width, sq, seed }
     }
 
     fn params(&self) -> Params {
@@ -120,7 +126,24 @@ impl Case {
         };
         let [a, b] = [0, 1].map(|k| Material::new(self.young[k], 0.3, self.hardness[k]).unwrap());
         let seed = self.seed % 1_000_000;
-        Pair::new(surface(self.columns[0], seed), surface(self.columns[1], seed + 1), [&a, &b]).unwrap()
+        let pair = Pair::new(surface(self.columns[0], seed), surface(self.columns[1], seed + 1), [&a, &b]);
+        if !self.maps {
+            return pair.unwrap();
+        }
+        let map = |body: usize| {
+            let shape = [self.columns[body], self.width];
+            Field::from_shape_fn(shape, |(i, j)| self.borne([[i, j]; 2])[body]).into()
+        };
+        pair.unwrap().with_hardness([map(0), map(1)]).unwrap()
+    }
+
+    /// What a cell of the lower and one of the upper body bear.
+    fn borne(&self, cells: [[usize; 2]; 2]) -> [f64; 2] {
+        [0, 1].map(|body| {
+            let [i, j] = cells[body];
+            let part = [1.0, 0.8, SOFTEST][(3 * i + 5 * j + i * j) % 3];
+            if self.maps { part * self.hardness[body] } else { self.hardness[body] }
+        })
     }
 
     fn run(&self, control: Control) -> (asperity::Result<()>, Kept) {
@@ -212,13 +235,12 @@ fn hold(
     );
     let positions = case.motion.strategy.positions(case.columns[0], case.columns[1], case.motion.stride);
     let mut now = before.clone();
-    let mut deepest = [Field::zeros(now.lower.raw_dim()), Field::zeros(now.upper.raw_dim())];
-    let share = [before.plastic_share(), 1.0 - before.plastic_share()];
+    let mut deepest = [Field::zeros(now.lower.heights.raw_dim()), Field::zeros(now.upper.heights.raw_dim())];
     let area = PITCH * PITCH;
     for (step, position) in steps.iter().zip(&positions) {
         tally.positions += 1;
         let gap = now.initial_gap(position);
-        let (pressure, interference) = again(case, &operators, &now, position, &gap, step);
+        let (pressure, interference) = again(case, &operators, position, &gap, step);
         let load = area * pressure.sum();
         // At one approach the load is off by some part of the residual; what it is a part of is the load at which the
         // displacement deviates by as much as here.
@@ -239,22 +261,27 @@ fn hold(
         for ((j, iy), &w) in interference.indexed_iter() {
             let cells =
                 [[(position.lower + j) % case.columns[0], iy], [(position.upper + j) % case.columns[1], iy]];
+            let share = match case.borne([cells[0], cells[1]]) {
+                [lower, upper] if lower < upper => [1.0, 0.0],
+                [lower, upper] if lower > upper => [0.0, 1.0],
+                _ => [0.5; 2],
+            };
             if case.motion.plastic_update == PlasticUpdate::Step {
-                now.lower[cells[0]] -= share[0] * w;
-                now.upper[cells[1]] += share[1] * w;
+                now.lower.heights[cells[0]] -= share[0] * w;
+                now.upper.heights[cells[1]] += share[1] * w;
             }
-            for (deepest, cell) in deepest.iter_mut().zip(cells) {
-                deepest[cell] = f64::max(deepest[cell], w);
+            for body in 0..2 {
+                deepest[body][cells[body]] = f64::max(deepest[body][cells[body]], share[body] * w);
             }
         }
     }
     if case.motion.plastic_update == PlasticUpdate::Pass {
-        now.lower.scaled_add(-share[0], &deepest[0]);
-        now.upper.scaled_add(share[1], &deepest[1]);
+        now.lower.heights -= &deepest[0];
+        now.upper.heights += &deepest[1];
     }
     for (found, expected, before, lost) in [
-        (&after.lower, &now.lower, &before.lower, pass.plastic_volume_lower),
-        (&after.upper, &now.upper, &before.upper, -pass.plastic_volume_upper),
+        (&after.lower.heights, &now.lower.heights, &before.lower.heights, pass.lost("plastic")[0]),
+        (&after.upper.heights, &now.upper.heights, &before.upper.heights, -pass.lost("plastic")[1]),
     ] {
         let off = (found - expected).fold(0.0, |most: f64, z| most.max(z.abs()));
         assert!(off < 100.0 * case.tolerance * case.sq + 1e-20, "heights differ by {off:e}: {}", what());
@@ -269,7 +296,6 @@ fn hold(
 fn again(
     case: &Case,
     operators: &Operators,
-    pair: &Pair,
     position: &Position,
     gap: &Field,
     step: &StepRecord,
@@ -283,36 +309,35 @@ fn again(
         solver::Control::Approach(step.approach)
     };
     let exact = Params { method: Method::Direct, tolerance: 1e-9, ..Params::default() };
-    let hardness = case.hardness[0].min(case.hardness[1]);
-    let of = |pressure: &Field, displacement: &Field, cap: f64| {
-        let mut w = Field::zeros(gap.raw_dim());
-        ndarray_zip(&mut w, pressure, displacement, gap, |p, u, h| {
-            if p >= cap { (step.approach - h - u).max(0.0) } else { 0.0 }
-        });
-        w
+    let caps = Field::from_shape_fn(shape, |(j, iy)| {
+        let cells = [(position.lower + j) % case.columns[0], (position.upper + j) % case.columns[1]];
+        let [lower, upper] = case.borne(cells.map(|column| [column, iy]));
+        lower.min(upper)
+    });
+    let bounds = Bounds::up_to(caps.clone());
+    let of = |pressure: &Field, displacement: &Field, slides: Option<Friction>| {
+        Field::from_shape_fn(shape, |at| {
+            let cap = slides.map_or(caps[at], |friction| friction.sliding_cap(caps[at]));
+            let w = step.approach - gap[at] - displacement[at];
+            if pressure[at] >= cap { w.max(0.0) } else { 0.0 }
+        })
     };
     match case.motion.friction {
         Some(friction) => {
             let mut operator: Box<dyn CoupledOperator> = operators.coupled_on(shape);
             let loading =
                 Loading { normal, tangential: Tangential::Sliding([case.motion.strategy.direction(), 0.0]) };
-            let found = solve_frictional(operator.as_mut(), gap, hardness, &friction, loading, None, &exact);
+            let found = solve_frictional(operator.as_mut(), gap, &bounds, &friction, loading, None, &exact);
             let found = found.unwrap_or_else(|error| panic!("{error}: {case:?} {step:?}")).normal;
-            let cap = friction.sliding_cap(hardness);
-            let w = of(&found.pressure, &found.displacement, cap);
+            let w = of(&found.pressure, &found.displacement, Some(friction));
             (found.pressure, w)
         }
         None => {
             let mut operator = operators.on(shape);
-            let found = solve_normal(operator.as_mut(), gap, pair.cap(), normal, None, &exact);
+            let found = solve_normal(operator.as_mut(), gap, &bounds, normal, None, &exact);
             let found = found.unwrap_or_else(|error| panic!("{error}: {case:?} {step:?}"));
-            let w = of(&found.pressure, &found.displacement, hardness);
+            let w = of(&found.pressure, &found.displacement, None);
             (found.pressure, w)
         }
     }
-}
-
-fn ndarray_zip(w: &mut Field, p: &Field, u: &Field, h: &Field, value: impl Fn(f64, f64, f64) -> f64) {
-    let cells = p.iter().zip(u).zip(h);
-    w.iter_mut().zip(cells).for_each(|(w, ((p, u), h))| *w = value(*p, *u, *h));
 }

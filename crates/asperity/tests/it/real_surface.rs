@@ -30,9 +30,9 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
     assert_eq!(passes.len(), 2);
     for pass in &passes {
         assert!((pass.mean_load - 1.0).abs() <= 1e-4, "{pass:?}");
-        assert!(pass.max_pressure == 4e9 && pass.plastic_volume_lower > 0.0, "{pass:?}");
+        assert!(pass.max_pressure == 4e9 && pass.lost("plastic")[0] > 0.0, "{pass:?}");
     }
-    assert!(passes[1].plastic_volume_lower < passes[0].plastic_volume_lower, "it runs in");
+    assert!(passes[1].lost("plastic")[0] < passes[0].lost("plastic")[0], "it runs in");
     let steps = Results::open(folder.path()).unwrap().steps().unwrap();
     assert_eq!(steps.len(), 2 * 31);
     for step in &steps {

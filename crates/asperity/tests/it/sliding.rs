@@ -5,7 +5,7 @@ use asperity::motion::{
     Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
 };
 use asperity::operator::{Boundary, Operators};
-use asperity::solver::{self, Friction, Loading, Params, Tangential, solve_frictional};
+use asperity::solver::{self, Bounds, Friction, Loading, Params, Tangential, solve_frictional};
 use asperity::surface::{Amplitude, Generator, SelfAffine, Topography};
 use asperity::{Field, Grid};
 
@@ -28,9 +28,16 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
                 normal: solver::Control::Approach(contact.approach),
                 tangential: Tangential::Sliding([1.0, 0.0]),
             };
-            let alone =
-                solve_frictional(operator.as_mut(), &gap, f64::INFINITY, &friction, loading, None, &PARAMS)
-                    .unwrap();
+            let alone = solve_frictional(
+                operator.as_mut(),
+                &gap,
+                &Bounds::ELASTIC,
+                &friction,
+                loading,
+                None,
+                &PARAMS,
+            )
+            .unwrap();
             let most = alone.normal.max_pressure();
             let pressure = contact.pressure_field(GRID.shape[1]);
             assert!(
@@ -38,7 +45,7 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
                 "{:?}, {control:?}",
                 contact.position
             );
-            let force = alone.force(pair.cell_area())[0];
+            let force = alone.force()[0];
             assert!((contact.tangential_force - force).abs() <= 1e-6 * force, "{:?}", contact.position);
         }
         assert!(kept.iter().any(|contact| contact.load > 0.0));

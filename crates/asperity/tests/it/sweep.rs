@@ -4,7 +4,9 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity::material::Material;
-use asperity::motion::{LoadedContact, Pair, Point, Progress, SweepRecord, Watch, press, roll, sweep};
+use asperity::motion::{
+    LoadedContact, Pair, Point, Progress, StaticContact, SweepRecord, Watch, press, roll, sweep,
+};
 use asperity::operator::Boundary;
 use asperity::reference::HertzLine;
 use asperity::solver::{Control, Creep, Friction, Method, Params, Rolling};
@@ -66,7 +68,7 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
         let pair = rough(shape, hardness, n);
         let full = pair.lower_grid().area() * 3e9;
         let approach = |random: &mut ChaCha8Rng| {
-            let gap = &pair.upper - &pair.lower;
+            let gap = pair.initial_gap(&pair.at_rest());
             let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
             Control::Approach(touch + random.random_range(-0.1..0.9) * (gap.mean().unwrap() - touch))
         };
@@ -77,7 +79,8 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
         let points: Vec<_> = controls.iter().copied().map(at).collect();
         let (records, last) = swept(&pair, boundary, &points, &Params::default());
         for (record, control) in records.iter().zip(&controls) {
-            let (alone, solution) = press(&pair, boundary, *control, &Params::default()).unwrap();
+            let StaticContact { record: alone, solution } =
+                press(&pair, boundary, *control, &Params::default()).unwrap();
             let area = alone.apparent_area;
             assert_eq!(
                 (record.load, record.approach, record.mean_gap, record.contact_area, record.max_pressure),
@@ -149,7 +152,7 @@ fn the_stiffness_of_a_ball_is_that_of_hertz() {
 #[test]
 fn what_does_not_touch_has_no_stiffness_and_what_closes_a_period_gives_nowhere() {
     let pair = rough([32, 32], f64::INFINITY, 1);
-    let gap = &pair.upper - &pair.lower;
+    let gap = pair.initial_gap(&pair.at_rest());
     let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let full = pair.lower_grid().area() * 1e12;
     let points = [Control::Approach(touch - 1e-9), Control::Load(full)].map(at);

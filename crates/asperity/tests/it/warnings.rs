@@ -255,7 +255,7 @@ fn a_rim_that_takes_most_of_the_plastic_volume_is_told_of_with_its_share() {
             let case = moving(cells, "", ["2.8 GPa", "7 GPa"], seed, rim);
             let summary = case.run();
             let Outcome::Passes(passes) = &summary.outcome else { panic!("a motion") };
-            let share = 1.0 - passes[0].plastic_volume_lower_interior / passes[0].plastic_volume_lower;
+            let share = 1.0 - passes[0].lost_inside("plastic")[0] / passes[0].lost("plastic")[0];
             (share, summary.warnings.into_iter().find(|warning| warning.contains("of the plastic volume")))
         };
         let (share, warning) = told("rim = 0.1");

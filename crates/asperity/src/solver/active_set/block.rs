@@ -5,17 +5,18 @@ use ndarray::Array2;
 use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
 use crate::solver::Terms;
-use crate::solver::bounds::{Range, in_bounds};
+use crate::solver::bounds::{Interval, with_bounds};
+use crate::solver::feasible::{Range, map_within, sum_within, within};
 use crate::solver::preconditioner::Preconditioner;
-use crate::solver::residual::{Cell, Multiplier, Tally};
+use crate::solver::residual::{Cell, Multiplier, ResidualSums};
 use crate::solver::sets::{Set, Sets};
 use crate::solver::site::Site;
 use crate::units::{Metre, Pascal};
 
-/// Radius, in cells, within which the effect of lifted cells is foreseen without a convolution.
-const FORESIGHT: usize = 4;
-/// Error of a displacement in single precision, of its largest value.
-const SINGLE: f64 = 4e-7;
+/// Radius, in cells, of the influence by which a residual is predicted without a convolution.
+const NEAR_FIELD: usize = 4;
+/// Error of a displacement in single precision, as a share of its largest value.
+const SINGLE_PRECISION: f64 = 4e-7;
 
 /// Pressure and displacement are kept in double precision. What moves them from step to step, directions and their
 /// responses, is computed in single, which is as good as long as the steps are small against what they correct; the
@@ -31,40 +32,42 @@ pub(super) struct Block<'a> {
     rounding: Metre,
     /// The last feasible pressure, from which the energy only falls, and h + u under it while that is needed.
     feasible: Field,
-    touch_before: Option<Field>,
+    feasible_touch: Option<Field>,
+    /// The predicted set of each cell.
     sets: Sets,
-    /// Scratch: a direction and its response.
+    /// Search direction d, and its response C·d; the latter also holds the proposed pressures while sets are predicted.
     direction: SingleField,
     response: SingleField,
-    /// Largest response.
-    largest: f64,
-    /// What is left of the equations of the free cells, and a step to meet them; zero elsewhere.
-    equations: SingleField,
-    step: SingleField,
-    /// Influence coefficients up to [`FORESIGHT`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
+    /// Largest |C·d|.
+    max_response: f64,
+    /// Residual r = δ − h − u of the free cells, and the preconditioned residual M r; zero elsewhere.
+    residual: SingleField,
+    preconditioned: SingleField,
+    /// Influence coefficients up to [`NEAR_FIELD`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
     /// c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its transforms.
     local: f64,
     convolutions: usize,
 }
 
-/// What a set of free cells leaves undone, as displacements: sums of the squares of w at the free cells and of the
-/// violations of the bounds, and the largest w; the approach at which they were taken.
+/// Norms of what conjugate gradients on a set of free cells leave: sums of the squares of the residual at the free cells
+/// and of the violations of the bounds (or their roots, once the contacts are summed), both displacements; the largest
+/// residual; the approach at which they were taken.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LeftOver {
-    pub(super) equations: f64,
-    pub(super) bounds: f64,
-    pub(super) largest: f64,
+pub(super) struct ResidualNorms {
+    pub(super) residual: f64,
+    pub(super) violation: f64,
+    pub(super) max_residual: f64,
     pub(super) datum: Metre,
 }
 
-impl LeftOver {
-    /// Of both.
+impl ResidualNorms {
+    /// The norms over the cells of both.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
-            equations: self.equations + other.equations,
-            bounds: self.bounds + other.bounds,
-            largest: self.largest.max(other.largest),
+            residual: self.residual + other.residual,
+            violation: self.violation + other.violation,
+            max_residual: self.max_residual.max(other.max_residual),
             datum: self.datum,
         }
     }
@@ -74,7 +77,7 @@ impl<'a> Block<'a> {
     /// The contact at a site under a pressure that has not been convolved yet.
     pub(super) fn new(site: &'a dyn Site, pressure: Field) -> Self {
         let shape = site.grid().shape;
-        let reach = shape.map(|n| FORESIGHT.min((n - 1) / 2));
+        let reach = shape.map(|n| NEAR_FIELD.min((n - 1) / 2));
         let mut made = None;
         site.with_operator(&mut |operator| {
             let near = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
@@ -92,25 +95,40 @@ impl<'a> Block<'a> {
             touch: Field::zeros(shape),
             rounding: 0.0,
             feasible: Field::zeros(shape),
-            touch_before: None,
+            feasible_touch: None,
             sets: Sets::new(shape),
             direction: SingleField::zeros(shape),
             response: SingleField::zeros(shape),
-            largest: 0.0,
-            equations: SingleField::zeros(shape),
-            step: SingleField::zeros(shape),
+            max_response: 0.0,
+            residual: SingleField::zeros(shape),
+            preconditioned: SingleField::zeros(shape),
             near,
             local,
             convolutions: 0,
         }
     }
 
-    pub(super) fn pressure(&self) -> &Field {
-        &self.pressure
+    /// Whether every pressure is within its bounds.
+    pub(super) fn is_within_bounds(&self) -> bool {
+        let pressure = flat(&self.pressure);
+        with_bounds!(self.site.bounds(), of => {
+            pressure.iter().enumerate().all(|(cell, p)| of(cell).clamp(*p) == *p)
+        })
     }
 
-    pub(super) fn pressure_mut(&mut self) -> &mut [Pascal] {
-        flat_mut(&mut self.pressure)
+    /// The sums of what `terms` makes of each pressure and its bounds.
+    pub(super) fn sum<const N: usize>(&self, terms: impl Fn(Pascal, Interval) -> [f64; N]) -> [f64; N] {
+        sum_within(flat(&self.pressure), &self.site.bounds(), terms)
+    }
+
+    /// Changes each pressure.
+    pub(super) fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal) {
+        map_within(flat_mut(&mut self.pressure), &self.site.bounds(), change);
+    }
+
+    /// The range of the pressures and of their bounds.
+    pub(super) fn range(&self) -> Range {
+        Range::of(flat(&self.pressure), &self.site.bounds())
     }
 
     pub(super) fn into_fields(self) -> (Field, Field) {
@@ -130,32 +148,36 @@ impl<'a> Block<'a> {
         self.rounding
     }
 
-    /// The displacement of the whole pressure.
-    pub(super) fn respond(&mut self) {
+    /// Convolves the whole pressure.
+    pub(super) fn convolve(&mut self) {
         touch_under(self.site, &self.pressure, &mut self.touch);
         self.convolutions += 1;
         self.rounding = 0.0;
     }
 
-    /// The displacement of the whole pressure, in single precision.
-    pub(super) fn respond_in_single(&mut self) {
+    /// Convolves the whole pressure in single precision.
+    pub(super) fn convolve_in_single(&mut self) {
         self.direction.zip_mut_with(&self.pressure, |d, p| *d = *p as f32);
-        self.respond_to_direction();
+        self.convolve_direction();
         self.touch.assign(&self.site.initial_gap());
-        self.rounding = SINGLE * (self.local * self.largest_pressure() - self.largest).max(0.0);
-        self.take_response();
+        self.rounding =
+            SINGLE_PRECISION * (self.local * self.largest_pressure() - self.max_response).max(0.0);
+        self.add_response();
     }
 
-    fn respond_to_direction(&mut self) {
+    /// Computes C·d.
+    fn convolve_direction(&mut self) {
         let Self { site, direction, response, .. } = self;
         site.with_operator(&mut |operator| operator.apply_single(direction, response));
-        self.largest = f64::from(response.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m }));
+        self.max_response =
+            f64::from(response.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m }));
         self.convolutions += 1;
     }
 
-    fn take_response(&mut self) {
+    /// Adds C·d to the displacement.
+    fn add_response(&mut self) {
         self.touch.zip_mut_with(&self.response, |touch, r| *touch += f64::from(*r));
-        self.rounding += SINGLE * self.largest;
+        self.rounding += SINGLE_PRECISION * self.max_response;
     }
 
     /// Bound on the error of the displacement if it were computed in single precision.
@@ -163,7 +185,7 @@ impl<'a> Block<'a> {
         let gap = self.site.initial_gap();
         let largest =
             self.touch.iter().zip(&*gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()));
-        SINGLE * largest.max(self.local * self.largest_pressure())
+        SINGLE_PRECISION * largest.max(self.local * self.largest_pressure())
     }
 
     fn largest_pressure(&self) -> Pascal {
@@ -189,89 +211,99 @@ impl<'a> Block<'a> {
     }
 
     /// The approach that this contact asks for under load control.
-    pub(super) fn multiplier(&self, hardness: Pascal) -> Multiplier {
-        let cells = self.pressure.iter().zip(&self.touch);
-        Multiplier::of(cells.map(|(p, touch)| Cell {
-            pressure: *p,
-            displacement: 0.0,
-            touch: *touch,
-            cap: hardness,
-        }))
+    pub(super) fn multiplier(&self) -> Multiplier {
+        let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).enumerate();
+        with_bounds!(self.site.bounds(), of => {
+            Multiplier::of(cells.map(|(cell, (p, touch))| Cell {
+                pressure: *p,
+                displacement: 0.0,
+                touch: *touch,
+                bounds: of(cell),
+            }))
+        })
     }
 
-    /// How far this contact is from equilibrium.
-    pub(super) fn tally(&self, approach: Metre, terms: &Terms) -> Tally {
+    /// Sums for the residual at an approach.
+    pub(super) fn residual_sums(&self, approach: Metre, terms: &Terms) -> ResidualSums {
         let gap = self.site.initial_gap();
-        let cells = self.pressure.iter().zip(&self.touch).zip(&*gap);
-        let cells = cells.map(|((p, touch), h)| Cell {
-            pressure: *p,
-            displacement: touch - h,
-            touch: *touch,
-            cap: terms.hardness,
-        });
-        Tally::of(cells, approach, terms.self_influence)
+        let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).zip(flat(&gap)).enumerate();
+        with_bounds!(self.site.bounds(), of => {
+            let cells = cells.map(|(cell, ((p, touch), h))| Cell {
+                pressure: *p,
+                displacement: touch - h,
+                touch: *touch,
+                bounds: of(cell),
+            });
+            ResidualSums::of(cells, approach, terms.self_influence)
+        })
     }
 
-    /// One step along the gap.
+    /// Moves each pressure down the gap, as far as a cell of that compliance would close it.
     pub(super) fn step_along_gap(&mut self, approach: Metre, compliance: f64) {
         self.pressure.zip_mut_with(&self.touch, |p, touch| *p += (approach - touch) / compliance);
     }
 
-    /// Proposes p + (δ − h − u)·stiffness, where one diagonal Newton step takes each cell. Returns the range of it.
+    /// Proposes p + (δ − h − u)·stiffness, where one diagonal Newton step takes each cell. Returns the range of the
+    /// proposed pressures.
     pub(super) fn propose(&mut self, approach: Metre, stiffness: f64) -> Range {
         let cells = flat(&self.pressure).iter().zip(flat(&self.touch));
         for (y, (p, touch)) in flat_mut(&mut self.response).iter_mut().zip(cells) {
             *y = (p + (approach - touch) * stiffness) as f32;
         }
-        Range::of(flat(&self.response))
+        Range::of(flat(&self.response), &self.site.bounds())
     }
 
-    /// What the proposed pressure, shifted and in its bounds, adds up to, and how much of it is between them.
-    pub(super) fn proposed_sum(&self, shift: Pascal, hardness: Pascal) -> [f64; 2] {
-        sums(flat(&self.response), |y| in_bounds(f64::from(y) + shift, hardness))
+    /// What the proposed pressures, offset and brought into their bounds, add up to, and how many are at neither bound.
+    pub(super) fn proposed_sum(&self, offset: Pascal) -> [f64; 2] {
+        sum_within(flat(&self.response), &self.site.bounds(), |y, bounds| {
+            within(f64::from(y) + offset, bounds)
+        })
     }
 
-    /// Predicts the sets from that step, shifted.
-    pub(super) fn predict(&mut self, approach: Metre, stiffness: f64, shift: Pascal, hardness: Pascal) {
+    /// Predicts the sets from the proposed pressures, offset.
+    pub(super) fn predict_sets(&mut self, approach: Metre, stiffness: f64, offset: Pascal) {
         let cells = flat(&self.pressure).iter().zip(flat(&self.touch));
-        self.sets.assign(cells.map(|(p, touch)| p + (approach - touch) * stiffness + shift), hardness);
-        self.equations.fill(0.0);
+        let proposed = cells.map(|(p, touch)| p + (approach - touch) * stiffness + offset);
+        self.sets.assign(proposed, &self.site.bounds());
+        self.residual.fill(0.0);
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// Sets the direction to what takes the cells at a bound there; whether there is anything to move.
-    pub(super) fn direct_to_bounds(&mut self, hardness: Pascal) -> bool {
+    /// Sets the direction to what takes the cells predicted at a bound there. Returns whether any is elsewhere.
+    pub(super) fn direct_to_bounds(&mut self) -> bool {
         let mut any = false;
         let cells = flat_mut(&mut self.direction).iter_mut().zip(self.sets.of()).zip(flat(&self.pressure));
-        for ((d, set), p) in cells {
-            let distance = match set {
-                Set::Zero => -p,
-                Set::Hardness => hardness - p,
-                Set::Free => 0.0,
-            };
-            any |= distance != 0.0;
-            *d = distance as f32;
-        }
+        with_bounds!(self.site.bounds(), of => {
+            for (cell, ((d, set), p)) in cells.enumerate() {
+                let distance = match set {
+                    Set::Lower => of(cell).lower - p,
+                    Set::Upper => of(cell).upper - p,
+                    Set::Free => 0.0,
+                };
+                any |= distance != 0.0;
+                *d = distance as f32;
+            }
+        });
         any
     }
 
-    /// Sets the equations to what they will be when the direction has been taken, by what it does nearby. Returns their
-    /// sum.
-    pub(super) fn foresee(&mut self, approach: Metre) -> f64 {
-        self.respond_nearby();
-        let (touch, foreseen) = (flat(&self.touch), flat(&self.response));
-        let equations = flat_mut(&mut self.equations);
+    /// Sets the residual to what it will be once the direction has been taken, by the near field of its response. Returns
+    /// its sum.
+    pub(super) fn predict_residual(&mut self, approach: Metre) -> f64 {
+        self.convolve_near_field();
+        let (touch, predicted) = (flat(&self.touch), flat(&self.response));
+        let residual = flat_mut(&mut self.residual);
         let mut sum = 0.0;
         for cell in self.sets.free() {
-            let w = approach - touch[cell] - f64::from(foreseen[cell]);
+            let w = approach - touch[cell] - f64::from(predicted[cell]);
             sum += w;
-            equations[cell] = w as f32;
+            residual[cell] = w as f32;
         }
         sum
     }
 
-    /// Response to the direction within [`FORESIGHT`] cells of where it is not zero, without a convolution.
-    fn respond_nearby(&mut self) {
+    /// C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
+    fn convolve_near_field(&mut self) {
         let [nx, ny] = self.site.grid().shape;
         let reach = [self.near.nrows() - 1, self.near.ncols() / 2];
         self.response.fill(0.0);
@@ -288,15 +320,15 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// Takes a mean out of the equations.
-    pub(super) fn centre(&mut self, mean: f64) {
-        let equations = flat_mut(&mut self.equations);
-        self.sets.free().for_each(|cell| equations[cell] -= mean as f32);
+    /// Subtracts a mean from the residual.
+    pub(super) fn subtract_mean(&mut self, mean: f64) {
+        let residual = flat_mut(&mut self.residual);
+        self.sets.free().for_each(|cell| residual[cell] -= mean as f32);
     }
 
-    /// `step = M equations`. Returns the sums of the steps, of the equations, and of the products of both.
+    /// Computes the preconditioned residual z = M r. Returns Σ z, Σ r and Σ r z.
     pub(super) fn precondition(&mut self) -> [f64; 3] {
-        let (r, z) = (flat(&self.equations), flat_mut(&mut self.step));
+        let (r, z) = (flat(&self.residual), flat_mut(&mut self.preconditioned));
         self.preconditioner.apply(&self.sets, r, z);
         let mut sums = [0.0; 3];
         for cell in self.sets.free() {
@@ -306,66 +338,71 @@ impl<'a> Block<'a> {
         sums
     }
 
-    /// Adds the step, without its mean and damped, to the direction. Returns what the direction adds to Σ p, and the Σ p
-    /// of the free cells.
-    pub(super) fn direct(&mut self, mean: f64, damping: f64, hardness: Pascal) -> [f64; 2] {
-        let (step, direction) = (flat(&self.step), flat_mut(&mut self.direction));
+    /// Sets the direction of the free cells to the preconditioned residual without its mean, damped. Returns what the whole
+    /// direction adds to Σ p, and what the free cells bear above their lower bounds.
+    pub(super) fn direct_free_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
+        let (z, direction) = (flat(&self.preconditioned), flat_mut(&mut self.direction));
         let (damping, mean) = (damping as f32, mean as f32);
-        self.sets.free().for_each(|cell| direction[cell] = damping * (step[cell] - mean));
+        self.sets.free().for_each(|cell| direction[cell] = damping * (z[cell] - mean));
         let p = flat(&self.pressure);
-        let bearing = self.sets.free().map(|cell| p[cell].clamp(0.0, hardness)).sum();
-        let [added] = sums(direction, |d| [f64::from(d)]);
-        [added, bearing]
+        let borne = with_bounds!(self.site.bounds(), of => {
+            self.sets.free().map(|cell| of(cell).clamp(p[cell]) - of(cell).lower).sum()
+        });
+        let [added] = sums(direction, |_, d| [f64::from(d)]);
+        [added, borne]
     }
 
-    /// The free cells take up a change of the load: so much each, and so much in proportion to their pressure.
-    pub(super) fn take_up(&mut self, each: f64, per_pressure: f64, hardness: Pascal) {
+    /// Takes from the direction of each free cell so much, and so much in proportion to what it bears above its lower bound:
+    /// the direction then leaves the load as it is.
+    pub(super) fn balance_direction(&mut self, each: f64, per_pressure: f64) {
         let (p, direction) = (flat(&self.pressure), flat_mut(&mut self.direction));
-        for cell in self.sets.free() {
-            direction[cell] -= (each + per_pressure * p[cell].clamp(0.0, hardness)) as f32;
-        }
+        with_bounds!(self.site.bounds(), of => {
+            for cell in self.sets.free() {
+                let borne = of(cell).clamp(p[cell]) - of(cell).lower;
+                direction[cell] -= (each + per_pressure * borne) as f32;
+            }
+        });
     }
 
-    /// Takes the direction, which ends at the bounds.
-    pub(super) fn lift(&mut self, hardness: Pascal) {
-        for ((p, d), set) in
-            flat_mut(&mut self.pressure).iter_mut().zip(flat(&self.direction)).zip(self.sets.of())
-        {
-            // Exactly at the bounds, whatever the rounding of the sum.
-            *p = match set {
-                Set::Zero => 0.0,
-                Set::Hardness => hardness,
-                Set::Free => *p + f64::from(*d),
-            };
+    /// Takes the direction, which ends at the bounds; the displacement follows where `convolved`.
+    pub(super) fn step_to_bounds(&mut self, convolved: bool) {
+        if convolved {
+            self.convolve_direction();
+            self.add_response();
         }
-    }
-
-    /// Adds the response to the direction to the displacement.
-    pub(super) fn follow(&mut self) {
-        self.respond_to_direction();
-        self.take_response();
+        let cells = flat_mut(&mut self.pressure).iter_mut().zip(flat(&self.direction)).zip(self.sets.of());
+        with_bounds!(self.site.bounds(), of => {
+            for (cell, ((p, d), set)) in cells.enumerate() {
+                // Exactly at the bounds, whatever the rounding of the sum.
+                *p = match set {
+                    Set::Lower => of(cell).lower,
+                    Set::Upper => of(cell).upper,
+                    Set::Free => *p + f64::from(*d),
+                };
+            }
+        });
     }
 
     /// Adds a pressure to the free cells.
-    pub(super) fn raise(&mut self, pressure: Pascal) {
+    pub(super) fn add_to_free_cells(&mut self, pressure: Pascal) {
         let p = flat_mut(&mut self.pressure);
         self.sets.free().for_each(|cell| p[cell] += pressure);
     }
 
-    /// No direction. Returns Σ (h + u) of the free cells.
-    pub(super) fn halt(&mut self) -> f64 {
+    /// Sets the direction to zero. Returns Σ (h + u) of the free cells.
+    pub(super) fn reset_direction(&mut self) -> f64 {
         self.direction.fill(0.0);
         let touch = flat(&self.touch);
         self.sets.free().map(|cell| touch[cell]).sum()
     }
 
-    /// `direction = step − mean + conjugate · direction`, and its response. Returns the curvature of the energy along it,
-    /// and the sum of the response of the free cells.
-    pub(super) fn conjugate(&mut self, mean: f64, conjugate: f64) -> [f64; 2] {
-        let (z, d) = (flat(&self.step), flat_mut(&mut self.direction));
-        let (mean, conjugate) = (mean as f32, conjugate as f32);
-        self.sets.free().for_each(|cell| d[cell] = z[cell] - mean + conjugate * d[cell]);
-        self.respond_to_direction();
+    /// Updates the direction to the conjugate one, d = z − mean + β d, and computes C·d. Returns the curvature dᵀC d of the
+    /// energy along it, and Σ C·d of the free cells.
+    pub(super) fn update_direction(&mut self, mean: f64, beta: f64) -> [f64; 2] {
+        let (z, d) = (flat(&self.preconditioned), flat_mut(&mut self.direction));
+        let (mean, beta) = (mean as f32, beta as f32);
+        self.sets.free().for_each(|cell| d[cell] = z[cell] - mean + beta * d[cell]);
+        self.convolve_direction();
         let (d, c) = (flat(&self.direction), flat(&self.response));
         let (mut curvature, mut sum) = (0.0, 0.0);
         for cell in self.sets.free() {
@@ -375,49 +412,52 @@ impl<'a> Block<'a> {
         [curvature, sum]
     }
 
-    /// Moves by `step` times the direction, in the pressure and its displacement, and takes stock: the equations at
-    /// the free cells, where the gap is to close at `datum`, and how far the bounds are violated.
-    pub(super) fn advance(&mut self, step: f64, datum: Metre, terms: &Terms) -> LeftOver {
-        let Terms { hardness, self_influence: c0, .. } = *terms;
-        let mut left = LeftOver { datum, ..LeftOver::default() };
+    /// Moves by `step` times the direction, in the pressure and its displacement, and computes the residual of the free
+    /// cells, whose gap is to close at `datum`. Returns its norm and that of the violations of the bounds.
+    pub(super) fn step_along_direction(&mut self, step: f64, datum: Metre, terms: &Terms) -> ResidualNorms {
+        let c0 = terms.self_influence;
+        let mut norms = ResidualNorms { datum, ..ResidualNorms::default() };
         let cells = self.sets.of().iter().zip(flat(&self.direction)).zip(flat(&self.response));
         let cells = cells.zip(flat_mut(&mut self.pressure)).zip(flat_mut(&mut self.touch));
-        for (((((set, d), c), p), touch), r) in cells.zip(flat_mut(&mut self.equations)) {
-            *touch += step * f64::from(*c);
-            let w = datum - *touch;
-            let violation = match set {
-                Set::Zero => w.max(0.0),
-                Set::Hardness => w.min(0.0),
-                Set::Free => {
-                    *p += step * f64::from(*d);
-                    *r = w as f32;
-                    left.equations += w * w;
-                    left.largest = left.largest.max(w.abs());
-                    c0 * (*p - p.clamp(0.0, hardness))
-                }
-            };
-            left.bounds += violation * violation;
-        }
-        self.rounding += SINGLE * step * self.largest;
-        left
+        let cells = cells.zip(flat_mut(&mut self.residual)).enumerate();
+        with_bounds!(self.site.bounds(), of => {
+            for (cell, (((((set, d), c), p), touch), r)) in cells {
+                *touch += step * f64::from(*c);
+                let w = datum - *touch;
+                let violation = match set {
+                    Set::Lower => w.max(0.0),
+                    Set::Upper => w.min(0.0),
+                    Set::Free => {
+                        *p += step * f64::from(*d);
+                        *r = w as f32;
+                        norms.residual += w * w;
+                        norms.max_residual = norms.max_residual.max(w.abs());
+                        c0 * (*p - of(cell).clamp(*p))
+                    }
+                };
+                norms.violation += violation * violation;
+            }
+        });
+        self.rounding += SINGLE_PRECISION * step * self.max_response;
+        norms
     }
 
-    /// Keeps the pressure, which is feasible.
-    pub(super) fn keep(&mut self) {
+    /// Keeps the pressure as the last feasible one.
+    pub(super) fn keep_feasible(&mut self) {
         self.feasible.assign(&self.pressure);
     }
 
-    /// The displacement of the pressure that was kept.
-    pub(super) fn recall(&mut self) {
+    /// Convolves the last feasible pressure, for a line search from it.
+    pub(super) fn convolve_feasible(&mut self) {
         let mut touch = Field::zeros(self.feasible.raw_dim());
         touch_under(self.site, &self.feasible, &mut touch);
-        self.touch_before = Some(touch);
+        self.feasible_touch = Some(touch);
         self.convolutions += 1;
     }
 
-    /// Slope and curvature of the energy, at an approach, on the way from the pressure that was recalled to this one.
+    /// Slope and curvature of the energy, at an approach, along the line from the last feasible pressure to this one.
     pub(super) fn descent(&self, approach: Metre) -> [f64; 2] {
-        let before = self.touch_before.as_ref().expect("recalled");
+        let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let (mut slope, mut curvature) = (0.0, 0.0);
         let cells = flat(&self.feasible).iter().zip(flat(before)).zip(flat(&self.pressure));
         for (((p, before), target), touch) in cells.zip(flat(&self.touch)) {
@@ -427,17 +467,18 @@ impl<'a> Block<'a> {
         [slope, curvature]
     }
 
-    /// Goes so far on the way from the pressure that was recalled to this one.
-    pub(super) fn go_back(&mut self, share: f64) {
-        let before = self.touch_before.as_ref().expect("recalled");
+    /// Goes to the `share` of the line from the last feasible pressure to this one.
+    pub(super) fn step_from_feasible(&mut self, share: f64) {
+        let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let mix = |to: &mut f64, from: &f64| *to = from + share * (*to - from);
         self.pressure.zip_mut_with(&self.feasible, mix);
         self.touch.zip_mut_with(before, mix);
     }
 
-    /// Forgets what was recalled.
-    pub(super) fn forget(&mut self) {
-        self.touch_before = None;
+    /// Ends a line search: its result is the last feasible pressure.
+    pub(super) fn end_line_search(&mut self) {
+        self.keep_feasible();
+        self.feasible_touch = None;
     }
 }
 

@@ -10,24 +10,53 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::math::sum::sums;
-use crate::solver::bounds::{self, Cells, Range};
-use crate::solver::residual::{Multiplier, Residual, Tally};
+use crate::solver::bounds::Interval;
+use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
+use crate::solver::residual::{Multiplier, Residual, ResidualSums};
 use crate::solver::site::Site;
 use crate::solver::{Control, Stats, Terms, finite};
 use crate::units::{Metre, Pascal};
 
-use block::{Block, LeftOver};
+use block::{Block, ResidualNorms};
 
-/// The conjugate gradients are left when the residual on the free cells is below so many times the violation of
-/// the bounds: more would be spent on a set that is about to change.
-const LEAVE: f64 = 3.0;
 /// Conjugate gradient steps on one active set, at the most.
-const MOST_INNER: usize = 60;
-/// The equations are met when they are below so much of what is asked of the answer, which is taken at its bounds.
-const NEARLY: f64 = 0.9;
+const MAX_CG_STEPS: usize = 60;
+/// Conjugate gradients end when the residual on the free cells is below so many times the violation of the bounds: more
+/// would be spent on a set that is about to change.
+const CG_EXIT: f64 = 3.0;
+/// After an outer step without progress that ratio is divided by so much, but no less than [`MIN_CG_EXIT`]; after one with
+/// progress it is multiplied by [`CG_EXIT_GROWTH`].
+const CG_EXIT_DIVISOR: f64 = 3.0;
+const MIN_CG_EXIT: f64 = 0.05;
+const CG_EXIT_GROWTH: f64 = 1.5;
+/// They end, too, when the largest residual is below so much of what is asked of the answer, which is taken at its bounds.
+const CG_TOLERANCE: f64 = 0.9;
+
+/// Damping of the preconditioned step that is folded into the step to the bounds: a running mean of the step lengths of
+/// conjugate gradients, from this value, with these weights of the old and the new, each new one counted up to a limit.
+const FIRST_DAMPING: f64 = 0.8;
+const DAMPING_WEIGHTS: [f64; 2] = [0.7, 0.3];
+const MAX_STEP_IN_DAMPING: f64 = 1.2;
+
+/// An outer step has made progress when it leaves less than this share of the best norm so far.
+const PROGRESS: f64 = 0.7;
+/// Outer steps without progress, one after another, after which the energy is lowered by a line search.
+const MAX_STAGNATIONS: usize = 2;
+/// The caution of the predicted sets grows so much with each outer step without progress, and falls so much with each that
+/// has made some.
+const CAUTION_GROWTH: f64 = 4.0;
+const CAUTION_REDUCTION: f64 = 0.5;
+/// A line search that goes less of its way than this leads nowhere.
+const MIN_SEARCH_STEP: f64 = 1e-3;
+/// After a line search the best norm is taken to be so much larger: the next outer step may lose a little.
+const BEST_AFTER_SEARCH: f64 = 2.0;
+
 /// What single precision leaves in the displacement may be so much of the residual that is wanted.
 const TRUSTED: f64 = 0.1;
+/// An answer that misses the tolerance once it is feasible is solved to so much of the residual asked of it before.
+const SHARPER: f64 = 0.3;
+/// Share of the elastic interference of a cell by itself that a first pressure takes up.
+const FIRST_PRESSURE: f64 = 0.3;
 
 /// Contacts in equilibrium under one approach.
 pub(super) struct Equilibrium {
@@ -39,7 +68,8 @@ pub(super) struct Equilibrium {
 }
 
 /// Solves from the `start` of each contact (uniform pressure, or the interference under approach control, where there
-/// is none), with some caution when the sets are predicted, to the `tolerance` on η that belongs to a state.
+/// is none), with a `caution` when the sets are predicted: how much stiffer than its own diagonal each cell is taken to be
+/// at first; to the `tolerance` on η that belongs to a state.
 pub(super) fn solve(
     sites: &[&dyn Site],
     terms: &Terms,
@@ -54,7 +84,7 @@ pub(super) fn solve(
     if let Some(pressure) = terms.pressure_sum() {
         // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
         let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
-        state.scale = state.scale.max(terms.self_influence * pressure / cells as f64);
+        state.scale = state.scale.max(terms.self_influence * terms.sum_scale(pressure) / cells as f64);
     }
     loop {
         let mut wanted = tolerance(&state);
@@ -72,7 +102,7 @@ pub(super) fn solve(
             if state.eta < wanted {
                 return Ok(iteration.into_equilibrium(state));
             }
-            sharpen *= 0.3;
+            sharpen *= SHARPER;
         }
         finite("residual", state.eta.min(f64::MAX))?;
         let Stats { iterations, convolutions, .. } = iteration.stats();
@@ -80,9 +110,9 @@ pub(super) fn solve(
             return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
         }
         state = match iteration.outer_step(state, sharpen * wanted) {
-            // Where the equations alone are far from being met there is no need to look further.
-            Some(left) if left.largest > wanted * state.scale => {
-                Residual { eta: left.largest / state.scale, approach: left.datum, ..state }
+            // Where the residual of the free cells alone is far too large there is no need to look further.
+            Some(left) if left.max_residual > wanted * state.scale => {
+                Residual { eta: left.max_residual / state.scale, approach: left.datum, ..state }
             }
             _ => iteration.residual(),
         };
@@ -92,14 +122,17 @@ pub(super) fn solve(
 struct Iteration<'a> {
     terms: Terms,
     blocks: Vec<Block<'a>>,
-    leave: f64,
-    /// Running mean of the step length: the damping of the folded step.
+    /// Ratio of the residual to the violation of the bounds at which conjugate gradients end.
+    cg_exit: f64,
+    /// Damping of the preconditioned step that is folded into the step to the bounds.
     damping: f64,
     /// How much stiffer than its own diagonal a cell is taken to be when the sets are predicted.
     caution: f64,
+    /// Least norm that an outer step has left.
     best: f64,
-    strikes: usize,
-    /// Steps in a row from pressures all at their bounds.
+    /// Outer steps without progress, one after another.
+    stagnations: usize,
+    /// Outer steps, one after another, from pressures that are all at their bounds.
     bound_steps: usize,
     iterations: usize,
     restarts: usize,
@@ -115,7 +148,7 @@ impl<'a> Iteration<'a> {
                     Field::from_elem(site.grid().shape, load / terms.cell_area / cells as f64)
                 }
                 Control::Approach(approach) => {
-                    site.initial_gap().mapv(|h| 0.3 * (approach - h) / terms.self_influence)
+                    site.initial_gap().mapv(|h| FIRST_PRESSURE * (approach - h) / terms.self_influence)
                 }
             };
             sites.iter().map(guess).collect()
@@ -124,30 +157,30 @@ impl<'a> Iteration<'a> {
         let mut iteration = Self {
             terms: *terms,
             blocks,
-            leave: LEAVE,
-            damping: 0.8,
+            cg_exit: CG_EXIT,
+            damping: FIRST_DAMPING,
             caution,
             best: f64::INFINITY,
-            strikes: 0,
+            stagnations: 0,
             bound_steps: 0,
             iterations: 0,
             restarts: 0,
         };
-        bounds::make_feasible(&mut iteration, terms);
-        iteration.each(Block::respond_in_single);
+        make_feasible(&mut iteration, terms);
+        iteration.each(Block::convolve_in_single);
         if let (true, Control::Approach(approach)) = (far, terms.control) {
             iteration.scale_to_least_energy(approach);
         }
-        iteration.each(Block::keep);
+        iteration.each(Block::keep_feasible);
         iteration
     }
 
-    /// Does something to each block, in parallel where there are several.
+    /// Does a task on each block, in parallel where there are several.
     fn each(&mut self, task: impl Fn(&mut Block<'a>) + Sync) {
         self.all(task, |(), ()| ());
     }
 
-    /// What comes of something done to each block, put together in the order of the blocks.
+    /// What comes of a task on each block, merged in the order of the blocks.
     fn all<R: Send>(&mut self, task: impl Fn(&mut Block<'a>) -> R + Sync, and: impl Fn(R, R) -> R) -> R {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
@@ -158,8 +191,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// The sums over the blocks of what comes of something done to each.
-    fn sum<const N: usize>(&mut self, task: impl Fn(&mut Block<'a>) -> [f64; N] + Sync) -> [f64; N] {
+    /// The sums over the blocks of what comes of a task on each.
+    fn sum_blocks<const N: usize>(&mut self, task: impl Fn(&mut Block<'a>) -> [f64; N] + Sync) -> [f64; N] {
         self.all(task, |a, b| std::array::from_fn(|n| a[n] + b[n]))
     }
 
@@ -197,7 +230,7 @@ impl<'a> Iteration<'a> {
 
     /// Under approach control a guess is only as good as its size: the multiple of least energy, at no cost.
     fn scale_to_least_energy(&mut self, approach: Metre) {
-        let [work, twice_energy] = self.sum(|block| block.work(approach));
+        let [work, twice_energy] = self.sum_blocks(|block| block.work(approach));
         if twice_energy > 0.0 {
             let factor = (work / twice_energy).clamp(0.0, 1.0);
             self.each(|block| block.scale(factor));
@@ -208,21 +241,17 @@ impl<'a> Iteration<'a> {
         let terms = self.terms;
         let approach = match terms.control {
             Control::Approach(approach) => approach,
-            Control::Load(_) => {
-                self.all(|block| block.multiplier(terms.hardness), Multiplier::and).approach()
-            }
+            Control::Load(_) => self.all(|block| block.multiplier(), Multiplier::and).approach(),
         };
-        let tally = self.all(|block| block.tally(approach, &terms), Tally::and);
-        tally.residual(approach, terms.self_influence)
+        let sums = self.all(|block| block.residual_sums(approach, &terms), ResidualSums::and);
+        sums.residual(approach, terms.self_influence)
     }
 
     fn is_feasible(&mut self) -> bool {
-        let hardness = self.terms.hardness;
-        let inside = |block: &Block| block.pressure().iter().all(|p| (0.0..=hardness).contains(p));
-        if !self.blocks.iter().all(inside) {
+        if !self.blocks.iter().all(Block::is_within_bounds) {
             return false;
         }
-        let [sum] = Cells::sum(self, |p| [p]);
+        let [sum] = self.sum(|p, _| [p]);
         self.terms.bears_the_load(sum)
     }
 
@@ -230,17 +259,18 @@ impl<'a> Iteration<'a> {
     /// what that leaves in the displacement.
     fn become_feasible(&mut self, trusted: Metre) {
         let terms = self.terms;
-        bounds::make_feasible(self, &terms);
+        make_feasible(self, &terms);
         let rounding = self.all(|block| block.rounding_in_single(), f64::max);
         if rounding < trusted {
-            self.each(Block::respond_in_single);
+            self.each(Block::convolve_in_single);
         } else {
-            self.each(Block::respond);
+            self.each(Block::convolve);
         }
     }
 
-    /// One set of free cells, solved as far as it is worth. Returns what that leaves, unless the pressure is another since.
-    fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<LeftOver> {
+    /// Predicts the sets and solves for the free cells, as far as it is worth. Returns what that leaves, unless the pressure
+    /// is another since.
+    fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
         self.predict_sets(state.approach);
         if self.free_cells() == 0.0 {
             self.become_feasible(0.0);
@@ -248,11 +278,11 @@ impl<'a> Iteration<'a> {
             return None;
         }
         self.bound_steps = 0;
-        self.lift_to_bounds(state.approach, TRUSTED * wanted * state.scale);
+        self.step_to_bounds(state.approach, TRUSTED * wanted * state.scale);
         let left = self.conjugate_gradients(state, wanted);
         self.restore_the_sum();
-        let restarted = self.safeguard(left.equations.hypot(left.bounds), state.approach);
-        (!restarted).then_some(left)
+        let searched = self.safeguard(left.residual.hypot(left.violation), state.approach);
+        (!searched).then_some(left)
     }
 
     /// Every cell at a bound and no equilibrium: one step along the gap frees some; where it has only taken them to the other
@@ -264,15 +294,14 @@ impl<'a> Iteration<'a> {
             return;
         }
         self.each(|block| {
-            block.keep();
-            block.recall();
+            block.keep_feasible();
+            block.convolve_feasible();
         });
         self.step_along_gap(approach);
         let share = self.line_search(approach);
         self.each(|block| {
-            block.go_back(share);
-            block.keep();
-            block.forget();
+            block.step_from_feasible(share);
+            block.end_line_search();
         });
     }
 
@@ -283,138 +312,133 @@ impl<'a> Iteration<'a> {
         self.become_feasible(0.0);
     }
 
-    /// Cells are predicted at a bound where one diagonal Newton step takes them there. Under load control its datum is
-    /// the one at which the pressures of the step, in their bounds, bear the load.
+    /// Predicts cells at a bound where one diagonal Newton step takes them there. Under load control its datum is the one at
+    /// which the proposed pressures, in their bounds, bear the load.
     fn predict_sets(&mut self, approach: Metre) {
-        let hardness = self.terms.hardness;
         let stiffness = 1.0 / (self.caution * self.terms.self_influence);
-        let shift = match self.terms.pressure_sum() {
+        let terms = self.terms;
+        let offset = match terms.pressure_sum() {
             Some(wanted) => {
                 let range = self.all(|block| block.propose(approach, stiffness), Range::and);
-                bounds::shift_for_sum(range, wanted, |shift| {
-                    self.sum(|block| block.proposed_sum(shift, hardness))
+                offset_for_sum(range, wanted, terms.sum_accuracy(wanted), |offset| {
+                    self.sum_blocks(|block| block.proposed_sum(offset))
                 })
             }
             None => 0.0,
         };
-        self.each(|block| block.predict(approach, stiffness, shift, hardness));
+        self.each(|block| block.predict_sets(approach, stiffness, offset));
     }
 
-    /// Takes the cells at a bound there, and the free cells one preconditioned step further, in one convolution: of the
-    /// step, or where single precision has left more than is `trusted`, of the whole pressure in double.
-    fn lift_to_bounds(&mut self, approach: Metre, trusted: Metre) {
-        let Terms { hardness, control, .. } = self.terms;
-        if !self.all(|block| block.direct_to_bounds(hardness), |a, b| a || b) {
+    /// Takes the cells predicted at a bound there, and the free cells one preconditioned step further, in one convolution:
+    /// of the step, or where single precision has left more than is `trusted`, of the whole pressure in double.
+    fn step_to_bounds(&mut self, approach: Metre, trusted: Metre) {
+        if !self.all(Block::direct_to_bounds, |a, b| a || b) {
             return;
         }
-        let [sum] = self.sum(|block| [block.foresee(approach)]);
+        let [sum] = self.sum_blocks(|block| [block.predict_residual(approach)]);
         let mean = self.mean(sum);
-        let [sum, ..] = self.sum(|block| {
-            block.centre(mean);
+        let [sum, ..] = self.sum_blocks(|block| {
+            block.subtract_mean(mean);
             block.precondition()
         });
         let (mean, damping) = (self.mean(sum), self.damping);
-        let [added, bearing] = self.sum(|block| block.direct(mean, damping, hardness));
-        if let Control::Load(_) = control {
-            // The load does not change: the free cells take up the difference, in proportion.
+        let [added, borne] = self.sum_blocks(|block| block.direct_free_cells(mean, damping));
+        if let Control::Load(_) = self.terms.control {
+            // The load does not change: the free cells bear the difference, in proportion.
             let (each, per_pressure) =
-                if bearing > 0.0 { (0.0, added / bearing) } else { (added / self.free_cells(), 0.0) };
-            self.each(|block| block.take_up(each, per_pressure, hardness));
+                if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells(), 0.0) };
+            self.each(|block| block.balance_direction(each, per_pressure));
         }
         let afresh = self.rounding() > trusted;
-        self.each(|block| {
-            if !afresh {
-                block.follow();
-            }
-            block.lift(hardness);
-        });
+        self.each(|block| block.step_to_bounds(!afresh));
         if afresh {
             self.restore_the_sum();
-            self.each(Block::respond);
+            self.each(Block::convolve);
         }
     }
 
-    /// Exactly the load, whatever the rounding of the directions: what they have left of it is in the order of what
+    /// Restores exactly the load, whatever the rounding of the directions: what they have left of it is in the order of what
     /// they have left in the displacement.
     fn restore_the_sum(&mut self) {
         let Some(wanted) = self.terms.pressure_sum() else { return };
-        let [sum] = Cells::sum(self, |p| [p]);
+        let [sum] = self.sum(|p, _| [p]);
         let pressure = (wanted - sum) / self.free_cells();
-        self.each(|block| block.raise(pressure));
+        self.each(|block| block.add_to_free_cells(pressure));
     }
 
-    /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the equations.
+    /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the residual.
     /// Returns what is left of both.
-    fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> LeftOver {
-        let [sum] = self.sum(|block| [block.halt()]);
+    fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
+        let [sum] = self.sum_blocks(|block| [block.reset_direction()]);
         let mut datum = match self.terms.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.mean(sum),
         };
-        let mut left = self.advance(0.0, datum);
+        let mut left = self.step_along_direction(0.0, datum);
         let mut product_before = f64::INFINITY;
-        for _ in 0..MOST_INNER {
-            let [sum, drift, product] = self.sum(Block::precondition);
+        for _ in 0..MAX_CG_STEPS {
+            let [sum, drift, product] = self.sum_blocks(Block::precondition);
             let mean = self.mean(sum);
             let product = product - mean * drift;
-            let conjugate = product / product_before;
+            let beta = product / product_before;
             product_before = product;
-            let [curvature, sum] = self.sum(|block| block.conjugate(mean, conjugate));
+            let [curvature, sum] = self.sum_blocks(|block| block.update_direction(mean, beta));
             if !(curvature > 0.0 && product > 0.0) {
                 break;
             }
             let step = product / curvature;
             datum += step * self.mean(sum);
-            left = self.advance(step, datum);
+            left = self.step_along_direction(step, datum);
             self.iterations += 1;
-            self.damping = 0.7 * self.damping + 0.3 * step.min(1.2);
-            if left.equations <= self.leave * left.bounds || left.largest < NEARLY * wanted * state.scale {
+            let [old, new] = DAMPING_WEIGHTS;
+            self.damping = old * self.damping + new * step.min(MAX_STEP_IN_DAMPING);
+            if left.residual <= self.cg_exit * left.violation
+                || left.max_residual < CG_TOLERANCE * wanted * state.scale
+            {
                 break;
             }
         }
         left
     }
 
-    /// Moves along the direction and takes stock: roots of the sums of squares, and the largest equation.
-    fn advance(&mut self, step: f64, datum: Metre) -> LeftOver {
+    /// Moves along the direction. Returns the norms of what is left: roots of the sums of squares, and the largest residual.
+    fn step_along_direction(&mut self, step: f64, datum: Metre) -> ResidualNorms {
         let terms = self.terms;
-        let sum = self.all(|block| block.advance(step, datum, &terms), LeftOver::and);
-        LeftOver { equations: sum.equations.sqrt(), bounds: sum.bounds.sqrt(), ..sum }
+        let sums = self.all(|block| block.step_along_direction(step, datum, &terms), ResidualNorms::and);
+        ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
-    /// Two outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
-    /// energy. It makes the iteration safe where the predicted sets cycle.
-    /// Returns whether it had to.
-    fn safeguard(&mut self, size: f64, approach: Metre) -> bool {
-        if size < 0.7 * self.best {
-            self.best = size;
-            self.strikes = 0;
-            self.leave = LEAVE.min(1.5 * self.leave);
-            self.caution = (0.5 * self.caution).max(1.0);
+    /// After some outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
+    /// energy. It makes the iteration safe where the predicted sets cycle. Returns whether it had to.
+    fn safeguard(&mut self, norm: f64, approach: Metre) -> bool {
+        if norm < PROGRESS * self.best {
+            self.best = norm;
+            self.stagnations = 0;
+            self.cg_exit = CG_EXIT.min(CG_EXIT_GROWTH * self.cg_exit);
+            self.caution = (CAUTION_REDUCTION * self.caution).max(1.0);
             return false;
         }
-        self.strikes += 1;
-        self.leave = (self.leave / 3.0).max(0.05);
-        self.caution *= 4.0;
-        if self.strikes < 2 {
+        self.stagnations += 1;
+        self.cg_exit = (self.cg_exit / CG_EXIT_DIVISOR).max(MIN_CG_EXIT);
+        self.caution *= CAUTION_GROWTH;
+        if self.stagnations < MAX_STAGNATIONS {
             return false;
         }
         self.become_feasible(0.0);
-        self.each(Block::recall);
+        self.each(Block::convolve_feasible);
         let mut share = self.line_search(approach);
-        if share <= 1e-3 {
+        if share <= MIN_SEARCH_STEP {
             // That way leads nowhere: along the gap of the feasible pressure itself.
-            self.each(|block| block.go_back(0.0));
+            self.each(|block| block.step_from_feasible(0.0));
             let datum = self.residual().approach;
             self.step_along_gap(datum);
             share = self.line_search(approach);
         }
         self.each(|block| {
-            block.go_back(share);
-            block.keep();
-            block.forget();
+            block.step_from_feasible(share);
+            block.end_line_search();
         });
-        self.best *= 2.0;
+        self.best *= BEST_AFTER_SEARCH;
         self.restarts += 1;
         true
     }
@@ -425,21 +449,21 @@ impl<'a> Iteration<'a> {
             Control::Load(_) => 0.0,
             Control::Approach(_) => approach,
         };
-        let [slope, curvature] = self.sum(|block| block.descent(datum));
+        let [slope, curvature] = self.sum_blocks(|block| block.descent(datum));
         if slope > 0.0 && curvature > 0.0 { (slope / curvature).min(1.0) } else { 0.0 }
     }
 }
 
 impl Cells for Iteration<'_> {
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal) -> [f64; N] + Sync) -> [f64; N] {
-        self.sum(|block| sums(block.pressure_mut(), &terms))
+    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N] {
+        self.sum_blocks(|block| block.sum(&terms))
     }
 
-    fn map(&mut self, change: impl Fn(Pascal) -> Pascal + Sync) {
-        self.each(|block| block.pressure_mut().iter_mut().for_each(|p| *p = change(*p)));
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync) {
+        self.each(|block| block.map(&change));
     }
 
     fn range(&mut self) -> Range {
-        self.all(|block| Range::of(block.pressure_mut()), Range::and)
+        self.all(|block| block.range(), Range::and)
     }
 }

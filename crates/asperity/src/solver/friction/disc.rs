@@ -23,10 +23,10 @@ pub(super) fn length(a: Vector) -> f64 {
     a[0].hypot(a[1])
 }
 
-/// The vector of the disc of radius `bound` nearest to `a`.
-pub(super) fn onto_disc(a: Vector, bound: f64) -> Vector {
+/// The vector of the disc of that `radius` nearest to `a`.
+pub(super) fn onto_disc(a: Vector, radius: f64) -> Vector {
     let length = length(a);
-    if length <= bound { a } else { times(bound / length, a) }
+    if length <= radius { a } else { times(radius / length, a) }
 }
 
 /// A symmetric matrix: xx, xy, yy.
@@ -61,34 +61,34 @@ impl Symmetric {
     }
 }
 
-/// The shift e at which Σ P(yᵢ + e) is `wanted`, P the projection [`onto_disc`] of radius gᵢ: it exists where |`wanted`| is
-/// less than Σ gᵢ. `cells` are y and g of each, `start` a shift nearby.
+/// The offset e at which Σ P(yᵢ + e) is `wanted`, P the projection [`onto_disc`] of radius gᵢ: it exists where |`wanted`| is
+/// less than Σ gᵢ. `cells` are y and g of each, `start` an offset nearby.
 ///
 /// The sum is the gradient of the convex function Σ ½|v|² (in the disc), g|v| − ½g² (outside): Newton's iteration, and
 /// where that fails the step of least energy of a paraboloid above it, as Weiszfeld's.
-pub(super) fn shift_for_sum<I: Iterator<Item = (Vector, f64)>>(
+pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     cells: impl Fn() -> I,
     wanted: Vector,
     start: Vector,
 ) -> Vector {
     const MOST: usize = 100;
     const ACCURACY: f64 = 1e-13;
-    let at = |shift: Vector| {
+    let at = |offset: Vector| {
         let mut sums = Sums {
-            energy: -dot(wanted, shift),
+            energy: -dot(wanted, offset),
             excess: times(-1.0, wanted),
             slope: Symmetric::default(),
             weight: 0.0,
             size: length(wanted),
-            rounding: length(wanted) * length(shift),
+            rounding: length(wanted) * length(offset),
         };
         for (y, g) in cells() {
-            sums.add(add(y, shift), g);
+            sums.add(add(y, offset), g);
         }
         sums
     };
-    let mut shift = start;
-    let mut here = at(shift);
+    let mut offset = start;
+    let mut here = at(offset);
     for _ in 0..MOST {
         if length(here.excess) <= ACCURACY * here.size {
             break;
@@ -98,7 +98,7 @@ pub(super) fn shift_for_sum<I: Iterator<Item = (Vector, f64)>>(
             let rounding = 4.0 * f64::EPSILON * (here.rounding + there.rounding);
             there.energy <= here.energy + 1e-4 * share * dot(newton, here.excess) + rounding
         };
-        let to = |step: Vector| (add(shift, step), at(add(shift, step)));
+        let to = |step: Vector| (add(offset, step), at(add(offset, step)));
         // Where nearly all cells slip alike Newton's step is far too long.
         let by_newton = [1.0, 0.1].into_iter().map(|share| (to(times(share, newton)), share));
         let found = by_newton.into_iter().find(|(next, share)| descends(next, *share));
@@ -106,15 +106,15 @@ pub(super) fn shift_for_sum<I: Iterator<Item = (Vector, f64)>>(
             Some((next, _)) => next,
             None => to(times(-1.0 / here.weight, here.excess)),
         };
-        if next == shift {
+        if next == offset {
             break;
         }
-        (shift, here) = (next, there);
+        (offset, here) = (next, there);
     }
-    shift
+    offset
 }
 
-/// What the cells come to at a shift.
+/// What the cells come to at an offset.
 struct Sums {
     energy: f64,
     /// Σ P(y + e) − wanted.
@@ -129,20 +129,20 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, v: Vector, bound: f64) {
+    fn add(&mut self, v: Vector, radius: f64) {
         let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
-        let (energy, inside, slope) = if length <= bound {
+        let (energy, inside, slope) = if length <= radius {
             (0.5 * length * length, v, Symmetric::identity(1.0))
         } else {
-            let share = bound / length;
+            let share = radius / length;
             let across = [-v[1] / length, v[0] / length];
-            (bound * (length - 0.5 * bound), times(share, v), Symmetric::square(share, across))
+            (radius * (length - 0.5 * radius), times(share, v), Symmetric::square(share, across))
         };
         self.energy += energy;
         self.excess = add(self.excess, inside);
         self.slope = self.slope.and(slope);
-        self.weight += if length <= bound { 1.0 } else { bound / length };
-        self.size += length.min(bound);
+        self.weight += if length <= radius { 1.0 } else { radius / length };
+        self.size += length.min(radius);
         self.rounding += energy;
     }
 }
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shift_makes_the_sum_whatever_share_of_the_discs_it_fills() {
+    fn an_offset_makes_the_sum_whatever_share_of_the_discs_it_fills() {
         let cells: Vec<(Vector, f64)> = (0..40)
             .map(|k| {
                 let k = f64::from(k);
@@ -170,8 +170,8 @@ mod tests {
         for share in [0.0, 0.3, 0.9, 0.9999] {
             for angle in [0.0f64, 1.0, 4.0] {
                 let wanted = times(share * most, [angle.cos(), angle.sin()]);
-                let shift = shift_for_sum(|| cells.iter().copied(), wanted, [0.0; 2]);
-                let sum = cells.iter().fold([0.0; 2], |sum, (y, g)| add(sum, onto_disc(add(*y, shift), *g)));
+                let offset = offset_for_sum(|| cells.iter().copied(), wanted, [0.0; 2]);
+                let sum = cells.iter().fold([0.0; 2], |sum, (y, g)| add(sum, onto_disc(add(*y, offset), *g)));
                 assert!(length(minus(sum, wanted)) < 1e-9 * most, "{share}, {angle}: {sum:?}");
             }
         }

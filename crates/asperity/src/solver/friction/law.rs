@@ -1,6 +1,7 @@
 //! How much shear a cell bears.
 
 use crate::error::{Result, check, check_in};
+use crate::solver::Bounds;
 use crate::units::{Dimension, Pascal};
 
 /// How normal and tangential displacements are coupled where the bodies are dissimilar.
@@ -77,7 +78,7 @@ impl Friction {
     }
 
     /// The most shear that a cell under `pressure` bears.
-    pub fn bound(&self, pressure: Pascal) -> Pascal {
+    pub fn shear_limit(&self, pressure: Pascal) -> Pascal {
         if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
     }
 
@@ -105,7 +106,12 @@ impl Friction {
         (0.5 * (stays + changes)).max(self.sliding_cap(hardness))
     }
 
-    /// The most pressure that a cell bears that slides.
+    /// What the shear of bodies that slide leaves of their `bounds`: see [`Friction::sliding_cap`].
+    pub fn sliding_bounds(&self, bounds: &Bounds) -> Bounds {
+        Bounds::up_to(bounds.upper().map(|hardness| self.sliding_cap(hardness))).above(bounds.lower().clone())
+    }
+
+    /// The most pressure that a cell of that hardness bears that slides.
     pub fn sliding_cap(&self, hardness: Pascal) -> Pascal {
         if !self.softens(hardness) {
             return hardness;

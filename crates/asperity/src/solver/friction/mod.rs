@@ -9,13 +9,13 @@ mod shear;
 mod yielding;
 
 pub use law::{Coupling, Friction};
-pub use rolling::{Creep, Rolling, solve_rolling};
+pub use rolling::{Creep, Rolling, RollingSolution, solve_rolling};
 
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
-use crate::solver::{Control, Params, Solution};
-use crate::units::{Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
+use crate::solver::{Bounds, Control, Params, Solution};
+use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
 use alternate::{Start, alternate};
 
@@ -42,7 +42,7 @@ pub struct Sliding {
 impl Sliding {
     /// Shear on the lower body of a cell under `pressure`.
     pub fn shear(&self, pressure: Pascal) -> [Pascal; 2] {
-        self.direction.map(|n| n * self.friction.bound(pressure))
+        self.direction.map(|n| n * self.friction.shear_limit(pressure))
     }
 
     /// Whether the shear displaces these bodies normally.
@@ -64,18 +64,16 @@ pub struct Loading {
 #[derive(Debug, Clone)]
 pub struct FrictionalSolution {
     /// Pressure, approach, and the normal displacement under pressure and shear together; the residual is the larger of
-    /// the normal and the tangential one.
+    /// the normal and the tangential one. Its upper bounds are what the shear leaves to the pressure.
     pub normal: Solution,
-    /// Most pressure that each cell bears beside its shear, Pa.
-    pub cap: Field,
     /// Shear tractions q along x and y on the lower body, Pa.
     pub shear: [Field; 2],
     /// Most shear that each cell bears, Pa.
-    pub bound: Field,
+    pub shear_limit: Field,
     /// Tangential displacement u along x and y, lower minus upper body, m.
     pub displacement: [Field; 2],
     /// Rigid-body displacement D of the upper body against the lower one; from the end of the sliding, after sliding.
-    pub shift: [Metre; 2],
+    pub rigid_displacement: [Metre; 2],
     /// Slip of the upper surface over the lower one in this increment along x and y, m; 0 where they do not touch, and in
     /// gross sliding, where it is not bounded.
     pub slip: [Field; 2],
@@ -85,23 +83,8 @@ pub struct FrictionalSolution {
 
 impl FrictionalSolution {
     /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
-    pub fn force(&self, cell_area: SquareMetre) -> [Newton; 2] {
-        self.shear.each_ref().map(|q| cell_area * q.sum())
-    }
-
-    /// Plastic interference w = δ − h − u ≥ 0 at the cells at their cap, 0 elsewhere.
-    pub fn plastic_interference(&self, initial_gap: &Field) -> Field {
-        let mut interference = -self.normal.gap(initial_gap);
-        ndarray::Zip::from(&mut interference)
-            .and(&self.normal.pressure)
-            .and(&self.cap)
-            .for_each(|w, p, cap| *w = if p >= cap { w.max(0.0) } else { 0.0 });
-        interference
-    }
-
-    /// Number of cells at their cap.
-    pub fn plastic_cells(&self) -> usize {
-        self.normal.pressure.iter().zip(&self.cap).filter(|(p, cap)| p >= cap).count()
+    pub fn force(&self) -> [Newton; 2] {
+        self.shear.each_ref().map(|q| self.normal.grid.cell_area() * q.sum())
     }
 
     /// Largest shear traction |q|.
@@ -110,10 +93,10 @@ impl FrictionalSolution {
     }
 
     /// Elastic energy ½ ΔA Σ (p u_z + q·u) (periodic: without that of the mean displacements, which are free).
-    pub fn elastic_energy(&self, cell_area: SquareMetre) -> Joule {
+    pub fn elastic_energy(&self) -> Joule {
         let work = |t: &Field, u: &Field| (t * u).sum();
         let tangential: f64 = self.shear.iter().zip(&self.displacement).map(|(q, u)| work(q, u)).sum();
-        self.normal.elastic_energy(cell_area) + 0.5 * cell_area * tangential
+        self.normal.elastic_energy() + 0.5 * self.normal.grid.cell_area() * tangential
     }
 
     /// Energy ΔA Σ ½(g₀ + g)|Δs| over the cells that slip, which friction took in this increment: g₀ is the most shear that
@@ -123,31 +106,26 @@ impl FrictionalSolution {
     /// A cell slips at its limit only, so this is exact, however large the increment, where pressures stay and the slip keeps
     /// its direction. Where pressures change with the slip it is of the second order in the increment, and
     /// [`FrictionalSolution::dissipation_error`] bounds its error.
-    pub fn dissipation(&self, before: Option<&Self>, cell_area: SquareMetre) -> Joule {
-        self.over_slips(before, cell_area, |then, now| 0.5 * (then + now))
+    pub fn dissipation(&self, before: Option<&Self>) -> Joule {
+        self.over_slips(before, |then, now| 0.5 * (then + now))
     }
 
     /// The most by which [`FrictionalSolution::dissipation`] can be wrong where the limit of each cell goes one way in the
     /// increment, and its slip keeps its direction: ΔA Σ ½|g − g₀||Δs|, all the slip at one of the two limits.
-    pub fn dissipation_error(&self, before: &Self, cell_area: SquareMetre) -> Joule {
-        self.over_slips(Some(before), cell_area, |then, now| 0.5 * (now - then).abs())
+    pub fn dissipation_error(&self, before: &Self) -> Joule {
+        self.over_slips(Some(before), |then, now| 0.5 * (now - then).abs())
     }
 
     /// ΔA Σ |Δs| times what `shear` makes of the limits before and after the increment, over the cells that slip.
-    fn over_slips(
-        &self,
-        before: Option<&Self>,
-        cell_area: SquareMetre,
-        shear: impl Fn(Pascal, Pascal) -> Pascal,
-    ) -> Joule {
+    fn over_slips(&self, before: Option<&Self>, shear: impl Fn(Pascal, Pascal) -> Pascal) -> Joule {
         let mut sum = 0.0;
-        for ((cell, &now), &sticks) in self.bound.indexed_iter().zip(&self.stick) {
+        for ((cell, &now), &sticks) in self.shear_limit.indexed_iter().zip(&self.stick) {
             if now > 0.0 && sticks == 0.0 {
-                let then = before.map_or(now, |before| before.bound[cell]);
+                let then = before.map_or(now, |before| before.shear_limit[cell]);
                 sum += shear(then, now) * self.slip[0][cell].hypot(self.slip[1][cell]);
             }
         }
-        cell_area * sum
+        self.normal.grid.cell_area() * sum
     }
 }
 
@@ -161,7 +139,7 @@ impl FrictionalSolution {
 /// s₀ belongs to the solution `before`, of which there is none for bodies that have not touched yet. Normal and tangential
 /// problems are solved in turn, each for the tractions of the other (Panagiotopoulos 1975), until both are met: at once
 /// where shear neither displaces the surface normally nor softens it. Residuals are η of [`crate::solver::residual()`],
-/// with the cap of each cell for the hardness, and its like
+/// and its like
 ///
 /// ```text
 /// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
@@ -175,7 +153,7 @@ impl FrictionalSolution {
 pub fn solve_frictional(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     friction: &Friction,
     loading: Loading,
     before: Option<&FrictionalSolution>,
@@ -186,25 +164,27 @@ pub fn solve_frictional(
     let start = match before {
         Some(before) => Start {
             pressure: Some(before.normal.pressure.clone()),
-            cap: Some(before.cap.clone()),
+            bounds: Some(before.normal.bounds.clone()),
             shear: Some(before.shear.clone()),
-            slip: Some([0, 1].map(|axis| before.displacement[axis].mapv(|u| before.shift[axis] - u))),
+            slip: Some(
+                [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.rigid_displacement[axis] - u)),
+            ),
         },
         None => Start::default(),
     };
-    let hardness = match loading.tangential {
-        Tangential::Sliding(_) => friction.sliding_cap(hardness),
-        _ => hardness,
+    let bounds = match loading.tangential {
+        Tangential::Sliding(_) => friction.sliding_bounds(bounds),
+        _ => bounds.clone(),
     };
-    alternate(operator, initial_gap, hardness, friction, loading, start, params)
+    alternate(operator, initial_gap, bounds, friction, loading, start, params)
 }
 
 /// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
-/// near the answer; `hardness` is what the shear leaves of it, [`Friction::sliding_cap`].
+/// near the answer; the `bounds` are what the shear leaves of them, [`Friction::sliding_bounds`].
 pub(crate) fn solve_sliding(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     sliding: &Sliding,
     normal: Control,
     pressure: Option<&Field>,
@@ -212,12 +192,12 @@ pub(crate) fn solve_sliding(
 ) -> Result<FrictionalSolution> {
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
-    alternate(operator, initial_gap, hardness, sliding.friction, loading, start, params)
+    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params)
 }
 
 fn validate(tangential: &Tangential) -> Result<()> {
     match *tangential {
-        Tangential::Displacement(shift) => shift.into_iter().try_for_each(|d| {
+        Tangential::Displacement(displacement) => displacement.into_iter().try_for_each(|d| {
             check_in(Dimension::Length, "tangential displacement", d, d.is_finite(), "a finite length")
         }),
         Tangential::Force(force) => force.into_iter().try_for_each(|f| {

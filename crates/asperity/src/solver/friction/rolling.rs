@@ -4,8 +4,8 @@ use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, CoupledOperator};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional};
-use crate::solver::{Control, Params};
-use crate::units::{Newton, Pascal};
+use crate::solver::{Bounds, Control, Params};
+use crate::units::Newton;
 
 /// What is prescribed of steady rolling. The contact moves towards +x over both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,12 +26,21 @@ pub enum Creep {
     Force([Newton; 2]),
 }
 
+/// Bodies in steady rolling.
+#[derive(Debug, Clone)]
+pub struct RollingSolution {
+    /// The contact, whose slip is that while it moves on by a cell.
+    pub contact: FrictionalSolution,
+    /// Creepage ξ along x and y: velocity of the upper body against the lower one, as a share of the rolling velocity.
+    pub creepage: [f64; 2],
+}
+
 /// Residual of the first steps.
 const FIRST: f64 = 1e-3;
 /// Each step is solved to so much of the change of the last one.
 const SHARPER: f64 = 0.1;
 
-/// Solves the steady state of bodies that roll along x under friction, and gives it with its creepage ξ: the bodies' gap
+/// Solves the steady state of bodies that roll along x under friction: the bodies' gap
 /// stays, and their material passes through it.
 ///
 /// In the time in which the contact moves on by a cell, material that was a cell ahead arrives, and slips by
@@ -52,12 +61,12 @@ const SHARPER: f64 = 0.1;
 pub fn solve_rolling(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
-    hardness: Pascal,
+    bounds: &Bounds,
     friction: &Friction,
     normal: Control,
     rolling: Rolling,
     params: &Params,
-) -> Result<(FrictionalSolution, [f64; 2])> {
+) -> Result<RollingSolution> {
     let grid = *operator.grid();
     let pitch = grid.pitch[0];
     let boundary = operator.normal().boundary();
@@ -79,16 +88,16 @@ pub fn solve_rolling(
     let mut solve = |tangential, before: Option<&FrictionalSolution>, tolerance| {
         let loading = Loading { normal, tangential };
         let params = Params { tolerance, ..*params };
-        solve_frictional(operator, initial_gap, hardness, friction, loading, before, &params)
+        solve_frictional(operator, initial_gap, bounds, friction, loading, before, &params)
     };
     let mut tolerance = FIRST.max(params.tolerance);
     let mut state = solve(Tangential::Force([0.0; 2]), None, tolerance)?;
     let mut stats = state.normal.stats;
-    let most = MOST_LENGTHS * initial_gap.nrows();
+    let most = MAX_LENGTHS * initial_gap.nrows();
     for _ in 0..most {
         let arrived = FrictionalSolution {
             displacement: [0, 1].map(|axis| a_cell_ahead(&state.displacement[axis], boundary) + &turn[axis]),
-            shift: [0.0; 2],
+            rigid_displacement: [0.0; 2],
             ..state.clone()
         };
         let next = solve(tangential, Some(&arrived), tolerance)?;
@@ -99,8 +108,8 @@ pub fn solve_rolling(
         state = next;
         if steady {
             state.normal.stats = stats;
-            let creepage = state.shift.map(|shift| shift / pitch);
-            return Ok((state, creepage));
+            let creepage = state.rigid_displacement.map(|displacement| displacement / pitch);
+            return Ok(RollingSolution { contact: state, creepage });
         }
     }
     Err(Error::NotConverged {
@@ -111,7 +120,7 @@ pub fn solve_rolling(
 }
 
 /// Cells of rolling after which the iteration is given up, in lengths of the grid.
-const MOST_LENGTHS: usize = 50;
+const MAX_LENGTHS: usize = 50;
 
 /// Values of the next column, of the last for the last (periodic: of the first).
 fn a_cell_ahead(field: &Field, boundary: Boundary) -> Field {
@@ -131,10 +140,10 @@ fn lever(grid: &Grid, axis: usize) -> Field {
 }
 
 impl FrictionalSolution {
-    /// Moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle of the `grid`, N·m.
-    pub fn moment(&self, grid: &Grid) -> f64 {
-        let [x, y] = [0, 1].map(|axis| lever(grid, axis));
-        grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())
+    /// Moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle of the grid, N·m.
+    pub fn moment(&self) -> f64 {
+        let [x, y] = [0, 1].map(|axis| lever(&self.normal.grid, axis));
+        self.normal.grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())
     }
 }
 

@@ -224,7 +224,7 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
 
 /// An error at `entry`, which makes the bodies slide, if they cannot.
 fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
-    if law.bound(1.0).is_finite() {
+    if law.shear_limit(1.0).is_finite() {
         return Ok(());
     }
     let hint = "give a finite 'coefficient', or the 'shear_strength' of a film".to_owned();

@@ -162,7 +162,13 @@ impl Sizes<'_> {
         let hardness = composite_hardness(&case.lower.material, &case.upper.material);
         let together = motion
             .and_then(|motion| {
-                memory_together(&motion, case.contact.method, hardness, self.overlaps, self.lower.shape[1])
+                memory_together(
+                    &motion,
+                    case.contact.method,
+                    hardness.is_finite(),
+                    self.overlaps,
+                    self.lower.shape[1],
+                )
             })
             .unwrap_or(0.0);
         // Each field as it is, and as it is written; the solution.

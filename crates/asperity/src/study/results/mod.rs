@@ -25,6 +25,7 @@
 mod entry; // what a run may find and clear, the lock
 mod write; // what a run leaves
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -35,8 +36,8 @@ pub use write::{PassWriter, Writer};
 use super::{summary, tables, warm_start};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::io::fields::Fields;
-use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, WarmStart};
+use crate::io::fields::{Attribute, Fields};
+use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, WarmStart};
 use crate::study::summary::Summary;
 use crate::surface::Topography;
 
@@ -168,6 +169,30 @@ impl Results {
         Ok([topography("lower")?, topography("upper")?])
     }
 
+    /// What laws keep of the lower and of the upper body after so many passes, by name.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn states_after(&self, passes: usize) -> Result<[BTreeMap<String, State>; 2]> {
+        let fields = self.fields_after(passes)?;
+        let attributes = fields.attributes()?;
+        let states = |body: &str| {
+            let names = match attributes.get(&states_attribute(body)) {
+                Some(Attribute::Text(names)) => names.as_str(),
+                _ => "",
+            };
+            let read = |name: &str| {
+                let stored = fields.read(&state_name(name, body))?;
+                let unit = stored.unit.clone();
+                let values = stored.into_field().ok_or(Error::Unsupported("a state that is not a matrix"))?;
+                Ok((name.to_owned(), State { unit, values }))
+            };
+            names.split(',').filter(|name| !name.is_empty()).map(read).collect::<Result<BTreeMap<_, _>>>()
+        };
+        let [lower, upper] = BODIES.map(states);
+        Ok([lower?, upper?])
+    }
+
     fn case_path(&self) -> PathBuf {
         self.directory.join("case.json")
     }
@@ -250,6 +275,19 @@ impl Results {
     fn failed(&self, path: &Path, source: std::io::Error) -> Error {
         Error::File { path: path.to_owned(), source }
     }
+}
+
+/// The bodies, by the names of the fields of their heights.
+const BODIES: [&str; 2] = ["lower", "upper"];
+
+/// Name of the field of a state of a body.
+fn state_name(state: &str, body: &str) -> String {
+    format!("{state}_{body}")
+}
+
+/// Name of the attribute that lists the states of a body.
+fn states_attribute(body: &str) -> String {
+    format!("states_{body}")
 }
 
 /// Name of the pressure field of a position, which is counted from 1.

@@ -5,13 +5,13 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::entry::{self, Existing, Kept, Lock};
-use super::{Results, pressure_name, traction_name};
+use super::{BODIES, Results, pressure_name, state_name, states_attribute, traction_name};
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, StepRecord};
-use crate::solver::Solution;
+use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, State, StepRecord};
+use crate::solver::{Friction, Solution};
 use crate::study::loading::LoadingWriter;
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
@@ -85,7 +85,7 @@ impl Writer {
     /// # Errors
     /// [`crate::Error::File`].
     pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
-        let plastic = solution.plastic_interference(&(&pair.upper - &pair.lower), pair.hardness());
+        let plastic = solution.plastic_interference();
         let file = static_fields(self.field_file(), pair, solution, &plastic);
         file.write(&self.results.static_path())
     }
@@ -112,8 +112,8 @@ impl Writer {
         }
         if let Some(solution) = contact.solution.frictional() {
             add("stick", "1", &solution.stick);
-            if solution.cap.iter().any(|cap| *cap != pair.hardness()) {
-                add("cap", "Pa", &solution.cap);
+            if let CellValues::Field(cap) = solution.normal.bounds.upper() {
+                add("cap", "Pa", cap);
             }
         }
         file.write(&self.results.static_path())
@@ -121,7 +121,7 @@ impl Writer {
 
     /// What keeps each increment of a loading of so many `increments` here.
     pub fn loading(&self, pair: &Pair, increments: usize) -> LoadingWriter {
-        LoadingWriter::new(&self.results, &self.identity, pair.lower_grid(), increments)
+        LoadingWriter::new(&self.results, &self.identity, pair, increments)
     }
 
     /// The output that keeps each point of a sweep here, with the fields of every `fields_every`-th (0: of none).
@@ -138,15 +138,15 @@ impl Writer {
         plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions)
     }
 
-    /// Writes the surfaces before the first pass.
+    /// Writes the bodies before the first pass, which slide under `friction`.
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub fn write_initial(&self, pair: &Pair) -> Result<()> {
+    pub fn write_initial(&self, pair: &Pair, friction: Option<&Friction>) -> Result<()> {
         let mut file = self.field_file();
         file.set("pass", 0);
-        set_caps(&mut file, pair);
-        add_surfaces(&mut file, pair);
+        set_caps(&mut file, pair, friction);
+        add_bodies(&mut file, pair);
         file.write(&self.results.fields_path(0))
     }
 
@@ -219,14 +219,14 @@ impl Output for PassWriter<'_> {
         let results = &self.writer.results;
         let mut file = self.writer.field_file();
         file.set("pass", report.record.pass);
-        set_caps(&mut file, pair);
-        add_surfaces(&mut file, pair);
+        set_caps(&mut file, pair, report.sliding.as_ref().map(|sliding| &sliding.friction));
+        add_bodies(&mut file, pair);
         let [lower, upper] = report.mean_pressure();
         file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
         file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
         for (index, contact) in report.contacts.iter().enumerate() {
             if self.pressure_every > 0 && index % self.pressure_every == 0 {
-                let pressure: Field = contact.pressure_field(pair.lower.ncols());
+                let pressure: Field = contact.pressure_field(pair.lower.width());
                 let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
                 let grid = pair.grid(contact.position.columns);
                 file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
@@ -239,7 +239,7 @@ impl Output for PassWriter<'_> {
         file.write(&results.fields_path(report.record.pass))?;
         if let Some(plan) = &self.plan {
             let pass = Some(report.record.pass);
-            let pressure = report.contacts[plan.index].pressure_field(pair.lower.ncols());
+            let pressure = report.contacts[plan.index].pressure_field(pair.lower.width());
             let path = results.subsurface_path(pass);
             let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
@@ -259,14 +259,16 @@ impl Output for PassWriter<'_> {
 /// What every static contact leaves.
 fn static_fields(mut file: FieldFile, pair: &Pair, solution: &Solution, plastic: &Field) -> FieldFile {
     let grid = pair.lower_grid();
-    let gap = &pair.upper - &pair.lower;
-    file.set("approach", solution.approach).set("hardness", pair.hardness());
+    // Between the bodies as they are prepared, whatever the course of a loading has left of them.
+    let gap = pair.initial_gap(&pair.at_rest()) + &solution.displacement - solution.approach;
+    file.set("approach", solution.approach);
+    set_hardness(&mut file, pair);
     for (name, unit, field) in [
         ("pressure", "Pa", &solution.pressure),
         ("displacement", "m", &solution.displacement),
-        ("gap", "m", &solution.gap(&gap)),
-        ("lower", "m", &pair.lower),
-        ("upper", "m", &pair.upper),
+        ("gap", "m", &gap),
+        ("lower", "m", &pair.lower.heights),
+        ("upper", "m", &pair.upper.heights),
         ("plastic", "m", plastic),
     ] {
         file.add_field(name, unit, &grid, [0.0, 0.0], field);
@@ -274,12 +276,29 @@ fn static_fields(mut file: FieldFile, pair: &Pair, solution: &Solution, plastic:
     file
 }
 
-/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
-fn set_caps(file: &mut FieldFile, pair: &Pair) {
-    file.set("hardness", pair.hardness()).set("cap", pair.cap());
+/// The hardness of the pair, the least where it is a map.
+fn set_hardness(file: &mut FieldFile, pair: &Pair) {
+    file.set("hardness", pair.min_hardness());
 }
 
-fn add_surfaces(file: &mut FieldFile, pair: &Pair) {
-    file.add_field("lower", "m", &pair.lower_grid(), [0.0, 0.0], &pair.lower);
-    file.add_field("upper", "m", &pair.upper_grid(), [0.0, 0.0], &pair.upper);
+/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
+fn set_caps(file: &mut FieldFile, pair: &Pair, friction: Option<&Friction>) {
+    let hardness = pair.min_hardness();
+    set_hardness(file, pair);
+    file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
+}
+
+/// The bodies: heights, and what laws keep of them, whose names stand in an attribute.
+fn add_bodies(file: &mut FieldFile, pair: &Pair) {
+    let grids = [pair.lower_grid(), pair.upper_grid()];
+    for ((name, body), grid) in BODIES.into_iter().zip([&pair.lower, &pair.upper]).zip(grids) {
+        file.add_field(name, "m", &grid, [0.0, 0.0], &body.heights);
+        for (state, State { unit, values }) in &body.state {
+            file.add_field(&state_name(state, name), unit, &grid, [0.0, 0.0], values);
+        }
+        if !body.state.is_empty() {
+            let names: Vec<&str> = body.state.keys().map(String::as_str).collect();
+            file.set(&states_attribute(name), names.join(",").as_str());
+        }
+    }
 }

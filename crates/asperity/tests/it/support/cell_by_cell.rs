@@ -59,7 +59,7 @@ impl CellByCell {
                 let w = approach - gap[cell] - u[2];
                 let p = (old[2] + w / own[2][2]).clamp(0.0, hardness);
                 let c = 1.05 * own[0][0].max(own[1][1]);
-                let bound = friction.bound(p);
+                let bound = friction.shear_limit(p);
                 let mut q = [0, 1].map(|k| old[k] + (shift[k] - slip_before[cell][k] - u[k]) / c);
                 let length = q[0].hypot(q[1]);
                 if length > bound {

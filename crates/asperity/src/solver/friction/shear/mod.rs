@@ -18,9 +18,9 @@ use state::{Freedom, State};
 /// too. With 1 nearly all of a smooth contact on a fine grid is at first taken to slip, and the division swings.
 const CAUTION: f64 = 8.0;
 /// Conjugate gradient steps on one division into stick and slip, at the most.
-const MOST_INNER: usize = 60;
-/// They are left when the equations are below so many times the violation of the bounds.
-const LEAVE: f64 = 3.0;
+const MAX_CG_STEPS: usize = 60;
+/// They are left when the equations are below so many times the violation of the limits.
+const CG_EXIT: f64 = 3.0;
 /// They are left when the equations are below so much of what they were.
 const REDUCTION: f64 = 2e-2;
 /// The equations are met when they are below so much of what is asked of the answer.
@@ -34,7 +34,7 @@ const DESCENTS: usize = 5;
 /// along q. It minimises ½ qᵀTq − qᵀ(D + b) over the discs.
 pub(super) struct Task<'a> {
     /// g.
-    pub(super) bound: &'a Field,
+    pub(super) limit: &'a Field,
     /// b: the slip without shear, but for the rigid displacement D.
     pub(super) free_slip: &'a [Field; 2],
     pub(super) control: Rigid,
@@ -48,7 +48,7 @@ pub(super) struct Task<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum Rigid {
     /// D.
-    Shift(Vector),
+    Displacement(Vector),
     /// Σ q ΔA.
     Force(Vector),
 }
@@ -57,7 +57,7 @@ pub(super) enum Rigid {
 pub(super) struct Answer {
     pub(super) shear: [Field; 2],
     /// D.
-    pub(super) shift: Vector,
+    pub(super) rigid: Vector,
     /// max|φ| as a share of the scale, φ = c (q − P(q + s/c)) with P the projection onto the discs.
     pub(super) residual: f64,
 }
@@ -104,23 +104,23 @@ impl ShearSolver {
         max_convolutions: usize,
     ) -> Result<Answer> {
         let cells: Vec<usize> =
-            task.bound.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
+            task.limit.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
         let mut state = State::new(task, start, cells, self.cell_area)?;
         self.loaded.iter_mut().for_each(|field| field.fill(0.0));
         state.response = self.respond(operator, &state.cells, &state.shear);
         let (mut best, mut strikes, mut caution, mut sharpen): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, CAUTION, 1.0);
         loop {
-            state.find_shift(self.compliance);
+            state.find_rigid_displacement(self.compliance);
             let mut residual = state.residual(self.compliance) / task.scale;
             if residual < sharpen * task.tolerance {
                 if state.project() {
                     state.response = self.respond(operator, &state.cells, &state.shear);
-                    state.find_shift(self.compliance);
+                    state.find_rigid_displacement(self.compliance);
                     residual = state.residual(self.compliance) / task.scale;
                 }
                 if residual < task.tolerance {
-                    return Ok(state.into_answer(task.bound.raw_dim(), residual));
+                    return Ok(state.into_answer(task.limit.raw_dim(), residual));
                 }
                 sharpen *= 0.3;
             }
@@ -168,11 +168,11 @@ impl ShearSolver {
     fn lift(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         let mut lift: Vec<Vector> = state
             .cells()
-            .map(|(freedom, q, bound)| match freedom {
+            .map(|(freedom, q, limit)| match freedom {
                 Freedom::Stick => [0.0; 2],
                 Freedom::Slip { rim, .. } => {
                     let outward = [rim[1], -rim[0]];
-                    times(bound - dot(outward, q), outward)
+                    times(limit - dot(outward, q), outward)
                 }
             })
             .collect();
@@ -188,12 +188,12 @@ impl ShearSolver {
     }
 
     /// Preconditioned conjugate gradients on the freedoms of the division, to the largest residual `wanted` or until the
-    /// bounds are violated more.
+    /// limits are violated more.
     fn conjugate_gradients(&mut self, operator: &mut dyn CoupledOperator, state: &mut State, wanted: f64) {
         let free = state.freedom.iter().map(|f| !self.is_firm(f));
-        let mut values = vec![0.0; self.single[0].len()];
-        state.cells.iter().zip(free).for_each(|(cell, free)| values[*cell] = f64::from(u8::from(free)));
-        self.sets.assign(values.into_iter(), f64::INFINITY);
+        let mut is_free = vec![false; self.single[0].len()];
+        state.cells.iter().zip(free).for_each(|(cell, free)| is_free[*cell] = free);
+        self.sets.free_where(is_free.into_iter());
         self.preconditioner.adapt(&self.sets);
 
         let mut residual = state.equations();
@@ -201,10 +201,12 @@ impl ShearSolver {
         let mut product_before = f64::INFINITY;
         let size = |residual: &[Vector]| residual.iter().map(|r| dot(*r, *r)).sum::<f64>().sqrt();
         let first = size(&residual);
-        for _ in 0..MOST_INNER {
+        for _ in 0..MAX_CG_STEPS {
             let left = size(&residual);
             let largest = residual.iter().map(|r| length(*r)).fold(0.0, f64::max);
-            if largest < wanted || left < REDUCTION * first || left < LEAVE * state.violation(self.compliance)
+            if largest < wanted
+                || left < REDUCTION * first
+                || left < CG_EXIT * state.violation(self.compliance)
             {
                 break;
             }
@@ -275,7 +277,7 @@ impl ShearSolver {
             state.response = self.respond(operator, &state.cells, &state.shear);
         }
         for _ in 0..DESCENTS {
-            state.find_shift(self.compliance);
+            state.find_rigid_displacement(self.compliance);
             let direction: Vec<Vector> = (0..state.shear.len())
                 .map(|k| minus(state.projected(k, self.compliance), state.shear[k]))
                 .collect();

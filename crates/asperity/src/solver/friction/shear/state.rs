@@ -3,12 +3,12 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::solver::friction::disc::{
-    Symmetric, Vector, add, dot, length, minus, onto_disc, shift_for_sum, times,
+    Symmetric, Vector, add, dot, length, minus, offset_for_sum, onto_disc, times,
 };
 use crate::solver::friction::shear::{Answer, Rigid, Task};
 use crate::units::{Metre, SquareMetre};
 
-/// Shear below this share of its bound is not on the rim.
+/// Shear below this share of its limit is not on the rim.
 const INSIDE: f64 = 1.0 - 1e-12;
 
 /// How a cell may move.
@@ -52,11 +52,12 @@ impl Freedom {
 /// The cells in contact, by number.
 pub(super) struct State {
     pub(super) cells: Vec<usize>,
-    bound: Vec<f64>,
+    limit: Vec<f64>,
     free_slip: Vec<Vector>,
     /// Σ q under force control.
     pub(super) wanted: Option<Vector>,
-    shift: Vector,
+    /// Rigid-body displacement D.
+    rigid: Vector,
     pub(super) shear: Vec<Vector>,
     /// T q.
     pub(super) response: Vec<Vector>,
@@ -72,37 +73,37 @@ impl State {
         let vectors = |fields: &[Field; 2]| -> Vec<Vector> {
             values(&fields[0]).into_iter().zip(values(&fields[1])).map(|(x, y)| [x, y]).collect()
         };
-        let bound = values(task.bound);
-        let (wanted, shift) = match task.control {
-            Rigid::Shift(shift) => (None, shift),
+        let limit = values(task.limit);
+        let (wanted, rigid) = match task.control {
+            Rigid::Displacement(displacement) => (None, displacement),
             Rigid::Force(force) => (Some(force.map(|f| f / area)), [0.0; 2]),
         };
         if let Rigid::Force(force) = task.control {
-            let limit = area * bound.iter().sum::<f64>();
-            if length(force) >= limit && force != [0.0; 2] {
-                return Err(Error::BeyondFriction { force: length(force), limit });
+            let most = area * limit.iter().sum::<f64>();
+            if length(force) >= most && force != [0.0; 2] {
+                return Err(Error::BeyondFriction { force: length(force), limit: most });
             }
         }
-        let shear = vectors(start).into_iter().zip(&bound).map(|(q, g)| onto_disc(q, *g)).collect();
+        let shear = vectors(start).into_iter().zip(&limit).map(|(q, g)| onto_disc(q, *g)).collect();
         Ok(Self {
             free_slip: vectors(task.free_slip),
-            response: vec![[0.0; 2]; bound.len()],
-            freedom: vec![Freedom::Stick; bound.len()],
+            response: vec![[0.0; 2]; limit.len()],
+            freedom: vec![Freedom::Stick; limit.len()],
             cells,
-            bound,
+            limit,
             wanted,
-            shift,
+            rigid,
             shear,
         })
     }
 
     pub(super) fn cells(&self) -> impl Iterator<Item = (&Freedom, Vector, f64)> {
-        self.freedom.iter().zip(&self.shear).zip(&self.bound).map(|((f, q), g)| (f, *q, *g))
+        self.freedom.iter().zip(&self.shear).zip(&self.limit).map(|((f, q), g)| (f, *q, *g))
     }
 
     /// s = D + b − T q.
     pub(super) fn slip(&self, k: usize) -> Vector {
-        minus(add(self.shift, self.free_slip[k]), self.response[k])
+        minus(add(self.rigid, self.free_slip[k]), self.response[k])
     }
 
     /// q + s/c.
@@ -111,17 +112,17 @@ impl State {
     }
 
     pub(super) fn projected(&self, k: usize, compliance: f64) -> Vector {
-        onto_disc(self.predicted(k, compliance), self.bound[k])
+        onto_disc(self.predicted(k, compliance), self.limit[k])
     }
 
     /// Under force control: the D at which the projections bear the force.
-    pub(super) fn find_shift(&mut self, compliance: f64) {
+    pub(super) fn find_rigid_displacement(&mut self, compliance: f64) {
         let Some(wanted) = self.wanted else { return };
-        let start = times(1.0 / compliance, self.shift);
-        self.shift = [0.0; 2];
-        let cells = || (0..self.cells.len()).map(|k| (self.predicted(k, compliance), self.bound[k]));
-        let shift = shift_for_sum(cells, wanted, start);
-        self.shift = times(compliance, shift);
+        let start = times(1.0 / compliance, self.rigid);
+        self.rigid = [0.0; 2];
+        let cells = || (0..self.cells.len()).map(|k| (self.predicted(k, compliance), self.limit[k]));
+        let offset = offset_for_sum(cells, wanted, start);
+        self.rigid = times(compliance, offset);
     }
 
     /// max|φ|.
@@ -134,24 +135,24 @@ impl State {
     /// Brings the tractions into their discs; whether any had to move.
     pub(super) fn project(&mut self) -> bool {
         let mut moved = false;
-        for (q, bound) in self.shear.iter_mut().zip(&self.bound) {
-            let inside = onto_disc(*q, *bound);
+        for (q, limit) in self.shear.iter_mut().zip(&self.limit) {
+            let inside = onto_disc(*q, *limit);
             moved |= inside != *q;
             *q = inside;
         }
         if let Some(wanted) = self.wanted {
             // What the rims have taken away the cells within bear: those on them stay there.
             let within: Vec<usize> =
-                (0..self.shear.len()).filter(|k| length(self.shear[*k]) < INSIDE * self.bound[*k]).collect();
+                (0..self.shear.len()).filter(|k| length(self.shear[*k]) < INSIDE * self.limit[*k]).collect();
             let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
             let missing = minus(wanted, sum);
             let size = self.shear.iter().map(|q| length(*q)).sum::<f64>();
             if length(missing) > 1e-12 * size {
                 let theirs = within.iter().fold(missing, |sum, k| add(sum, self.shear[*k]));
-                let cells = || within.iter().map(|k| (self.shear[*k], self.bound[*k]));
-                let shift = shift_for_sum(cells, theirs, [0.0; 2]);
+                let cells = || within.iter().map(|k| (self.shear[*k], self.limit[*k]));
+                let offset = offset_for_sum(cells, theirs, [0.0; 2]);
                 for k in within {
-                    self.shear[k] = onto_disc(add(self.shear[k], shift), self.bound[k]);
+                    self.shear[k] = onto_disc(add(self.shear[k], offset), self.limit[k]);
                 }
                 moved = true;
             }
@@ -163,13 +164,13 @@ impl State {
     pub(super) fn divide(&mut self, compliance: f64) {
         for k in 0..self.cells.len() {
             let y = self.predicted(k, compliance);
-            let (length, bound) = (length(y), self.bound[k]);
-            self.freedom[k] = if length <= bound {
+            let (length, limit) = (length(y), self.limit[k]);
+            self.freedom[k] = if length <= limit {
                 Freedom::Stick
             } else {
                 Freedom::Slip {
                     rim: [-y[1] / length, y[0] / length],
-                    hold: compliance * (length / bound - 1.0),
+                    hold: compliance * (length / limit - 1.0),
                 }
             };
         }
@@ -202,10 +203,10 @@ impl State {
         }
     }
 
-    /// Root of the sum of squares of what sticking cells bear beyond their bound, as a displacement.
+    /// Root of the sum of squares of what sticking cells bear beyond their limit, as a displacement.
     pub(super) fn violation(&self, compliance: f64) -> Metre {
-        let beyond = self.cells().map(|(freedom, q, bound)| match freedom {
-            Freedom::Stick => (length(q) - bound).max(0.0),
+        let beyond = self.cells().map(|(freedom, q, limit)| match freedom {
+            Freedom::Stick => (length(q) - limit).max(0.0),
             Freedom::Slip { .. } => 0.0,
         });
         compliance * beyond.map(|b| b * b).sum::<f64>().sqrt()
@@ -222,6 +223,6 @@ impl State {
             let field = field.as_slice_mut().expect("standard layout");
             self.cells.iter().zip(&self.shear).for_each(|(cell, q)| field[*cell] = q[axis]);
         }
-        Answer { shear, shift: self.shift, residual }
+        Answer { shear, rigid: self.rigid, residual }
     }
 }

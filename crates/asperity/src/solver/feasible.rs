@@ -1,0 +1,257 @@
+//! The feasible pressures: within their bounds, and under load of a given sum.
+
+use crate::grid::{CellValues, Field};
+use crate::math::sum::sums;
+use crate::solver::Terms;
+use crate::solver::bounds::{Bounds, Interval, with_bounds};
+use crate::units::Pascal;
+
+/// Relative error of the load of a feasible pressure.
+const LOAD_ACCURACY: f64 = 1e-11;
+/// Relative error of a sum of pressures that is as good as none: above the rounding of millions of terms.
+const SUM_ACCURACY: f64 = 1e-13;
+/// Scalings of the pressures to a sum before they are offset instead.
+const MAX_SCALINGS: usize = 60;
+/// Newton steps and bisections for the offset.
+const MAX_OFFSETS: usize = 200;
+
+/// Pressures with their bounds that are summed and changed all together.
+pub(super) trait Cells {
+    /// The sums of what `terms` makes of each pressure and its bounds.
+    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N];
+
+    /// Changes each pressure.
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync);
+
+    /// The range of the pressures and of their bounds.
+    fn range(&mut self) -> Range;
+}
+
+/// The pressures of one contact.
+pub(super) struct Bounded<'a> {
+    pub(super) pressure: &'a mut Field,
+    pub(super) bounds: &'a Bounds,
+}
+
+impl Cells for Bounded<'_> {
+    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N] {
+        sum_within(self.pressure.as_slice().expect("standard layout"), self.bounds, terms)
+    }
+
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync) {
+        map_within(self.pressure.as_slice_mut().expect("standard layout"), self.bounds, change);
+    }
+
+    fn range(&mut self) -> Range {
+        Range::of(self.pressure.as_slice().expect("standard layout"), self.bounds)
+    }
+}
+
+/// The sums of what `terms` makes of each value and the bounds of its cell.
+pub(super) fn sum_within<T: Copy, const N: usize>(
+    values: &[T],
+    bounds: &Bounds,
+    terms: impl Fn(T, Interval) -> [f64; N],
+) -> [f64; N] {
+    with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(cell))))
+}
+
+/// Changes each pressure to what `change` makes of it and its bounds.
+pub(super) fn map_within(
+    pressures: &mut [Pascal],
+    bounds: &Bounds,
+    change: impl Fn(Pascal, Interval) -> Pascal,
+) {
+    with_bounds!(bounds, of => {
+        pressures.iter_mut().enumerate().for_each(|(cell, p)| *p = change(*p, of(cell)));
+    });
+}
+
+impl Terms {
+    /// Whether pressures of this sum bear the load, if one is prescribed.
+    pub(super) fn bears_the_load(&self, sum: f64) -> bool {
+        self.pressure_sum()
+            .is_none_or(|wanted| (sum - wanted).abs() <= LOAD_ACCURACY * self.sum_scale(wanted))
+    }
+
+    /// Error of a pressure sum that is as good as none.
+    pub(super) fn sum_accuracy(&self, wanted: f64) -> f64 {
+        SUM_ACCURACY * self.sum_scale(wanted)
+    }
+
+    /// What the error of a pressure sum is a share of: the sum itself, and what attraction takes from it.
+    pub(super) fn sum_scale(&self, wanted: f64) -> f64 {
+        wanted.abs() + self.attraction
+    }
+}
+
+/// Brings pressures into their bounds and, under load control, to the load: first by scaling what the cells below their
+/// upper bound bear above their lower one, and where these cannot bear it, by an offset that is the same for all.
+pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Terms) {
+    cells.map(|p, bounds| bounds.clamp(p));
+    let Some(wanted) = terms.pressure_sum() else { return };
+    let accuracy = terms.sum_accuracy(wanted);
+    for _ in 0..MAX_SCALINGS {
+        let [sum, between] =
+            cells.sum(|p, bounds| [p, if p < bounds.upper { p - bounds.lower } else { 0.0 }]);
+        if (sum - wanted).abs() <= accuracy {
+            return;
+        }
+        if between <= 0.0 || between <= 0.5 * (sum - wanted) {
+            break;
+        }
+        let factor = 1.0 + (wanted - sum) / between;
+        cells.map(|p, bounds| {
+            if p < bounds.upper { bounds.clamp(bounds.lower + (p - bounds.lower) * factor) } else { p }
+        });
+    }
+    let range = cells.range();
+    let offset =
+        offset_for_sum(range, wanted, accuracy, |offset| cells.sum(|p, bounds| within(p + offset, bounds)));
+    cells.map(|p, bounds| bounds.clamp(p + offset));
+}
+
+/// A pressure brought into its bounds, and 1 where it is at neither.
+pub(super) fn within(pressure: Pascal, bounds: Interval) -> [f64; 2] {
+    let p = bounds.clamp(pressure);
+    [p, if bounds.is_free(p) { 1.0 } else { 0.0 }]
+}
+
+/// The least and the largest of some pressures, their number, and the range of their bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Range {
+    min: f64,
+    max: f64,
+    count: usize,
+    min_lower: Pascal,
+    /// A pressure that is enough for any sum, if every cell is offered it: the largest upper bound that is finite where
+    /// upper bounds differ.
+    max_upper: Option<Pascal>,
+}
+
+impl Range {
+    pub(super) fn of<T: Copy + Into<f64>>(values: &[T], bounds: &Bounds) -> Self {
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        for y in values {
+            (min, max) = (min.min((*y).into()), max.max((*y).into()));
+        }
+        let max_upper = match bounds.upper() {
+            CellValues::Uniform(_) => None,
+            CellValues::Field(upper) => {
+                Some(upper.iter().copied().filter(|upper| upper.is_finite()).fold(0.0, f64::max))
+            }
+        };
+        Self { min, max, count: values.len(), min_lower: bounds.lower().min(), max_upper }
+    }
+
+    /// The range of the cells of both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+            count: self.count + other.count,
+            min_lower: self.min_lower.min(other.min_lower),
+            max_upper: match (self.max_upper, other.max_upper) {
+                (Some(one), Some(other)) => Some(f64::max(one, other)),
+                (one, other) => one.or(other),
+            },
+        }
+    }
+
+    /// Offsets at which every value is at its lower bound, and at which the sum is no less than the one `wanted`.
+    fn bracket(&self, wanted: f64) -> [f64; 2] {
+        let each = match self.max_upper {
+            None => wanted / self.count as f64,
+            // One cell without a bound then bears all, whatever the others attract.
+            Some(upper) => {
+                let attraction = self.min_lower.min(0.0).abs() * self.count as f64;
+                upper.max(wanted.abs() + attraction)
+            }
+        };
+        [self.min_lower - self.max, each - self.min]
+    }
+}
+
+/// The c at which Σ clip(y + c) is `wanted`, for a sum that the bounds allow, over values y in the `range`: the Euclidean
+/// projection onto the bounds and the sum, to the `accuracy` of the sum. `sums` gives that sum, and how many of the values
+/// are at neither bound.
+///
+/// The sum grows piecewise linearly with c: bracketed Newton iteration, exact to round-off in a few passes.
+pub(super) fn offset_for_sum(
+    range: Range,
+    wanted: f64,
+    accuracy: f64,
+    mut sums: impl FnMut(f64) -> [f64; 2],
+) -> f64 {
+    let [mut low, mut high] = range.bracket(wanted);
+    let mut offset = high.min(0.0).max(low);
+    for _ in 0..MAX_OFFSETS {
+        let [sum, between] = sums(offset);
+        let excess = sum - wanted;
+        if excess.abs() <= accuracy {
+            break;
+        }
+        if excess < 0.0 {
+            low = offset;
+        } else {
+            high = offset;
+        }
+        let newton = offset - excess / between;
+        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+        if next <= low || next >= high {
+            break;
+        }
+        offset = next;
+    }
+    offset
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::Control;
+
+    fn terms(sum: f64, attraction: f64) -> Terms {
+        Terms { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction }
+    }
+
+    #[test]
+    fn the_feasible_pressure_is_within_its_bounds_and_bears_the_load() {
+        arbtest::arbtest(|u| {
+            if u.is_empty() {
+                return Ok(());
+            }
+            let n = u.int_in_range(1..=40)?;
+            let mut number = |from: f64, to: f64| -> arbtest::arbitrary::Result<f64> {
+                Ok(from + (to - from) * f64::from(u.int_in_range(0..=1000u32)?) / 1000.0)
+            };
+            let (uniform, infinite) = (number(0.0, 1.0)? < 0.3, number(0.0, 1.0)? < 0.2);
+            let attracts = number(0.0, 1.0)? < 0.5;
+            let mut lower = Field::zeros([1, n]);
+            let mut upper = Field::zeros([1, n]);
+            let mut pressure = Field::zeros([1, n]);
+            for cell in 0..n {
+                lower[[0, cell]] = if attracts { number(-2.0, 0.0)? } else { 0.0 };
+                upper[[0, cell]] =
+                    if infinite && number(0.0, 1.0)? < 0.5 { f64::INFINITY } else { number(0.1, 5.0)? };
+                pressure[[0, cell]] = number(-3.0, 8.0)?;
+            }
+            let bounds = if uniform {
+                let [first, last] = [&lower, &upper].map(|field| field[[0, 0]]);
+                lower.fill(first);
+                upper.fill(last);
+                Bounds::up_to(last).above(first)
+            } else {
+                Bounds::up_to(upper.clone()).above(lower.clone())
+            };
+            let most = if upper.sum().is_finite() { upper.sum() } else { 20.0 };
+            let wanted = lower.sum() + number(0.01, 0.99)? * (most - lower.sum());
+            let terms = terms(wanted, -lower.sum());
+            make_feasible(&mut Bounded { pressure: &mut pressure, bounds: &bounds }, &terms);
+            let inside = pressure.iter().zip(&lower).zip(&upper).all(|((p, l), u)| l <= p && p <= u);
+            assert!(inside, "{pressure} not in {bounds:?}");
+            assert!(terms.bears_the_load(pressure.sum()), "{wanted}, not {}: {bounds:?}", pressure.sum());
+            Ok(())
+        });
+    }
+}
