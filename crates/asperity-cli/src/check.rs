@@ -2,12 +2,11 @@
 
 use std::fmt::Write as _;
 
-use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
-use asperity::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
-use asperity::study::Plan;
-use asperity::study::case::{Boundary, Case, Course, Edge, Method, Mount, Side};
-use asperity::study::{Bodies, Prepared, bodies};
-use asperity::study::{Demand, Estimate, estimate};
+use asperity::Choice;
+use asperity::motion::{Control, PlasticUpdate, Point, Stage};
+use asperity::solver::{self, Creep, Friction, Rolling, Tangential};
+use asperity::study::case::{Boundary, Course, Mount, Side, StrategyKind};
+use asperity::study::{Bodies, Case, Demand, Estimate, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -110,20 +109,11 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
         Control::StepLoad(load) => format!("load {}", force(load)),
         Control::Approach(approach) => format!("approach {}", units::format(approach, Dimension::Length)),
     };
-    let name = |edge| match edge {
-        Edge::Free => "free",
-        Edge::Periodic => "periodic",
-    };
     let boundary = match case.contact.boundary {
-        Boundary([edge, same]) if edge == same => format!("{} boundary", name(edge)),
-        Boundary([x, y]) => format!("boundary {} along x, {} along y", name(x), name(y)),
+        Boundary([edge, same]) if edge == same => format!("{} boundary", edge.word()),
+        Boundary([x, y]) => format!("boundary {} along x, {} along y", x.word(), y.word()),
     };
-    let method = match case.contact.method {
-        Method::Auto => "auto",
-        Method::Direct => "direct",
-        Method::PolonskyKeer => "polonsky-keer",
-        Method::ActiveSet => "active-set",
-    };
+    let method = case.contact.method.word();
     let mut text = match &estimate.course {
         Some(Course::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
         _ => control,
@@ -167,10 +157,7 @@ fn motion(case: &Case, estimate: &Estimate) -> String {
             _ => "none: one static contact".to_owned(),
         };
     };
-    let strategy = match motion.strategy {
-        Strategy::Overlap => "overlap",
-        Strategy::Shift { .. } => "shift",
-    };
+    let strategy = StrategyKind::from(&motion.strategy).word();
     let update = match motion.plastic_update {
         PlasticUpdate::Pass => "after each pass",
         PlasticUpdate::Step => "at each position",
@@ -196,11 +183,7 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
     if friction.junction_growth > 0.0 {
         let _ = write!(text, ", junction growth {}", friction.junction_growth);
     }
-    let coupling = match friction.coupling {
-        Coupling::Full => "full",
-        Coupling::Goodman => "goodman",
-        Coupling::None => "none",
-    };
+    let coupling = friction.coupling.word();
     let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", estimate.dundurs);
     text + &match &estimate.course {
         None => "sliding at each position".to_owned(),
@@ -265,10 +248,7 @@ fn memory(demand: &Demand) -> String {
 }
 
 fn stress(case: &Case, plan: &Plan) -> String {
-    let body = match case.subsurface.as_ref().map(|spec| spec.body) {
-        Some(Side::Upper) => "upper",
-        _ => "lower",
-    };
+    let body = case.subsurface.as_ref().map_or(Side::Lower, |spec| spec.body).word();
     let position =
         if case.motion.is_some() { format!(" at position {}", plan.index + 1) } else { String::new() };
     let deepest = plan.depths.last().copied().unwrap_or(0.0);

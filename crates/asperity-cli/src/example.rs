@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity::io::atomic;
+use asperity::io;
 
 use crate::args::Example;
 use crate::report::{Failure, Outcome, note, print};
@@ -87,12 +87,12 @@ fn list() -> String {
 
 fn write(kit: &Kit, folder: &Path) -> Outcome<Vec<PathBuf>> {
     fs::create_dir_all(folder).map_err(|source| Error::File { path: folder.to_owned(), source })?;
-    atomic::sweep(folder);
+    io::sweep(folder);
     kit.files
         .iter()
         .map(|(name, content)| {
             let path = folder.join(name);
-            atomic::write(&path, content)?;
+            io::replace(&path, content)?;
             Ok(path)
         })
         .collect()

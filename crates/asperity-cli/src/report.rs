@@ -226,6 +226,15 @@ fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::El
 fn hint(error: &Error) -> Option<String> {
     match error {
         Error::Case(case) => case.hint.clone(),
+        // Of a case the error is [`Error::Case`]: these are files that arguments name.
+        Error::NoChannel { .. } => error.hint().map(|hint| hint.replace("one of them", "one with --channel")),
+        Error::UndefinedSamples { .. } => {
+            Some("`--fill nearest` or `--fill harmonic`, a membrane over each hole, fills them".to_owned())
+        }
+        Error::Memory { .. } => Some(
+            "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
+                .to_owned(),
+        ),
         Error::GridMismatch { .. } => {
             Some("`resample` or `pitch` in a [….topography] brings a body onto another grid".to_owned())
         }

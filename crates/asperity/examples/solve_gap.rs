@@ -13,26 +13,24 @@ use std::collections::HashMap;
 use std::error::Error;
 use std::time::Instant;
 
-use asperity::Grid;
-use asperity::operator::{Boundary, FreeFft, Operator, PeriodicFft};
+use asperity::operator::{Boundary, Edge, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
 use asperity::surface::{ReadOptions, Topography};
+use asperity::{Choice, Grid};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().ok_or("solve_gap gap.npy mean=… : see the head of solve_gap.rs")?;
     let options = options(arguments)?;
     let number = |key: &str, default: f64| options.get(key).map_or(Ok(default), |text| text.parse());
-    let word =
-        |key: &str, default: &str| serde_json::Value::from(options.get(key).map_or(default, String::as_str));
 
     let gap = ReadOptions::default().scan(&path)?.heights;
     let pitch = number("pitch", 1.0)?;
     let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
     let hardness = number("hardness", f64::INFINITY)?;
     let load = number("load", number("mean", f64::NAN)? * grid.area())?;
-    let boundary: Boundary = serde_json::from_value(word("boundary", "free"))?;
-    let method: Method = serde_json::from_value(word("method", "active-set"))?;
+    let boundary = Boundary([choice(&options, "boundary", Edge::Free)?; 2]);
+    let method: Method = choice(&options, "method", Method::ActiveSet)?;
     let params = Params { method, tolerance: number("tolerance", 1e-6)?, ..Params::default() };
 
     let start = Instant::now();
@@ -94,4 +92,10 @@ fn options(arguments: impl Iterator<Item = String>) -> Result<HashMap<String, St
             _ => Err(format!("`{argument}` is not key=value with a key of {KEYS:?}").into()),
         })
         .collect()
+}
+
+/// The choice of a word, or the one that is made where the key is not given.
+fn choice<T: Choice>(options: &HashMap<String, String>, key: &str, default: T) -> Result<T, Box<dyn Error>> {
+    let Some(word) = options.get(key) else { return Ok(default) };
+    T::of_word(word).ok_or_else(|| format!("{key} cannot be `{word}`").into())
 }

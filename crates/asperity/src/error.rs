@@ -30,6 +30,7 @@ pub(crate) fn check_in(
 
 /// Everything that can go wrong, by cause.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     // ---- input of any kind -------------------------------------------------------------------------------
     /// A quantity lies outside the range in which it has a meaning.
@@ -49,9 +50,9 @@ pub enum Error {
     GridMismatch {
         /// What must agree, for example "pitch of the two bodies".
         what: &'static str,
-        /// Of the first.
+        /// What it is on the first grid.
         left: String,
-        /// Of the second.
+        /// What it is on the second grid.
         right: String,
     },
     /// A combination that has no meaning.
@@ -110,7 +111,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// A topography has undefined samples where every one is needed.
-    #[error("{undefined} of {samples} samples are undefined: set fill = \"nearest\" or fill = \"harmonic\"")]
+    #[error("{undefined} of {samples} samples are undefined")]
     UndefinedSamples {
         /// Number of undefined samples.
         undefined: usize,
@@ -124,7 +125,7 @@ pub enum Error {
         samples: usize,
     },
     /// A window that does not lie within the topography.
-    #[error("window = {window:?} ([x0, y0, nx, ny]) is not a part of the {} × {} samples", shape[0], shape[1])]
+    #[error("the window {window:?} ([x0, y0, nx, ny]) is not a part of the {} × {} samples", shape[0], shape[1])]
     WindowOutside {
         /// First sample and number of samples, `[x0, y0, nx, ny]`.
         window: [usize; 4],
@@ -266,7 +267,7 @@ pub enum Error {
     WithinResults {
         /// The directory.
         path: PathBuf,
-        /// That of the other results.
+        /// The directory of the other results.
         results: PathBuf,
     },
     /// Results that are to be resumed belong to another case.
@@ -276,9 +277,9 @@ pub enum Error {
         path: PathBuf,
         /// The first key that differs, dotted.
         key: String,
-        /// Its value in the results, JSON.
+        /// The key's value in the results, JSON.
         before: String,
-        /// Its value in the case, JSON.
+        /// The key's value in the case, JSON.
         now: String,
     },
     /// A surface of the results that are to be resumed is no longer the one in its file.
@@ -348,7 +349,7 @@ impl Error {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NoChannel { available, .. } => {
-                Some(format!("it holds {}; choose one with --channel", quoted(available)))
+                Some(format!("it holds {}; choose one of them", quoted(available)))
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
             Self::NotATopography { .. } => Some(
@@ -363,10 +364,10 @@ impl Error {
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
                 "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
             ),
-            Self::Memory { .. } => Some(
-                "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
-                    .into(),
-            ),
+            Self::UndefinedSamples { .. } => {
+                Some("fill them, from the nearest sample or by a membrane over each hole".into())
+            }
+            Self::Memory { .. } => Some("fewer cells take less, and so do fewer threads".into()),
             _ => None,
         }
     }
@@ -391,6 +392,7 @@ fn quoted(names: &[String]) -> String {
 
 /// What is wrong with a topography file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Defect {
     /// A part of the file has not the length that the header gives it.
     #[error("{what} holds {found} bytes, expected {expected}")]
@@ -420,7 +422,7 @@ pub enum Defect {
     Value {
         /// Which entry.
         what: &'static str,
-        /// As the file has it.
+        /// The entry's value as the file has it.
         found: String,
         /// What would have been accepted.
         expected: &'static str,

@@ -18,6 +18,19 @@
 //! [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case file;
 //! [`solver::solve_normal`] for a contact of which only the gap is known.
 //!
+//! | what you have | what takes it | what comes of it |
+//! |---|---|---|
+//! | a file of heights | [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions) | [`surface::Topography`] |
+//! | an idea of a surface | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
+//! | a topography | [`surface::Preparation`], [`surface::Parameters`] | one fit for a contact; its roughness by ISO 25178 |
+//! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
+//! | two topographies and materials | [`motion::Pair`] | what [`motion::press`], [`motion::load_in_stages`], [`motion::roll`] and [`motion::Simulation`] take |
+//! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
+//! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
+//! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and where it is largest |
+//! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
+//! | a doubt | [`reference`](mod@reference), [`verification`] | closed forms, and the order at which each is met |
+//!
 //! ```
 //! use asperity::material::Material;
 //! use asperity::motion::{Pair, press};
@@ -36,13 +49,37 @@
 //! assert_eq!(contact.solution.load(), contact.record.load);
 //! # Ok::<(), asperity::Error>(())
 //! ```
+//!
+//! # Limits
+//!
+//! - The bodies are half-spaces, homogeneous, isotropic and linearly elastic: slopes and strains are small, and the contact
+//!   is small against the bodies.
+//! - Nothing adheres. A cell yields at the hardness, the cap on its pressure; what it has yielded is levelled, and leaves no
+//!   residual stress.
+//! - Friction is Coulomb's in each cell, up to a shear strength. All positions of a motion slide.
+//! - Nothing depends on time or on temperature: no inertia, no creep of the material, no frictional heat, no lubricant.
+//! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
+//!
+//! [`study::estimate()`] and the results of [`study::run()`] warn where a case comes near to one of them.
+//!
+//! # References
+//!
+//! - K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985).
+//! - I. A. Polonsky, L. M. Keer, Wear 231, 206 (1999): the constrained conjugate gradient method.
+//! - H. M. Stanley, T. Kato, J. Tribol. 119, 481 (1997): periodic contact by Fourier transforms.
+//! - S. Liu, Q. Wang, G. Liu, Wear 243, 101 (2000): free contact by padded transforms.
+//! - J. J. Kalker, *Three-Dimensional Elastic Bodies in Rolling Contact*, Kluwer (1990).
+//! - ISO 25178-2:2021 and ISO 21920-2:2021: parameters of areas and of profiles.
+//!
+//! Each formula names its own source where it stands.
 
 // A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
 pub mod units;
+pub mod choice;
 pub mod error;
 pub mod grid;
 pub mod io;
-pub mod math;
+mod math;
 pub mod stress;
 pub mod material;
 pub mod reference;
@@ -55,6 +92,9 @@ pub mod motion;
 pub mod verification;
 pub mod study;
 
+pub use ndarray;
+
+pub use choice::Choice;
 pub use error::{Error, Result};
 pub use grid::{CellValues, Field, Grid, SingleField};
 

@@ -4,7 +4,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Young's modulus, > 0; infinite for a rigid body.
     pub young: Pascal,
@@ -62,7 +62,7 @@ pub struct Compliances {
 }
 
 impl Compliances {
-    /// Those of a pair.
+    /// The compliances of a pair of bodies.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if both bodies are rigid.
@@ -96,7 +96,7 @@ impl Compliances {
         self.coupling / self.normal
     }
 
-    /// The same bodies, if normal tractions did nothing tangentially, nor tangential ones normally.
+    /// The compliances of the same bodies, if normal tractions did nothing tangentially, nor tangential ones normally.
     pub fn uncoupled(&self) -> Self {
         Self { coupling: 0.0, ..*self }
     }

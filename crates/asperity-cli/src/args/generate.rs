@@ -9,8 +9,7 @@ use asperity::surface::{
 use clap::{Args, Subcommand};
 
 use super::values::{
-    Pair, Shape, angle, axis_parser, band_parser, decay_parser, factor, groove_parser, lengths,
-    positive_length, shape, wavelengths,
+    Pair, Shape, angle, choice, default, factor, lengths, positive_length, shape, wavelengths,
 };
 
 /// Make a random topography or an ideal form
@@ -43,7 +42,7 @@ pub(crate) enum Source {
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         cutoff: Pair,
         /// Shape of the pass band; elliptic is circular for one cut-off
-        #[arg(long, default_value = "elliptic", value_parser = band_parser())]
+        #[arg(long, default_value = default::<Band>(), value_parser = choice::<Band>())]
         band: Band,
         #[command(flatten)]
         heights: Heights,
@@ -61,7 +60,7 @@ pub(crate) enum Source {
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         correlation_length: Pair,
         /// How the autocorrelation falls
-        #[arg(long, default_value = "exponential", value_parser = decay_parser())]
+        #[arg(long, default_value = default::<Decay>(), value_parser = choice::<Decay>())]
         decay: Decay,
         #[command(flatten)]
         lay: Lay,
@@ -112,7 +111,7 @@ pub(crate) enum Source {
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
         radius: f64,
         /// Direction of its axis; x is the direction of motion
-        #[arg(long, default_value = "y", value_parser = axis_parser())]
+        #[arg(long, default_value = default::<Axis>(), value_parser = choice::<Axis>())]
         axis: Axis,
         #[command(flatten)]
         target: Target,
@@ -150,7 +149,7 @@ pub(crate) enum Source {
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
         depth: f64,
         /// As a round or as a pointed tool leaves it
-        #[arg(long, default_value = "parabolic", value_parser = groove_parser())]
+        #[arg(long, default_value = default::<Groove>(), value_parser = choice::<Groove>())]
         profile: Groove,
         #[command(flatten)]
         lay: Lay,

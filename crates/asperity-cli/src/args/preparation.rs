@@ -3,10 +3,7 @@
 use asperity::surface::{Axis, Fill, Filter, Interpolation, Level, Preparation, Resample};
 use clap::Args;
 
-use super::values::{
-    Window, angle, axis_parser, factor, fill_parser, filter_parser, interpolation_parser, positive_length,
-    resample, window,
-};
+use super::values::{Window, angle, choice, default, factor, positive_length, resample, window};
 
 /// What is done with a topography, in this order.
 #[derive(Debug, Args)]
@@ -19,13 +16,13 @@ pub(crate) struct Preparing {
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     despike: Option<f64>,
     /// Where the heights of missing samples come from
-    #[arg(long, default_value = "none", value_parser = fill_parser())]
+    #[arg(long, default_value = default::<Fill>(), value_parser = choice::<Fill>())]
     fill: Fill,
     /// What is subtracted, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to 16), sphere, cylinder
     #[arg(long, default_value = "none")]
     level: Level,
     /// Direction in which first and last are exchanged
-    #[arg(long, value_parser = axis_parser())]
+    #[arg(long, value_parser = choice::<Axis>())]
     mirror: Option<Axis>,
     /// Angle to turn by, from x towards y: 90deg; other than by quarter turns a spline is taken on the largest rectangle within
     #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
@@ -37,13 +34,13 @@ pub(crate) struct Preparing {
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     l_filter: Option<f64>,
     /// Kind of both filters: ISO 16610-61, or one that scratches and peaks do not bend (after ISO 16610-71)
-    #[arg(long, default_value = "gaussian", value_parser = filter_parser())]
+    #[arg(long, default_value = default::<Filter>(), value_parser = choice::<Filter>())]
     filter: Filter,
     /// Cells to bring it to: their number, 256x256, or their size, 0.5um
     #[arg(long, value_name = "NXxNY|LENGTH[,LENGTH]", value_parser = resample)]
     resample: Option<Resample>,
     /// What stands between samples where cells become smaller
-    #[arg(long, default_value = "linear", value_parser = interpolation_parser())]
+    #[arg(long, default_value = default::<Interpolation>(), value_parser = choice::<Interpolation>())]
     interpolate: Interpolation,
     /// Width of the rim that is brought down to the mean
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]

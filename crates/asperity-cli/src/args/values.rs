@@ -1,6 +1,7 @@
 //! Values of arguments: quantities with units, pairs of them, shapes, words.
 
-use asperity::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Resample};
+use asperity::Choice;
+use asperity::surface::Resample;
 use asperity::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -101,41 +102,15 @@ pub(super) fn window(text: &str) -> Result<Window, String> {
     counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
 }
 
-fn words<T: Clone + Send + Sync + 'static>(
-    words: &'static [(&'static str, T)],
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(words.iter().map(|(word, _)| *word)).map(|given| {
-        let found = words.iter().find(|(word, _)| *word == given);
-        found.expect("only these words pass").1.clone()
-    })
+/// The choice of a word.
+pub(super) fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(T::WORDS.iter().map(|(word, _)| *word))
+        .map(|word| T::of_word(&word).expect("only these words pass"))
 }
 
-pub(super) fn fill_parser() -> impl TypedValueParser<Value = Fill> {
-    words(&[("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)])
-}
-
-pub(super) fn band_parser() -> impl TypedValueParser<Value = Band> {
-    words(&[("elliptic", Band::Elliptic), ("rectangular", Band::Rectangular)])
-}
-
-pub(super) fn decay_parser() -> impl TypedValueParser<Value = Decay> {
-    words(&[("exponential", Decay::Exponential), ("gaussian", Decay::Gaussian)])
-}
-
-pub(super) fn groove_parser() -> impl TypedValueParser<Value = Groove> {
-    words(&[("parabolic", Groove::Parabolic), ("triangular", Groove::Triangular)])
-}
-
-pub(super) fn filter_parser() -> impl TypedValueParser<Value = Filter> {
-    words(&[("gaussian", Filter::Gaussian), ("robust", Filter::Robust)])
-}
-
-pub(super) fn interpolation_parser() -> impl TypedValueParser<Value = Interpolation> {
-    words(&[("linear", Interpolation::Linear), ("spline", Interpolation::Spline)])
-}
-
-pub(super) fn axis_parser() -> impl TypedValueParser<Value = Axis> {
-    words(&[("x", Axis::X), ("y", Axis::Y)])
+/// The word of a choice's default.
+pub(super) fn default<T: Choice + Default>() -> &'static str {
+    T::default().word()
 }
 
 #[cfg(test)]

@@ -75,7 +75,7 @@ fn invalid(path: &Path, message: String) -> Error {
 
 /// Writes `bytes` under a temporary name beside `path`, then renames.
 fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    asperity::io::atomic::write(path, bytes).map_err(|error| match error {
+    asperity::io::replace(path, bytes).map_err(|error| match error {
         asperity::Error::File { source, .. } => at(path)(source),
         other => at(path)(io::Error::other(other.to_string())),
     })

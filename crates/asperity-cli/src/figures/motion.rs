@@ -3,11 +3,12 @@
 use asperity::io::fields::Fields;
 use asperity::material::{Compliances, Material};
 use asperity::motion::{PassRecord, StepRecord};
-use asperity::operator::{Boundary, Operators};
+use asperity::operator::{Boundary, Edge, Operators};
 use asperity::study::{Results, pressure_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
-use asperity::{Field, Grid};
+use asperity::{Choice, Field, Grid};
+use serde_json::Value;
 
 use super::pressure;
 use super::profile::{Facing, Profile, materials};
@@ -177,6 +178,15 @@ fn pressures(
     Ok(())
 }
 
+/// The boundary as `case.json` has it: a word for both axes, or one for each.
+fn boundary(words: &Value) -> Option<Boundary> {
+    let edge = |word: &Value| Edge::of_word(word.as_str()?);
+    match words.as_array().map(Vec::as_slice) {
+        Some([x, y]) => Some(Boundary([edge(x)?, edge(y)?])),
+        _ => Some(Boundary([edge(words)?; 2])),
+    }
+}
+
 /// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
 /// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
 fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
@@ -189,9 +199,7 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
         return Ok(None);
     }
     let [below, above] = results.surfaces_after(step.pass - 1)?;
-    let Ok(boundary) = serde_json::from_value::<Boundary>(case["contact"]["boundary"].clone()) else {
-        return Ok(None);
-    };
+    let Some(boundary) = boundary(&case["contact"]["boundary"]) else { return Ok(None) };
     let shape = pressure.grid.shape;
     let columns = below.heights().nrows().min(above.heights().nrows());
     let largest = Grid { shape: [columns, shape[1]], ..pressure.grid };

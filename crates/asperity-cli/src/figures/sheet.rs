@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use asperity::io::atomic;
+use asperity::io;
 use asperity::study::Results;
 use rayon::prelude::*;
 
@@ -92,7 +92,7 @@ impl<'a> Sheet<'a> {
         }
         let made = std::fs::create_dir_all(&self.folder);
         made.map_err(|source| asperity::Error::File { path: self.folder.clone(), source })?;
-        atomic::sweep(&self.folder);
+        io::sweep(&self.folder);
         let paper = &self.wanted.paper;
         let write = |(path, drawing): &(PathBuf, Drawing)| {
             self.go_on()?;

@@ -8,7 +8,7 @@ mod figures;
 
 use std::path::Path;
 
-use asperity::io::atomic;
+use asperity::io;
 use asperity::material::Material;
 use asperity::motion::Pair;
 use asperity::surface::{LowPass, Topography};
@@ -35,13 +35,13 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
     refuse_existing(folder, arguments.overwrite)?;
     std::fs::create_dir_all(folder)
         .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
-    atomic::sweep(folder);
+    io::sweep(folder);
     let bar = progress(arguments.quiet);
     figures::draw(folder, &bar)?;
     let costs = Costs::measure(arguments.largest.into(), &bar)?;
     bar.finish_and_clear();
     costs.draw(&folder.join("cost.png"))?;
-    atomic::write(&folder.join("cost.csv"), costs.csv().as_bytes())?;
+    io::replace(&folder.join("cost.csv"), costs.csv().as_bytes())?;
     print(&format!("{}\n{}\n{}", figures::matrix_sizes(), costs.table(), costs.verdict()))?;
     note(&format!("figures and cost.csv in {}", folder.display()));
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::io::atomic;
+use asperity::io;
 use asperity::surface::{Format, Topography};
 use asperity::units::Metre;
 
@@ -39,7 +39,7 @@ impl Output {
             let message = format!("`{}` needs a pitch, which the heights have not", self.path.display());
             return Err(without_pitch(message));
         }
-        atomic::sweep(self.path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new(".")));
+        io::sweep(self.path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new(".")));
         match self.format {
             Some(_) => topography.write(&self.path)?,
             None => {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use asperity::Field;
-use asperity::io::atomic;
+use asperity::io;
 use asperity::surface::{
     Axis as Direction, BearingCurve, Classes, Correlation, Distribution, SelfAffinity, Slope, SpectralPoint,
     Spectrum, Topography, WOLF_PRUNING, Window,
@@ -43,7 +43,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     suggest_level(&file.topography);
     let folder = |source| asperity::Error::File { path: out.clone(), source };
     std::fs::create_dir_all(out).map_err(folder)?;
-    atomic::sweep(out);
+    io::sweep(out);
     let name = arguments.input.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sheet =
         Sheet { folder: out.clone(), topography: &file.topography, name, paper: arguments.drawing.paper() };
@@ -55,7 +55,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     });
     sheet.heights()?;
     sheet.hills()?;
-    atomic::write(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
+    io::replace(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
     note(&format!("figures and curves.json in {}", out.display()));
     Ok(())
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 /// A mistake in a case file, and where it stands.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}:{line}: {message}", file.display())]
+#[non_exhaustive]
 pub struct CaseError {
     /// The file, as the caller named it.
     pub file: PathBuf,

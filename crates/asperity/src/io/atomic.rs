@@ -9,11 +9,13 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 
-/// Replaces the file at `path` by `contents`.
+/// Replaces the file at `path` by `contents`, or makes it: a process killed at any moment leaves either the file as it was,
+/// or the new one in full, and beside it at most a temporary file that [`sweep`] removes.
 ///
 /// # Errors
-/// As [`write_with`].
-pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to or the disk is full; the file is
+/// then as it was.
+pub fn replace(path: &Path, contents: &[u8]) -> Result<()> {
     write_with(path, |file| file.write_all(contents))
 }
 
@@ -25,8 +27,8 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
 /// # Errors
 /// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, the disk is full, or
 /// `contents` fails; the file is then as it was.
-pub fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    replace(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
+pub(crate) fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    persist(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
 /// Removes the temporary files that killed processes have left in `directory`, where it can; those of living processes
@@ -49,7 +51,7 @@ pub(crate) fn is_temporary(name: &OsStr) -> bool {
 /// How the names of temporary files begin.
 const PREFIX: &str = ".asperity-";
 
-fn replace(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn persist(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let directory = match path.parent() {
         Some(parent) if parent != Path::new("") => parent.to_owned(),
         _ => PathBuf::from("."),
@@ -107,7 +109,7 @@ mod tests {
     fn a_write_that_fails_leaves_the_file_as_it_was() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("summary.json");
-        write(&path, b"first").unwrap();
+        replace(&path, b"first").unwrap();
         let failed = write_with(&path, |file| {
             file.write_all(b"half of the sec")?;
             Err(io::Error::new(ErrorKind::StorageFull, "no space left"))
@@ -115,7 +117,7 @@ mod tests {
         assert!(matches!(failed, Err(Error::File { path: named, .. }) if named == path));
         assert_eq!(std::fs::read(&path).unwrap(), b"first");
         assert_eq!(names(directory.path()), ["summary.json"]);
-        write(&path, b"second").unwrap();
+        replace(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
         assert_eq!(names(directory.path()), ["summary.json"]);
     }
@@ -136,7 +138,7 @@ mod tests {
     fn a_missing_directory_is_named_as_such() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("no").join("steps.csv");
-        let message = write(&path, b"").unwrap_err().to_string();
+        let message = replace(&path, b"").unwrap_err().to_string();
         assert_eq!(message, format!("{}: its directory does not exist", path.display()));
     }
 }

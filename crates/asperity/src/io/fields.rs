@@ -26,7 +26,7 @@ use crate::units::Metre;
 pub struct FieldFile {
     builder: FileBuilder,
     attributes: BTreeMap<String, Attribute>,
-    /// By name the digest of each array.
+    /// The digest of each array, by its name.
     arrays: BTreeMap<String, Digest>,
 }
 
@@ -185,7 +185,7 @@ impl FieldFile {
             let failed = |source| Error::File { path: folder.to_owned(), source };
             std::fs::create_dir_all(folder).map_err(failed)?;
         }
-        atomic::write(path, &image)
+        atomic::replace(path, &image)
     }
 }
 
@@ -195,7 +195,7 @@ type Digest = [u8; 32];
 /// The attribute that holds the digest of all else.
 const DIGEST: &str = "digest";
 
-/// Of an array and its attributes.
+/// The digest of an array and its attributes.
 fn array_digest<'a>(
     texts: [&str; 2],
     shape: &[usize],
@@ -208,7 +208,7 @@ fn array_digest<'a>(
     digest.finalize().into()
 }
 
-/// Of a whole file, hexadecimal.
+/// The digest of a whole file, hexadecimal.
 fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<String, Digest>) -> String {
     let mut text = String::new();
     for (name, value) in attributes {

@@ -17,9 +17,9 @@ use crate::units::Metre;
 /// Where values stand on an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Of {
-    /// At its points.
+    /// Values at the points of an image.
     Points,
-    /// In its cells.
+    /// Values in the cells of an image.
     Cells,
 }
 

@@ -38,13 +38,14 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// As a matrix: displacement `[i]` under traction `[j]`, in the order x, y, z.
+    /// The coefficients as a matrix: displacement `[i]` under traction `[j]`, in the order x, y, z.
     pub fn matrix(&self) -> [[f64; 3]; 3] {
         let Self { xx, xy, yy, zx, zy, zz } = *self;
         [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
     }
 
-    /// Those at an offset of these signs, where these are those at an offset without any: what is odd vanishes at 0.
+    /// The coefficients at an offset of these signs, where `self` are those at an offset without any: what is odd
+    /// vanishes at 0.
     fn at_offset(self, [x, y]: [f64; 2]) -> Self {
         Self { xy: x * y * self.xy, zx: x * self.zx, zy: y * self.zy, ..self }
     }
@@ -52,12 +53,12 @@ impl Coefficients {
 
 /// The coefficients of all pairs of cells of a grid.
 pub struct CoupledTable {
-    /// At the offsets `(i Δx, j Δy)`.
+    /// The coefficients at the offsets `(i Δx, j Δy)`.
     table: Array2<Coefficients>,
 }
 
 impl CoupledTable {
-    /// For a grid of `shape` cells of size `pitch`.
+    /// The coefficients of a grid of `shape` cells of size `pitch`.
     pub fn new(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Self {
         let table = Array2::from_shape_fn(shape, |(i, j)| {
             response.displacement(i as f64 * pitch[0], j as f64 * pitch[1], pitch)

@@ -212,7 +212,8 @@ impl Near {
         (1..=cells).rev().map(pair).sum::<f64>() + integral(at(0), seen.half, &closed, &k)
     }
 
-    /// Of the others: T = Σ 1/r, and what of it displaces in the plane, [Σ s²/r³, Σ st/r³] = [−s ∂T/∂s, −s ∂T/∂t].
+    /// What all cells of the line but the nearest sum up to: T = Σ 1/r, and what of it displaces in the plane, [Σ
+    /// s²/r³, Σ st/r³] = [−s ∂T/∂s, −s ∂T/∂t].
     fn harmonics(&self, at: [f64; 2]) -> (f64, [f64; 2]) {
         let [x, y] = at.map(|c| c / self.radius);
         let square = x * x + y * y;
@@ -232,7 +233,7 @@ impl Near {
         (sum, [across, mixed])
     }
 
-    /// Of the others: Σ s/r² and Σ t/r².
+    /// What all cells of the line but the nearest sum up to: Σ s/r² and Σ t/r².
     fn poles(&self, at: [f64; 2]) -> [f64; 2] {
         let [x, y] = at.map(|c| c / self.radius);
         // −ζ².

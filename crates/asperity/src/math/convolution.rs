@@ -117,7 +117,7 @@ impl Plans<f64> {
 
 /// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
 /// precision of `T`.
-pub struct Kernel<T> {
+pub(crate) struct Kernel<T> {
     plans: Plans<T>,
     /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest.
     spectrum: Array2<T>,
@@ -128,7 +128,7 @@ pub struct Kernel<T> {
 impl Kernel<f64> {
     /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `transform`, for
     /// `kx ≤ Mx/2`, `ky ≤ My/2`.
-    pub fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> f64) -> Self {
+    pub(crate) fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> f64) -> Self {
         let half = shape.map(|n| n / 2 + 1);
         let spectrum = Field::from_shape_fn([half[1], half[0]], |(ky, kx)| transform(kx, ky));
         Self::normalised(Plans::new(shape), spectrum)
@@ -136,7 +136,7 @@ impl Kernel<f64> {
 
     /// The kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
     /// `i ≤ Mx/2`, `j ≤ My/2`.
-    pub fn from_values(shape: [usize; 2], table: &Field) -> Self {
+    pub(crate) fn from_values(shape: [usize; 2], table: &Field) -> Self {
         let plans = Plans::new(shape);
         let spectrum = plans.spectrum(table, [Parity::Even; 2]);
         Self::normalised(plans, spectrum)
@@ -152,7 +152,7 @@ impl Kernel<f64> {
     }
 
     /// The same kernel for transforms in single precision.
-    pub fn to_single(&self) -> Kernel<f32> {
+    pub(crate) fn to_single(&self) -> Kernel<f32> {
         Kernel {
             plans: Plans::new(self.plans.shape),
             spectrum: self.spectrum.mapv(|s| s as f32),
@@ -167,7 +167,7 @@ impl Kernel<f64> {
 /// Rows that are zero are not transformed, columns are transformed in strips that go forth, through the kernel and
 /// back while they are in cache, and only the rows of the field come back: with a kernel of twice the size about
 /// half the work of whole transforms. Nothing is allocated after construction.
-pub struct Convolution<T> {
+pub(crate) struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
     transform: Transform<T>,
     scratch: Scratch<T>,
@@ -178,7 +178,7 @@ impl<T: FftNum> Convolution<T> {
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
-    pub fn new(kernel: Arc<Kernel<T>>, shape: [usize; 2]) -> Self {
+    pub(crate) fn new(kernel: Arc<Kernel<T>>, shape: [usize; 2]) -> Self {
         Self { transform: Transform::new(&kernel.plans, shape), scratch: Scratch::new(&kernel.plans), kernel }
     }
 
@@ -186,7 +186,7 @@ impl<T: FftNum> Convolution<T> {
     ///
     /// # Panics
     /// If a field has another shape than the plans.
-    pub fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
+    pub(crate) fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
         let Self { kernel, transform, scratch } = self;
         let plans = &kernel.plans;
         transform.rows_forward(plans, input, scratch);
@@ -229,7 +229,7 @@ pub(super) struct Transform<T> {
 }
 
 impl<T: FftNum> Transform<T> {
-    /// For fields of `shape`, which may be smaller than the plans.
+    /// A convolution for fields of `shape`, which may be smaller than the plans.
     pub(super) fn new(plans: &Plans<T>, shape: [usize; 2]) -> Self {
         let [mx, my] = plans.shape;
         assert!(shape[0] <= mx && shape[1] <= my, "kernel smaller than the field");

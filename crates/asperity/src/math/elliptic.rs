@@ -4,13 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Complete elliptic integrals of modulus k, m = k².
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CompleteElliptic {
+pub(crate) struct CompleteElliptic {
     /// First kind, K = ∫₀^{π/2} (1 − m sin²θ)^{−1/2} dθ.
-    pub first: f64,
+    pub(crate) first: f64,
     /// Second kind, E = ∫₀^{π/2} (1 − m sin²θ)^{1/2} dθ.
-    pub second: f64,
+    pub(crate) second: f64,
     /// D = (K − E)/m, free of the cancellation for small m; π/4 at m = 0.
-    pub difference: f64,
+    pub(crate) difference: f64,
 }
 
 impl CompleteElliptic {
@@ -21,7 +21,7 @@ impl CompleteElliptic {
     /// k′ > 1e-6; E loses another ln(4/k′) of it.
     ///
     /// Abramowitz & Stegun (1964), 17.6.
-    pub fn of_complement(complement: f64) -> Self {
+    pub(crate) fn of_complement(complement: f64) -> Self {
         if complement == 0.0 {
             return Self { first: f64::INFINITY, second: 1.0, difference: f64::INFINITY };
         }

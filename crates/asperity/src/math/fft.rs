@@ -12,7 +12,7 @@ use crate::grid::Field;
 ///
 /// `forward` is unnormalised, `ẑ[k, l] = Σ z[i, j] exp(−2πi (k i/nx + l j/ny))` for `l = 0 … ny/2`;
 /// `inverse` divides by `nx ny`, so that it undoes `forward`.
-pub struct RealFft2 {
+pub(crate) struct RealFft2 {
     shape: [usize; 2],
     along_y: Arc<dyn RealToComplex<f64>>,
     back_y: Arc<dyn ComplexToReal<f64>>,
@@ -22,7 +22,7 @@ pub struct RealFft2 {
 
 impl RealFft2 {
     /// Plans for fields of `shape`.
-    pub fn new(shape: [usize; 2]) -> Self {
+    pub(crate) fn new(shape: [usize; 2]) -> Self {
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         Self {
@@ -35,12 +35,12 @@ impl RealFft2 {
     }
 
     /// Number of retained frequencies along y.
-    pub fn half(&self) -> usize {
+    pub(crate) fn half(&self) -> usize {
         self.shape[1] / 2 + 1
     }
 
     /// Shape of the fields.
-    pub fn shape(&self) -> [usize; 2] {
+    pub(crate) fn shape(&self) -> [usize; 2] {
         self.shape
     }
 
@@ -48,7 +48,7 @@ impl RealFft2 {
     ///
     /// # Panics
     /// If `field` is larger than the plans.
-    pub fn forward(&self, field: &Field) -> Array2<Complex64> {
+    pub(crate) fn forward(&self, field: &Field) -> Array2<Complex64> {
         assert!(field.nrows() <= self.shape[0] && field.ncols() <= self.shape[1], "shape of the field");
         let mut columns = self.rows_forward(field.nrows(), |ix, row| {
             let values = field.row(ix);
@@ -59,19 +59,11 @@ impl RealFft2 {
         columns.t().as_standard_layout().into_owned()
     }
 
-    /// The field whose spectrum this is.
-    ///
-    /// # Panics
-    /// If `spectrum` has another shape than [`RealFft2::forward`] gives.
-    pub fn inverse(&self, spectrum: &Array2<Complex64>) -> Field {
-        self.inverse_leading(spectrum, self.shape)
-    }
-
     /// The first rows and columns, so many as `shape` says, of the field whose spectrum this is.
     ///
     /// # Panics
     /// If `spectrum` has another shape than [`RealFft2::forward`] gives, or `shape` is larger than the plans.
-    pub fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
+    pub(crate) fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
         assert_eq!(spectrum.dim(), (self.shape[0], self.half()), "shape of the spectrum");
         self.inverse_transposed(spectrum.t().as_standard_layout().into_owned(), shape)
     }
@@ -213,7 +205,7 @@ fn make_hermitian(half: &mut [Complex64], n: usize) {
 }
 
 /// Angular frequency of bin `k` of a transform of `n` samples at `pitch`: 2π k'/(n pitch), −n/2 < k' ≤ n/2.
-pub fn angular_frequency(k: usize, n: usize, pitch: f64) -> f64 {
+pub(crate) fn angular_frequency(k: usize, n: usize, pitch: f64) -> f64 {
     let signed = if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
     std::f64::consts::TAU * signed / (n as f64 * pitch)
 }
@@ -238,7 +230,7 @@ mod tests {
                     .sum();
                 assert!((value - direct).norm() < 1e-12, "{shape:?} at {k}, {l}");
             }
-            let back = fft.inverse(&spectrum);
+            let back = fft.inverse_leading(&spectrum, fft.shape);
             assert!(back.iter().zip(&field).all(|(a, b)| (a - b).abs() < 1e-12));
         }
     }
@@ -251,7 +243,7 @@ mod tests {
         padded.slice_mut(ndarray::s![..3, ..4]).assign(&small);
         let spectrum = fft.forward(&small);
         assert_eq!(spectrum, fft.forward(&padded));
-        let whole = fft.inverse(&spectrum);
+        let whole = fft.inverse_leading(&spectrum, fft.shape);
         assert_eq!(fft.inverse_leading(&spectrum, [2, 5]), whole.slice(ndarray::s![..2, ..5]));
     }
 

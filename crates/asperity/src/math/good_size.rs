@@ -2,7 +2,7 @@
 
 /// The smallest even number ≥ `n` whose only prime factors are 2, 3 and 5 (at most one factor 5 and two
 /// factors 3, which the mixed-radix transforms handle about as fast as powers of two).
-pub fn good_size(n: usize) -> usize {
+pub(crate) fn good_size(n: usize) -> usize {
     const ODD: [usize; 6] = [1, 3, 5, 9, 15, 45];
     ODD.iter()
         .map(|&odd| {

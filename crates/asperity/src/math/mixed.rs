@@ -6,14 +6,14 @@ use crate::grid::{Field, SingleField};
 use crate::math::{Convolution, Kernel};
 
 /// A kernel in double precision, and in single once that is asked for. Convolutions of several shapes may share it.
-pub struct MixedKernel {
+pub(crate) struct MixedKernel {
     double: Arc<Kernel<f64>>,
     single: OnceLock<Arc<Kernel<f32>>>,
 }
 
 impl MixedKernel {
-    /// Both precisions of `kernel`.
-    pub fn new(kernel: Kernel<f64>) -> Arc<Self> {
+    /// The `kernel`, in double and in single precision.
+    pub(crate) fn new(kernel: Kernel<f64>) -> Arc<Self> {
         Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new() })
     }
 
@@ -27,8 +27,9 @@ impl MixedKernel {
 }
 
 /// Convolution of fields of one shape in either precision; each has its plans and scratch from its first use on.
-pub struct MixedConvolution {
-    kernel: Arc<MixedKernel>,
+pub(crate) struct MixedConvolution {
+    /// The kernel, which other convolutions may share.
+    pub(crate) kernel: Arc<MixedKernel>,
     shape: [usize; 2],
     double: Option<Convolution<f64>>,
     single: Option<Convolution<f32>>,
@@ -36,24 +37,19 @@ pub struct MixedConvolution {
 
 impl MixedConvolution {
     /// The convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
-    pub fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
+    pub(crate) fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
         Self { kernel, shape, double: None, single: None }
     }
 
-    /// The kernel, which other convolutions may share.
-    pub fn kernel(&self) -> &Arc<MixedKernel> {
-        &self.kernel
-    }
-
     /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
-    pub fn apply(&mut self, input: &Field, output: &mut Field) {
+    pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
         let convolution =
             self.double.get_or_insert_with(|| Convolution::new(self.kernel.double(), self.shape));
         convolution.apply(input, output);
     }
 
     /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
-    pub fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
+    pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
         let convolution =
             self.single.get_or_insert_with(|| Convolution::new(self.kernel.single(), self.shape));
         convolution.apply(input, output);

@@ -1,17 +1,17 @@
 //! Mathematics that several modules share.
 
-pub mod convolution;
-pub mod elliptic;
-pub mod fft;
-pub mod good_size;
-pub mod mixed;
+pub(crate) mod convolution;
+pub(crate) mod elliptic;
+pub(crate) mod fft;
+pub(crate) mod good_size;
+pub(crate) mod mixed;
 mod quadrature;
-pub mod sum;
-pub mod tensor_convolution;
+pub(crate) mod sum;
+pub(crate) mod tensor_convolution;
 
-pub use convolution::{Convolution, Kernel};
-pub use fft::RealFft2;
-pub use good_size::good_size;
-pub use mixed::{MixedConvolution, MixedKernel};
+pub(crate) use convolution::{Convolution, Kernel};
+pub(crate) use fft::RealFft2;
+pub(crate) use good_size::good_size;
+pub(crate) use mixed::{MixedConvolution, MixedKernel};
 pub(crate) use quadrature::integrate;
-pub use tensor_convolution::{TensorConvolution, TensorKernel};
+pub(crate) use tensor_convolution::{TensorConvolution, TensorKernel};

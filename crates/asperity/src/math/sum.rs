@@ -4,7 +4,7 @@ const LANES: usize = 8;
 
 /// The sums of what `terms` makes of each index and value, taken in eight lanes: faster than one after another, and
 /// rounded less.
-pub fn sums<T: Copy, const N: usize>(values: &[T], terms: impl Fn(usize, T) -> [f64; N]) -> [f64; N] {
+pub(crate) fn sums<T: Copy, const N: usize>(values: &[T], terms: impl Fn(usize, T) -> [f64; N]) -> [f64; N] {
     let mut lanes = [[0.0; LANES]; N];
     let chunks = values.chunks_exact(LANES);
     let rest = chunks.remainder();

@@ -26,7 +26,7 @@ const PARITIES: [[Parity; 2]; 6] = [
 /// ```
 ///
 /// What is odd at an offset of half an even period, which is its own opposite, counts as zero.
-pub struct TensorKernel {
+pub(crate) struct TensorKernel {
     plans: Plans<f64>,
     /// xx, xy, yy, zx, zy, zz; zx and zy as the imaginary parts of what has no real one.
     spectra: [Field; 6],
@@ -37,7 +37,7 @@ pub struct TensorKernel {
 impl TensorKernel {
     /// The tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the offsets i, j,
     /// for `i ≤ Mx/2`, `j ≤ My/2`.
-    pub fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+    pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let plans = Plans::new(shape);
         let tables = tables(shape, at);
         let spectra = std::array::from_fn(|n| {
@@ -50,7 +50,7 @@ impl TensorKernel {
 
     /// The tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i, zy/i, zz) at its
     /// bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
-    pub fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
+    pub(crate) fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let own_opposite = |k: usize, n: usize| k == 0 || 2 * k == n;
         let mut spectra =
             tables(shape, at).map(|table| table.reversed_axes().as_standard_layout().into_owned());
@@ -88,7 +88,7 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
 /// Convolution of three fields of one shape with a [`TensorKernel`], as [`super::Convolution`] does it of one.
 ///
 /// Each field given is transformed once, each field asked for transformed back once.
-pub struct TensorConvolution {
+pub(crate) struct TensorConvolution {
     kernel: Arc<TensorKernel>,
     transforms: [Transform<f64>; 3],
     scratch: Scratch<f64>,
@@ -99,7 +99,7 @@ impl TensorConvolution {
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
-    pub fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
+    pub(crate) fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
         Self {
             transforms: std::array::from_fn(|_| Transform::new(&kernel.plans, shape)),
             scratch: Scratch::new(&kernel.plans),
@@ -111,7 +111,7 @@ impl TensorConvolution {
     ///
     /// # Panics
     /// If a field has another shape than the plans.
-    pub fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
+    pub(crate) fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
         let Self { kernel, transforms, scratch } = self;
         let plans = &kernel.plans;
         let given = input.map(|field| field.is_some());

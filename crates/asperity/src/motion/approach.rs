@@ -28,7 +28,7 @@ pub(super) struct Search {
     pub(super) limit: Limit,
 }
 
-/// Where a search ends upwards.
+/// The approach above which none is sought.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limit {
     pub(super) approach: Metre,

@@ -18,7 +18,7 @@ use crate::units::{Joule, Metre, Newton, SquareMetre};
 /// One stage of a loading: what is prescribed at its end, and in how many equal steps it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// At the end of the stage. Without friction nothing acts in the plane, whatever is prescribed there.
+    /// What acts at the end of the stage. Without friction nothing acts in the plane, whatever is prescribed there.
     pub loading: Loading,
     /// Steps, ≥ 1.
     pub increments: usize,
@@ -27,11 +27,11 @@ pub struct Stage {
 /// A static contact, and how it came about.
 #[derive(Debug, Clone)]
 pub struct LoadedContact {
-    /// Its end in numbers.
+    /// The contact at the end of its loading, in numbers.
     pub record: StaticRecord,
-    /// Each increment; none of a rolling contact.
+    /// The increments of the loading; none of a rolling contact.
     pub increments: Vec<IncrementRecord>,
-    /// Its end.
+    /// The solution at the end of the loading.
     pub solution: Equilibrium,
     /// Plastic interference that both bodies have taken up together, m.
     pub plastic: Field,
@@ -46,9 +46,9 @@ pub struct LoadedContact {
 /// A contact in equilibrium.
 #[derive(Debug, Clone)]
 pub enum Equilibrium {
-    /// Without friction.
+    /// The solution of a contact without friction.
     Frictionless(Box<Solution>),
-    /// With friction.
+    /// The solution of a contact with friction.
     Frictional(Box<FrictionalSolution>),
 }
 
@@ -59,7 +59,7 @@ pub struct LoadingState {
     pub increments: Vec<IncrementRecord>,
     /// The end of the last one.
     pub contact: Equilibrium,
-    /// Where the stage of the last one began.
+    /// What acted where the stage of the last increment began.
     pub origin: Origin,
     /// What its cells have taken up plastically.
     pub flattening: Flattening,
@@ -72,7 +72,8 @@ pub struct LoadingState {
 /// What the cells of a contact have taken up plastically in the course of its loading.
 #[derive(Debug, Clone)]
 pub struct Flattening {
-    /// For good, m: both bodies are lowered by it together. None before plastic cells are first unloaded.
+    /// What plastic flow has taken away for good, m: both bodies are lowered by it together. None before plastic
+    /// cells are first unloaded.
     pub kept: Option<Field>,
     /// Largest plastic interference since then, m, on the surfaces so lowered.
     pub deepest: Field,
@@ -188,7 +189,7 @@ impl LoadedContact {
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
     }
 
-    /// In steady rolling along x, over the initial `gap`.
+    /// The contact in steady rolling along x, over the initial `gap`.
     pub(super) fn rolling(
         pair: &Pair,
         operator: &mut dyn CoupledOperator,
@@ -244,7 +245,7 @@ impl Equilibrium {
 
 /// Two bodies, and what solves an increment of their loading.
 struct Bodies<'a> {
-    /// As they are prepared.
+    /// The initial gap of the bodies as they are prepared.
     gap: Field,
     solver: Solver<'a>,
     bounds: Bounds,
@@ -432,7 +433,7 @@ impl Flattening {
     }
 }
 
-/// Where a stage begins, in each quantity that it may prescribe.
+/// The state in which a stage begins, in each quantity that it may prescribe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Origin {
     /// Normal force.
@@ -462,7 +463,7 @@ impl Origin {
         }
     }
 
-    /// So far on the way to the end of the stage, which is met exactly.
+    /// The loading so far on the way to the end of the stage, which is met exactly.
     fn towards(&self, end: Loading, share: f64) -> Loading {
         let between = |from: f64, to: f64| if share == 1.0 { to } else { from + share * (to - from) };
         let both = |from: [f64; 2], to: [f64; 2]| [between(from[0], to[0]), between(from[1], to[1])];

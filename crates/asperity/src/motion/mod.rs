@@ -37,25 +37,24 @@ pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Output, PassReport, Progress, Watch};
 
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::solver::{Friction, Sliding};
 use crate::units::{Metre, MetrePerSecond, Newton};
 
 /// What is prescribed in the normal direction during the motion.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
     /// One approach for a whole pass, found so that the mean load over its positions is this.
     PassLoad(Newton),
-    /// This load at every position.
+    /// One load, the same at every position.
     StepLoad(Newton),
-    /// This approach at every position of every pass.
+    /// One approach, the same at every position of every pass.
     Approach(Metre),
 }
 
 /// How the bodies pass over each other.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Strategy {
     /// The upper body enters on the left, passes over, leaves on the right; only what faces is solved.
     Overlap,
@@ -115,17 +114,18 @@ impl Strategy {
 }
 
 /// When plastic deformation changes the geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlasticUpdate {
     /// After the pass: each cell is lowered by its share of the largest plastic interference it saw.
     Pass,
-    /// At every position, in sequence.
+    /// At every position, each on the surfaces that the one before has left.
     Step,
 }
 
+choice!(PlasticUpdate: "pass" => Pass, "step" => Step);
+
 /// A motion: how often, how finely and under what the bodies pass over each other.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Overlap or circular shift.
     pub strategy: Strategy,

@@ -42,9 +42,10 @@ pub struct StaticRecord {
 pub struct ShearRecord {
     /// Force of the upper body on the lower one, along x and y.
     pub tangential_force: [Newton; 2],
-    /// Its magnitude over the load; 0 without load.
+    /// The magnitude of the tangential force over the load; 0 without load.
     pub force_ratio: f64,
-    /// The same where no cell sticks: that of the contact as a whole.
+    /// The magnitude of the tangential force over the load where no cell sticks: the coefficient of the contact as a
+    /// whole.
     pub friction_coefficient: Option<f64>,
     /// Rigid-body displacement of the upper body against the lower one, along x and y; 0 in sliding.
     pub tangential_displacement: [Metre; 2],
@@ -78,11 +79,11 @@ pub struct IncrementRecord {
     pub approach: Metre,
     /// Force of the upper body on the lower one along x.
     pub tangential_force_x: Newton,
-    /// The same along y.
+    /// Force of the upper body on the lower one along y.
     pub tangential_force_y: Newton,
     /// Rigid-body displacement of the upper body along x; 0 in sliding.
     pub tangential_displacement_x: Metre,
-    /// The same along y.
+    /// Rigid-body displacement of the upper body along y; 0 in sliding.
     pub tangential_displacement_y: Metre,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
@@ -121,7 +122,7 @@ pub struct SweepRecord {
     pub mean_gap: Metre,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
-    /// The same over the area of the whole grid.
+    /// Area of contact over the area of the whole grid, 0 to 1.
     pub contact_fraction: f64,
     /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
     pub largest_spot_cells: usize,
@@ -138,11 +139,11 @@ pub struct SweepRecord {
     /// Velocity of the upper body against the lower one over the rolling velocity, along x; here and below 0 unless the
     /// bodies roll.
     pub creepage_x: f64,
-    /// The same along y.
+    /// Creepage along y; 0 of a contact that does not roll.
     pub creepage_y: f64,
     /// Force of the upper body on the lower one along x.
     pub tangential_force_x: Newton,
-    /// The same along y.
+    /// Force of the upper body on the lower one along y.
     pub tangential_force_y: Newton,
     /// Area of the cells that stick.
     pub stick_area: SquareMetre,
@@ -187,7 +188,7 @@ pub struct StepRecord {
     pub plastic_cells: usize,
     /// ΔA Σ w, w the interference left at the cells at the hardness.
     pub plastic_volume: CubicMetre,
-    /// The same over the cells that are in the interior of both bodies.
+    /// Plastic volume over the cells that are in the interior of both bodies.
     pub plastic_volume_interior: CubicMetre,
     /// Iterations of the solver at the last approach tried.
     pub iterations: usize,

@@ -13,9 +13,9 @@ use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffne
 /// What is prescribed at a point of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// In the normal direction.
+    /// What is prescribed in the normal direction.
     pub control: Control,
-    /// Of bodies that roll.
+    /// How the bodies roll; none of bodies that do not.
     pub rolling: Option<Rolling>,
 }
 

@@ -6,17 +6,18 @@ use crate::motion::path::Position;
 use crate::solver::Stats;
 use crate::units::{Metre, Pascal};
 
-/// Where the next pass begins. The iterations of a pass end within their tolerances, and where in them depends on where they
+/// The state in which the next pass begins. The iterations of a pass end within their tolerances, and where in them
+/// depends on where they
 /// begin: a motion goes on with the same bits only from the same start.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart {
-    /// Where the search for the approach begins; none where no mean load is prescribed.
+    /// The guess with which the search for the approach begins; none where no mean load is prescribed.
     pub guess: Option<Guess>,
     /// What bears at each position of the last pass; nothing before the first.
     pub positions: Vec<Bearing>,
 }
 
-/// Where the search for the approach of a pass begins.
+/// A guess with which the search for the approach of a pass begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guess {
     /// The approach δ.

@@ -56,20 +56,21 @@ impl Watch for () {
 pub struct PassReport<'a> {
     /// The pass in numbers.
     pub record: &'a PassRecord,
-    /// Its positions in numbers.
+    /// The positions of the pass in numbers.
     pub steps: &'a [StepRecord],
-    /// Its contacts, position by position.
+    /// The contacts of the pass, position by position.
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
     /// How they slid, if there is friction.
     pub sliding: Option<Sliding>,
-    /// Where the search of the next pass begins, if a mean load is prescribed.
+    /// The guess with which the search of the next pass begins, if a mean load is prescribed.
     pub guess: Option<Guess>,
 }
 
 impl PassReport<'_> {
-    /// Where the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
+    /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same
+    /// bits.
     pub fn warm_start(&self) -> WarmStart {
         WarmStart::new(self.guess, self.contacts)
     }

@@ -1,15 +1,15 @@
 //! What lies beyond the edges of a contact.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use crate::choice::choice;
 use crate::grid::Grid;
 use crate::kernel::Line;
 use crate::math::good_size;
 use crate::units::Metre;
 
 /// What lies beyond the edges of the contact along one axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Edge {
     /// An unloaded half-space.
     #[default]
@@ -18,13 +18,15 @@ pub enum Edge {
     Periodic,
 }
 
+choice!(Edge: "free" => Free, "periodic" => Periodic);
+
 /// What lies beyond the edges of the contact along x and along y.
 ///
 /// Where one axis is free and the other periodic, the contact is a line of itself, and a load on it sinks without bound
 /// with the distance at which it is looked at: the displacement that is uniform along the line is −(2/πE*) ln(r/r₀) under
 /// a unit force per length, 0 at the distance r₀ of the [`super::Operators`], to which the approach refers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(from = "Words", into = "Words")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(into = "Words")]
 pub struct Boundary(pub [Edge; 2]);
 
 impl Boundary {
@@ -38,7 +40,7 @@ impl Boundary {
         self.0[axis] == Edge::Periodic
     }
 
-    /// Along which axes it repeats itself.
+    /// Along which axes the surface repeats itself.
     pub fn wraps(self) -> [bool; 2] {
         self.0.map(|edge| edge == Edge::Periodic)
     }
@@ -83,21 +85,12 @@ impl Boundary {
     }
 }
 
-/// As it is written: a word for both axes, or one for each.
-#[derive(Serialize, Deserialize)]
+/// A boundary as it is written: a word for both axes, or one for each.
+#[derive(Serialize)]
 #[serde(untagged)]
 enum Words {
     Both(Edge),
     Each([Edge; 2]),
-}
-
-impl From<Words> for Boundary {
-    fn from(words: Words) -> Self {
-        match words {
-            Words::Both(edge) => Self([edge; 2]),
-            Words::Each(edges) => Self(edges),
-        }
-    }
 }
 
 impl From<Boundary> for Words {
@@ -120,7 +113,6 @@ mod tests {
             (MIXED, "[\"free\",\"periodic\"]"),
         ] {
             assert_eq!(serde_json::to_string(&boundary).unwrap(), words);
-            assert_eq!(serde_json::from_str::<Boundary>(words).unwrap(), boundary);
         }
     }
 

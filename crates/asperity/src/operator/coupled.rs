@@ -92,7 +92,7 @@ pub(super) struct CoupledKernel {
 }
 
 impl CoupledKernel {
-    /// For grids that fit into the `padded` one, free at their edges but along the `line` of their images.
+    /// The kernel for grids that fit into the `padded` one, free at their edges but along the `line` of their images.
     pub(super) fn free(
         padded: [usize; 2],
         pitch: [f64; 2],
@@ -112,7 +112,7 @@ impl CoupledKernel {
         Arc::new(Self { kernel: Arc::new(kernel), self_influence: at(0, 0) })
     }
 
-    /// For the periodic `grid`.
+    /// The kernel for the periodic `grid`.
     pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
         let kernel = Arc::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {

@@ -17,7 +17,7 @@ pub struct Operators {
     response: SharedResponse,
     boundary: Boundary,
     shared: Shared,
-    /// By the size of the transforms.
+    /// Coupled kernels by the size of their transforms.
     coupled: Mutex<HashMap<[usize; 2], Arc<CoupledKernel>>>,
 }
 
@@ -27,7 +27,7 @@ enum Shared {
 }
 
 impl Operators {
-    /// For contacts on the cells of a `largest` grid, bodies of this `response`, such as the
+    /// Operators for contacts on the cells of a `largest` grid, bodies of this `response`, such as the
     /// [`crate::material::Compliances`] of two half-spaces, and `boundary`. Where that is periodic along one axis, r₀ is the
     /// length of the grid along the other, and smaller contacts share it.
     ///

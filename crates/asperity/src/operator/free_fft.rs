@@ -19,7 +19,7 @@ pub struct FreeFamily {
     response: SharedResponse,
     boundary: Boundary,
     datum: Metre,
-    /// Of a cell that stands alone.
+    /// The influence of a cell that stands alone.
     influence: OnceLock<Arc<dyn Influence>>,
     kernels: Mutex<HashMap<[usize; 2], Arc<MixedKernel>>>,
     /// One for each coarse pitch, which depends on the number of cells along a periodic axis.
@@ -172,7 +172,7 @@ mod tests {
     fn grids_of_one_padded_size_share_their_kernel() {
         let family = FreeFamily::new(&Grid::new([32, 32], [1.0; 2]).unwrap(), 1.0, Boundary::FREE);
         let (a, b) = (family.operator([31, 32]), family.operator([32, 32]));
-        assert!(Arc::ptr_eq(a.convolution.kernel(), b.convolution.kernel()));
+        assert!(Arc::ptr_eq(&a.convolution.kernel, &b.convolution.kernel));
     }
 
     #[test]

@@ -36,7 +36,8 @@ pub trait Operator: Send {
     /// Writes the displacement under `pressure` into `displacement`. Both have the grid's shape.
     fn apply(&mut self, pressure: &Field, displacement: &mut Field);
 
-    /// As [`Operator::apply`] in single precision: to about 3e-7 of the largest displacement, in half the time where
+    /// The displacement as of [`Operator::apply`], in single precision: to about 3e-7 of the largest displacement, in
+    /// half the time where
     /// the operator has its own.
     fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
         let mut double = Field::zeros(pressure.raw_dim());
@@ -44,6 +45,6 @@ pub trait Operator: Send {
         displacement.zip_mut_with(&double, |single, double| *single = *double as f32);
     }
 
-    /// The same bodies on a grid of about half as many cells along each axis.
+    /// An operator of the same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;
 }

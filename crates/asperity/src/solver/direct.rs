@@ -228,7 +228,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
         if free.len() > MAX_FREE_CELLS {
             return Err(Error::Unsupported(
-                "the direct method is for contacts of up to 20000 cells: choose method = \"active-set\"",
+                "the direct method is for contacts of up to 20000 cells; the active set is for larger ones",
             ));
         }
         let coefficient = |a: (usize, usize), b: (usize, usize)| {

@@ -32,6 +32,7 @@ use std::f64::consts::TAU;
 
 use ndarray::Array2;
 
+use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
 use crate::operator::Operator;
@@ -57,8 +58,7 @@ impl Control {
 }
 
 /// How the problem is solved. All methods solve the same problem to the same residual.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// The direct method on small grids, the active set elsewhere.
     #[default]
@@ -71,6 +71,8 @@ pub enum Method {
     /// Preconditioned conjugate gradients on a predicted active set, from a cascade of coarse grids.
     ActiveSet,
 }
+
+choice!(Method: "auto" => Auto, "direct" => Direct, "polonsky-keer" => PolonskyKeer, "active-set" => ActiveSet);
 
 /// How accurately, and by what method.
 #[derive(Debug, Clone, Copy, PartialEq)]

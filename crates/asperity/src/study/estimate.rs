@@ -21,6 +21,7 @@ use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
 /// What is known of a computation before it starts.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Estimate {
     /// Composite modulus E* of the pair.
     pub modulus: Pascal,
@@ -304,7 +305,7 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
 fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &mut Vec<String>) {
     /// Shear under pressure alone is some β p: below this it is not seen.
     const ALIKE: f64 = 0.01;
-    /// From here on the coupling changes pressures and stick by more than some per cent.
+    /// Dundurs' β from which on the coupling changes pressures and stick by more than some per cent.
     const UNLIKE: f64 = 0.1;
     let beta = estimate.dundurs;
     if friction.coupling != Coupling::Full && beta.abs() > UNLIKE {

@@ -15,19 +15,21 @@ const SAME_PITCH: f64 = 1e-9;
 
 /// The two surfaces of a case, on one pitch, which is the same to the last bit, and one width.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Bodies {
-    /// Its heights are those of the lower body's surface.
+    /// The lower body: its heights are those of the lower body's surface.
     pub lower: Prepared,
-    /// Its heights are those of the upper body's underside.
+    /// The upper body: its heights are those of the upper body's underside.
     pub upper: Prepared,
 }
 
 /// A surface as it goes into the contact, every height defined.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Prepared {
     /// The heights; an approach counts from them as they are here.
     pub topography: Topography,
-    /// Where they were read; none if they were made.
+    /// The file that the heights were read from; none if they were made.
     pub origin: Option<Origin>,
     /// How they face.
     pub mount: Mount,
@@ -37,12 +39,13 @@ pub struct Prepared {
 
 /// What was read.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Origin {
-    /// See [`Scan::format`].
+    /// The format of the file, see [`Scan::format`].
     pub format: &'static str,
     /// The channel.
     pub channel: String,
-    /// See [`Scan::is_underside`].
+    /// Whether the heights are those of an underside, see [`Scan::is_underside`].
     pub is_underside: bool,
     /// Number of samples along x and y in the file.
     pub shape: [usize; 2],
@@ -275,7 +278,7 @@ impl Place<'_> {
         self.parameter_of("", error)
     }
 
-    /// The same of a `table` within the topography's, `"plus.0."`.
+    /// A parameter without meaning on this grid, at its key in a `table` within the topography's, `"plus.0."`.
     fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
             Error::OutOfRange { quantity, value, dimension, expected } => {
@@ -390,7 +393,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_PITCH * a.abs().max(b.abs())
 }
 
-/// As a case file has it.
+/// A length as a case file has it.
 fn quoted(length: Metre) -> String {
     format!("\"{}\"", exact_pitch(length).replace('µ', "u"))
 }

@@ -6,14 +6,14 @@ use crate::grid::Field;
 use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
 use crate::operator::Boundary;
 
-/// Of a static contact, by its pressure.
+/// The warnings of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
-/// Of a sweep, by its points, of which the `last` is known as a whole.
+/// The warnings of a sweep, by its points, of which the `last` is known as a whole.
 pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String> {
     let coarse =
         || points.iter().map(|p| p.largest_spot_cells).filter(|cells| (1..CELLS_ACROSS).contains(cells));
@@ -46,13 +46,13 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
     warnings
 }
 
-/// Of a motion of bodies of these `shapes`, by its passes.
+/// The warnings of a motion of bodies of these `shapes`, by its passes.
 pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     ploughed(case, shapes, passes).into_iter().chain(too_few_cells(largest)).collect()
 }
 
-/// That most of the plastic volume is lost at the free ends, more than their area accounts for.
+/// The warning that most of the plastic volume is lost at the free ends, more than their area accounts for.
 fn ploughed(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Option<String> {
     /// Times the volume per area of the interior.
     const DENSER: f64 = 2.0;

@@ -25,6 +25,7 @@ use crate::units::{self, Dimension, Metre, Pascal};
 
 /// What is looked at, on the grid of one contact.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Plan {
     /// Index of the position that is looked at.
     pub index: usize,
@@ -46,20 +47,21 @@ pub struct Plan {
 
 /// The most stressed points of a contact: an entry of `subsurface` in `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SubsurfaceRecord {
-    /// Of a motion: the pass, from 1.
+    /// The pass of a motion, from 1; none of a static contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pass: Option<usize>,
-    /// Of a motion: the position in the pass, from 1.
+    /// The position in the pass of a motion, from 1; none of a static contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
     /// Largest von Mises stress.
     pub max_von_mises: Pascal,
-    /// Where it is: x and y from the corner of the body, z from its surface.
+    /// The place of the largest von Mises stress: x and y from the corner of the body, z from its surface.
     pub position: [Metre; 3],
     /// Largest shear stress on any plane, ½(σ₁ − σ₃).
     pub max_shear: Pascal,
-    /// Where it is.
+    /// The place of the largest shear stress.
     pub max_shear_position: [Metre; 3],
 }
 

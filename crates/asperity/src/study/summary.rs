@@ -12,15 +12,17 @@ use crate::units::Second;
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// Version of the program that computed it.
     pub version: String,
     /// The case as resolved: defaults filled in, SI.
     pub case: serde_json::Value,
-    /// Under the key `static`, `sweep` or `passes`.
+    /// The outcome, in the file under the key `static`, `sweep` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Of a static contact one, of a motion one for each pass; none where the stress was not wanted.
+    /// The most stressed point, of a static contact once, of a motion for each pass; none where the stress was not
+    /// wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
     /// What the user should know about the result.

@@ -5,17 +5,19 @@ use crate::units::{Metre, Pascal};
 
 /// The largest value of something, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Extreme {
     /// The value.
     pub value: Pascal,
-    /// Its cell.
+    /// The cell of the most stressed point.
     pub cell: [usize; 2],
-    /// Its depth.
+    /// The depth of the most stressed point.
     pub depth: Metre,
 }
 
 /// The largest stresses of some planes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Maximum {
     /// Von Mises' stress.
     pub von_mises: Extreme,
@@ -76,7 +78,8 @@ impl Subsurface {
     }
 }
 
-/// Where the parabola through three points [depth, stress], the middle one the highest, is largest, unless there.
+/// The place where the parabola through three points [depth, stress], the middle one the highest, is largest, unless
+/// there.
 fn vertex([[above, a], [middle, m], [below, b]]: [[f64; 2]; 3]) -> Option<Metre> {
     let (up, down, rise, fall) = (middle - above, below - middle, m - a, m - b);
     let shift = 0.5 * (down * down * rise - up * up * fall) / (down * rise + up * fall);

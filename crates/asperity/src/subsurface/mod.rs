@@ -57,7 +57,7 @@ impl Tractions {
         Self { shear: self.shear.map(|shear| shear.map(|q| -q)), ..self }
     }
 
-    /// Those that are not zero throughout.
+    /// The tractions that are not zero throughout.
     fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
         let [qx, qy] = &self.shear;
         let all = [

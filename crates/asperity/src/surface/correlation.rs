@@ -23,13 +23,13 @@ pub struct Correlation {
 }
 
 impl Correlation {
-    /// Of a topography that ends at its rim: the mean over the pairs that lie on it.
+    /// The autocorrelation of a topography that ends at its rim: the mean over the pairs that lie on it.
     pub fn of(topography: &Topography) -> Self {
         // Continued by zeros as far as the longest lag, so that no pair meets across the rim.
         Self::with_period(topography, topography.grid().shape.map(|n| good_size(n + n / 2)))
     }
 
-    /// Of a periodic topography.
+    /// The autocorrelation of a periodic topography.
     pub fn periodic(topography: &Topography) -> Self {
         Self::with_period(topography, topography.grid().shape)
     }
@@ -188,7 +188,7 @@ fn cubic_weights(position: f64, last: usize) -> [(usize, f64); 4] {
     std::array::from_fn(|n| ((below + n as f64 - 1.0).clamp(0.0, last as f64) as usize, weights[n]))
 }
 
-/// Where `f`, positive at `inside` and not at `outside`, changes its sign, by bisection.
+/// The place where `f`, positive at `inside` and not at `outside`, changes its sign, by bisection.
 fn crossing(mut inside: f64, mut outside: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..40 {
         let middle = 0.5 * (inside + outside);

@@ -1,14 +1,15 @@
 //! Ideal forms: the bodies of the closed-form contacts.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::Grid;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
 /// An ideal form, material's side up, its apex in the centre of the grid's extent at height 0.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "form", rename_all = "kebab-case")]
 pub enum Form {
     /// z = 0.
@@ -29,7 +30,6 @@ pub enum Form {
         /// Radius of curvature R, > 0.
         radius: Metre,
         /// The direction that the cylinder's axis lies in.
-        #[serde(default)]
         axis: Axis,
     },
     /// z = −r tan α.
@@ -44,7 +44,6 @@ pub enum Form {
         amplitude: Metre,
         /// Wavelengths λx and λy, ≥ 2 pitches each; infinite where the height does not vary in that
         /// direction.
-        #[serde(default = "no_variation")]
         wavelength: [Metre; 2],
     },
     /// z = −d p(u), parallel grooves with ridges of height 0 between them: u is the distance from a ridge over the
@@ -57,18 +56,15 @@ pub enum Form {
         period: Metre,
         /// Depth d below the ridges, > 0.
         depth: Metre,
-        /// Across the groove.
-        #[serde(default)]
+        /// The shape of a groove across it.
         profile: Groove,
         /// Angle of the grooves against x, towards y, in radians.
-        #[serde(default)]
         lay: f64,
     },
 }
 
 /// The profile p(u) of a groove, 0 ≤ u ≤ 1 from ridge to ridge.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Groove {
     /// 4u(1 − u), as a round tool leaves it.
     #[default]
@@ -77,23 +73,22 @@ pub enum Groove {
     Triangular,
 }
 
+choice!(Groove: "parabolic" => Parabolic, "triangular" => Triangular);
+
 /// A direction in the plane of the surface.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Axis {
-    /// Along the motion.
+    /// The direction of motion.
     X,
-    /// Across the motion: a cylinder that rolls.
+    /// The direction across the motion: that of the axis of a cylinder that rolls.
     #[default]
     Y,
 }
 
-fn no_variation() -> [Metre; 2] {
-    [Metre::INFINITY; 2]
-}
+choice!(Axis: "x" => X, "y" => Y);
 
 impl Form {
-    /// This form on `grid`.
+    /// The topography of this form on `grid`.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.

@@ -27,7 +27,8 @@ pub struct SelfAffinity {
 }
 
 impl SelfAffinity {
-    /// From the points of a mean over all directions ([`crate::surface::Spectrum::radial`], best in logarithmic rings)
+    /// The law from the points of a mean over all directions ([`crate::surface::Spectrum::radial`], best in
+    /// logarithmic rings)
     /// whose wave numbers lie within `range`.
     ///
     /// # Errors
@@ -37,7 +38,8 @@ impl SelfAffinity {
         Ok(Self::of_densities(&Line::within(range, points)?))
     }
 
-    /// From the longest range of wave numbers on which no point is off the fitted law by more than a tenth and three
+    /// The law from the longest range of wave numbers on which no point is off the fitted law by more than a tenth
+    /// and three
     /// standard errors √(2/waves), in the logarithm: without roll-off and cut-off, where there are any. Points of fewer
     /// than a hundred waves, which would fit any law, are left out. On a measured surface the range may be one in which
     /// the instrument sets the law: an H beyond 0 … 1 tells.
@@ -68,7 +70,8 @@ impl SelfAffinity {
         Ok(Self::of_densities(&best.expect("checked")))
     }
 
-    /// From the mean square differences of height ([`Topography::height_differences`]) whose lags lie within `range`.
+    /// The law from the mean square differences of height ([`Topography::height_differences`]) whose lags lie within
+    /// `range`.
     ///
     /// A limited range of waves bends the curve beyond its ends: a lag should be ten times the shortest wavelength and
     /// a tenth of the longest. The spectrum is the better witness.

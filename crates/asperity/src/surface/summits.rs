@@ -48,7 +48,7 @@ pub struct GreenwoodWilliamson {
     pub radius: Metre,
     /// Standard deviation σs of their heights.
     pub height_deviation: Metre,
-    /// Their mean height above the mean of the surface.
+    /// Mean height of the summits above the mean of the surface.
     pub mean_height: Metre,
 }
 

@@ -151,7 +151,7 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
 pub struct Multiple {
     /// One of it in SI.
     pub factor: f64,
-    /// Its symbol: `µm`.
+    /// The symbol of the multiple: `µm`.
     pub symbol: String,
 }
 
@@ -201,7 +201,7 @@ impl std::fmt::Display for UnitError {
 impl std::error::Error for UnitError {}
 
 impl Dimension {
-    /// With its article: "a pressure".
+    /// The name of the dimension with its article: "a pressure".
     pub fn noun(self) -> &'static str {
         match self {
             Self::Length => "a length",
@@ -337,7 +337,7 @@ impl Dimension {
 /// How a dimension takes its prefixes.
 struct Scale {
     base: Base,
-    /// Of the prefix: 2 for an area.
+    /// The power of the prefix: 2 for an area.
     power: i32,
     /// Exponent of the largest prefix in use.
     largest: i32,

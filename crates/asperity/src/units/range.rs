@@ -12,11 +12,11 @@ pub struct Range {
     pub least: f64,
     /// The largest, SI.
     pub most: f64,
-    /// Their unit; empty for numbers.
+    /// The unit of the magnitudes; empty for numbers.
     pub unit: &'static str,
 }
 
-/// Of numbers without a unit: slopes, factors, coefficients, creepages, tolerances.
+/// The magnitudes of numbers without a unit: slopes, factors, coefficients, creepages, tolerances.
 pub const NUMBERS: Range = Range { least: 1e-15, most: 1e12, unit: "" };
 
 /// The largest number of passes, increments, cells of a stride, samples along an axis.

@@ -44,7 +44,7 @@ use crate::units::Pascal;
 pub struct Case {
     /// What is computed.
     pub name: &'static str,
-    /// Where the closed form is found.
+    /// The work in which the closed form is found.
     pub source: &'static str,
     /// Computes it on all grids.
     pub checks: fn() -> Result<Vec<Check>>,
@@ -57,7 +57,7 @@ pub struct Check {
     pub quantity: &'static str,
     /// What grows: cells per length, steps, a ratio.
     pub refinement: &'static str,
-    /// Its values, ascending.
+    /// Values of the refinement, ascending.
     pub sizes: Vec<usize>,
     /// Relative error at each size.
     pub errors: Vec<f64>,
@@ -74,7 +74,7 @@ pub enum Expected {
     Counted(f64),
     /// The error falls as a power of the size.
     Order {
-        /// Where [`Check::order`] lies: around the theory's order, as far as staircase edges scatter it.
+        /// The range in which [`Check::order`] lies: around the theory's order, as far as staircase edges scatter it.
         order: RangeInclusive<f64>,
         /// The largest |error| at the last size.
         finest: f64,

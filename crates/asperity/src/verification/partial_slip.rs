@@ -14,7 +14,7 @@ use crate::units::Newton;
 
 const MODULUS: f64 = 5.0;
 const FRICTION: f64 = 0.3;
-/// Of the push, off the axes.
+/// The direction of the push, off the axes.
 const DIRECTION: [f64; 2] = [0.8, 0.6];
 
 /// The sphere on the plane, both of Poisson's ratio `poisson`.
@@ -26,7 +26,8 @@ struct Pushed {
 }
 
 impl Pushed {
-    /// With `n` cells along the radius of the contact, under the load 7 and `share` of the force at which it slides.
+    /// A contact with `n` cells along the radius of the contact, under the load 7 and `share` of the force at which
+    /// it slides.
     fn new(poisson: f64, share: f64, n: usize) -> Result<Self> {
         let body = Material::elastic(2.0 * MODULUS * (1.0 - poisson * poisson), poisson)?;
         let normal = HertzSphere { radius: smooth::RADIUS, modulus: MODULUS, load: 7.0 };
@@ -59,7 +60,7 @@ impl Pushed {
     }
 }
 
-/// Along the push.
+/// The shear along the push.
 fn along(shear: &[Field; 2]) -> Field {
     DIRECTION[0] * &shear[0] + DIRECTION[1] * &shear[1]
 }

@@ -16,7 +16,7 @@ pub(super) const RADIUS: Metre = 4.0;
 pub(super) const MODULUS: f64 = 5.0;
 pub(super) const PUNCH_RADIUS: Metre = 1.0;
 pub(super) const LINE_HALF_WIDTH: Metre = 0.5;
-/// Of the cylinders, in [`LINE_HALF_WIDTH`].
+/// The period of the cylinders, in [`LINE_HALF_WIDTH`].
 const PERIOD: usize = 32;
 
 /// The apex stands where four cells meet, and the peak pressure is that of a cell beside it: of its error, about
@@ -167,7 +167,7 @@ pub(super) fn line_of(a: Metre) -> HertzLine {
     HertzLine { radius, modulus: MODULUS, load_per_length: PI * MODULUS * a * a / (4.0 * radius) }
 }
 
-/// Its grid and gap, `n` cells along [`LINE_HALF_WIDTH`].
+/// The grid and gap of a line contact, `n` cells along [`LINE_HALF_WIDTH`].
 pub(super) fn line_gap(n: usize) -> Result<(Grid, Field)> {
     let grid = Grid::new([PERIOD * n, 1], [LINE_HALF_WIDTH / n as f64; 2])?;
     Ok((grid, -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights()))

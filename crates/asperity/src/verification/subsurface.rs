@@ -74,7 +74,8 @@ pub(super) const SPHERE: Case = Case {
     checks: || sliding(0.0, second(1e-3)),
 };
 
-/// The same in full slip, q = p/4: the most stressed point has moved up and along with the traction. It is sought at the
+/// The most stressed point below a sphere in full slip, q = p/4, which has moved up and along with the traction. It
+/// is sought at the
 /// centres of cells only, and where it lies between them its depth is that of its neighbour, wrong by a share of Δx.
 pub(super) const SLIDING_SPHERE: Case = Case {
     name: "Hamilton: stress under a sliding sphere, friction 0.25",

@@ -11,6 +11,7 @@ mod good_inputs;
 mod laws;
 mod line;
 mod loading;
+mod messages;
 mod module_order;
 mod motion;
 mod moving_surfaces;

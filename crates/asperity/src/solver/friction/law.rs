@@ -1,12 +1,12 @@
 //! How much shear a cell bears.
 
+use crate::choice::choice;
 use crate::error::{Result, check, check_in};
 use crate::solver::Bounds;
 use crate::units::{Dimension, Pascal};
 
 /// How normal and tangential displacements are coupled where the bodies are dissimilar.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Coupling {
     /// As elasticity has it: pressure displaces tangentially, shear displaces normally.
     #[default]
@@ -16,6 +16,8 @@ pub enum Coupling {
     /// Neither, as for identical bodies.
     None,
 }
+
+choice!(Coupling: "full" => Full, "goodman" => Goodman, "none" => None);
 
 impl Coupling {
     /// Whether shear displaces the surface normally.
@@ -33,7 +35,7 @@ impl Coupling {
 ///
 /// Where |q| is less the bodies stick; where it is that much they may slip, and q on the lower body points where the upper
 /// one slips to.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Coefficient of friction μ ≥ 0; infinite where the bodies stick wherever they touch.
     pub coefficient: f64,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::document::{Document, join};
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
 
@@ -65,9 +66,9 @@ impl<'a> Table<'a> {
         Err(self.document.error(&join(&self.path, name), key.span(), message, hint))
     }
 
-    /// One of several words, or the `default` where the key is not given.
-    pub(super) fn choice_or<T: Copy>(&self, key: &str, choices: &[(&str, T)], default: T) -> Result<T> {
-        self.get(key).map_or(Ok(default), |entry| entry.choice(choices))
+    /// The choice of a word, or the `default` where the key is not given.
+    pub(super) fn choice_or<T: Choice>(&self, key: &str, default: T) -> Result<T> {
+        self.get(key).map_or(Ok(default), |entry| entry.choice())
     }
 
     /// Which one of `keys` is given.
@@ -334,8 +335,13 @@ impl<'a> Entry<'a> {
         if self.is_array() { self.array(expected, read) } else { read(self).map(|x| [x, 0.0]) }
     }
 
-    /// One of several words.
-    pub(super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
+    /// The choice of a word.
+    pub(super) fn choice<T: Choice>(&self) -> Result<T> {
+        self.word(T::WORDS)
+    }
+
+    /// What one of several words stands for.
+    pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
         let words = || choices.iter().map(|(word, _)| *word);
         let expected =
             format!("one of {}", words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", "));

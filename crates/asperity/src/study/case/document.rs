@@ -14,7 +14,7 @@ use crate::error::{CaseError, Error};
 pub(super) struct Document {
     file: PathBuf,
     text: String,
-    /// By dotted key: the value, or the header of a table.
+    /// The places of values and of headers of tables, by dotted key.
     spans: BTreeMap<String, Range<usize>>,
 }
 

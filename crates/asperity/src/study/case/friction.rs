@@ -14,6 +14,7 @@ use crate::units::{Dimension, SquareMetre};
 
 /// Friction, and what it resists.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FrictionSpec {
     /// The law.
     #[serde(flatten, serialize_with = "with_infinities")]
@@ -50,11 +51,12 @@ pub enum InPlane {
 
 /// A further stage of the loading: what it does not name stays.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StageSpec {
-    /// In the normal direction.
+    /// What is prescribed in the normal direction.
     #[serde(flatten)]
     pub normal: Option<Prescribed>,
-    /// In the plane: force, displacement or sliding.
+    /// What is prescribed in the plane: force, displacement or sliding.
     #[serde(flatten)]
     pub in_plane: Option<InPlane>,
     /// Equal steps, ≥ 1.
@@ -66,7 +68,7 @@ pub struct StageSpec {
 pub enum Course {
     /// Loaded stage after stage.
     Stages(Vec<Stage>),
-    /// In steady rolling.
+    /// One contact in steady rolling.
     Rolling(Rolling),
     /// One load after another, each on virgin bodies.
     Sweep(Vec<Point>),
@@ -179,7 +181,6 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         |value| value >= 0.0,
         "a number of at least 0 such as 0.3, or inf: nothing slips",
     )?;
-    let couplings = [("full", Coupling::Full), ("goodman", Coupling::Goodman), ("none", Coupling::None)];
     let shear_strength = match table.get("shear_strength") {
         Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
         None => f64::INFINITY,
@@ -200,7 +201,7 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         let hint = "in a [motion] the upper body slides over the lower one".to_owned();
         return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
     }
-    let coupling = table.choice_or("coupling", &couplings, Coupling::Full)?;
+    let coupling = table.choice_or("coupling", Coupling::Full)?;
     let law = Friction { coefficient, shear_strength, coupling, junction_growth };
     if moves {
         slides(&law, &table.required("coefficient", "0.3")?)?;
@@ -231,7 +232,7 @@ fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
     Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
 }
 
-/// In 1/m, which only what rolls has.
+/// The spin in 1/m, which only what rolls has.
 fn spin(entry: &Entry<'_>, rolls: bool) -> Result<f64> {
     if !rolls {
         let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();

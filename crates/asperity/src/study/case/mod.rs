@@ -24,6 +24,7 @@ pub use self::prescribed::Prescribed;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 pub use self::sweep::Sweep;
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::material::Material;
@@ -35,6 +36,7 @@ use crate::units::SquareMetre;
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Case {
     /// The file's name where it gives none.
     pub title: String,
@@ -45,7 +47,7 @@ pub struct Case {
     pub upper: Body,
     /// What presses them together.
     pub contact: Contact,
-    /// Their friction; none if absent.
+    /// Friction of the bodies; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
     /// Stages of the loading of a static contact after the first, which `contact`, and `friction` if there is any, prescribe.
@@ -65,11 +67,12 @@ pub struct Case {
 
 /// One of the two bodies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Body {
-    /// Its hardness is infinite where the file gives none.
+    /// The body's constants; the hardness is infinite where the file gives none.
     #[serde(flatten, serialize_with = "with_infinities")]
     pub material: Material,
-    /// Its surface.
+    /// The body's surface.
     pub topography: TopographySpec,
     /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
     /// they are an underside, see [`Scan::is_underside`](crate::surface::Scan::is_underside), else turned over.
@@ -78,8 +81,7 @@ pub struct Body {
 }
 
 /// How the heights of a body become those of the case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mount {
     /// Measured material side up, then turned over about y: mirrored in x, the sign of the heights changed.
     TurnedOver,
@@ -87,14 +89,17 @@ pub enum Mount {
     AsIs,
 }
 
+choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
+
 /// Load, boundary and solver.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// Exactly one of the three; of a sweep the largest.
     pub prescribed: Prescribed,
     /// What takes its place, one after the other; none of a contact that is no sweep.
     pub sweep: Option<Sweep>,
-    /// At the rim of the grid.
+    /// What lies beyond the rim of the grid.
     pub boundary: Boundary,
     /// The solver.
     pub method: Method,
@@ -122,6 +127,7 @@ impl Serialize for Contact {
 
 /// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MotionSpec {
     /// Overlap or circular shift.
     #[serde(flatten, serialize_with = "with_speeds")]
@@ -139,8 +145,7 @@ pub struct MotionSpec {
 }
 
 /// A [`Control`] without its value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ControlKind {
     /// The mean load of a pass.
     PassLoad,
@@ -150,8 +155,31 @@ pub enum ControlKind {
     Approach,
 }
 
+choice!(ControlKind: "pass-load" => PassLoad, "step-load" => StepLoad, "approach" => Approach);
+
+/// A [`Strategy`] without its speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrategyKind {
+    /// Only what faces is solved.
+    Overlap,
+    /// The surfaces are shifted circularly.
+    Shift,
+}
+
+choice!(StrategyKind: "overlap" => Overlap, "shift" => Shift);
+
+impl From<&Strategy> for StrategyKind {
+    fn from(strategy: &Strategy) -> Self {
+        match strategy {
+            Strategy::Overlap => Self::Overlap,
+            Strategy::Shift { .. } => Self::Shift,
+        }
+    }
+}
+
 /// What is kept of the results.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Output {
     /// The pressure field of every n-th position; 0: of none.
     pub pressure_every: usize,
@@ -265,14 +293,16 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
 
 fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]
-    #[serde(tag = "strategy", rename_all = "kebab-case")]
-    enum Keys {
-        Overlap,
-        Shift { speed_lower: f64, speed_upper: f64 },
+    struct Keys {
+        strategy: StrategyKind,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        speed_lower: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        speed_upper: Option<f64>,
     }
-    match *strategy {
-        Strategy::Overlap => Keys::Overlap,
-        Strategy::Shift { speed_lower, speed_upper } => Keys::Shift { speed_lower, speed_upper },
-    }
-    .serialize(serializer)
+    let [speed_lower, speed_upper] = match *strategy {
+        Strategy::Overlap => [None; 2],
+        Strategy::Shift { speed_lower, speed_upper } => [Some(speed_lower), Some(speed_upper)],
+    };
+    Keys { strategy: strategy.into(), speed_lower, speed_upper }.serialize(serializer)
 }

@@ -11,7 +11,7 @@ use super::subsurface::subsurface;
 use super::sweep::{self, sweep};
 use super::{
     Body, Boundary, Case, Contact, ControlKind, Edge, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
-    Prescribed, Source, StageSpec, TopographySpec,
+    Prescribed, Source, StageSpec, StrategyKind, TopographySpec,
 };
 use crate::error::Result;
 use crate::grid::MOST_CELLS;
@@ -173,7 +173,7 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     };
     let topography = topography(&table.required_table("topography")?, folder)?;
     let mount = match table.get("mount") {
-        Some(entry) => Some(entry.choice(&[("turned-over", Mount::TurnedOver), ("as-is", Mount::AsIs)])?),
+        Some(entry) => Some(entry.choice()?),
         None if is_upper && may_be_an_underside(&topography.source) => None,
         None if is_upper => Some(Mount::TurnedOver),
         None => Some(Mount::AsIs),
@@ -221,22 +221,18 @@ fn preparation(table: &Table<'_>) -> Result<Preparation> {
     {
         return Err(entry.unexpected("a wavelength below that of 'l_filter'", None));
     }
-    let fills = [("none", Fill::None), ("nearest", Fill::Nearest), ("harmonic", Fill::Harmonic)];
-    let axes = [("x", Some(Axis::X)), ("y", Some(Axis::Y))];
-    let filters = [("gaussian", Filter::Gaussian), ("robust", Filter::Robust)];
-    let interpolations = [("linear", Interpolation::Linear), ("spline", Interpolation::Spline)];
     Ok(Preparation {
         window: table.get("window").map(window).transpose()?,
         despike: table.get("despike").map(factor).transpose()?,
-        fill: table.choice_or("fill", &fills, Fill::None)?,
+        fill: table.choice_or("fill", Fill::None)?,
         level: table.get("level").map(|entry| level(&entry)).transpose()?.unwrap_or_default(),
-        mirror: table.choice_or("mirror", &axes, None)?,
+        mirror: table.get("mirror").map(|entry| entry.choice()).transpose()?,
         rotate: table.get("rotate").map_or(Ok(0.0), |entry| entry.quantity(Dimension::Angle))?,
         s_filter,
         l_filter,
-        filter: table.choice_or("filter", &filters, Filter::Gaussian)?,
+        filter: table.choice_or("filter", Filter::Gaussian)?,
         resample: table.get("resample").map(|entry| shape(&entry).map(Resample::Shape)).transpose()?,
-        interpolate: table.choice_or("interpolate", &interpolations, Interpolation::Linear)?,
+        interpolate: table.choice_or("interpolate", Interpolation::Linear)?,
         taper: length("taper")?,
     })
 }
@@ -252,7 +248,7 @@ fn level(entry: &Entry<'_>) -> Result<Level> {
         Ok(text) if text.starts_with("polynomial") => {
             Err(entry.unexpected("a polynomial such as \"polynomial-3\"", Some(hint())))
         }
-        _ => entry.choice(&choices),
+        _ => entry.word(&choices),
     }
 }
 
@@ -309,7 +305,7 @@ fn generator(table: &Table<'_>) -> Result<Generator> {
         ("self-affine", Kind::SelfAffine),
     ];
     let method = table.required("generate", "\"low-pass\"")?;
-    let kind = method.choice(&kinds)?;
+    let kind = method.word(&kinds)?;
     suits(table, &format!("generate = \"{}\"", method.text()?))?;
     let sq = || table.required("sq", "\"0.2 um\"")?.positive(Dimension::Length);
     let optional = |key| table.get(key).map(|entry| entry.positive(Dimension::Length)).transpose();
@@ -317,21 +313,13 @@ fn generator(table: &Table<'_>) -> Result<Generator> {
         Kind::LowPass => Generator::LowPass(LowPass {
             sq: sq()?,
             cutoff: lengths(&table.required("cutoff", "\"8 um\"")?)?,
-            band: table.choice_or(
-                "band",
-                &[("elliptic", Band::Elliptic), ("rectangular", Band::Rectangular)],
-                Band::default(),
-            )?,
+            band: table.choice_or("band", Band::default())?,
             heights: heights(table)?,
         }),
         Kind::Autocorrelation => Generator::Autocorrelation(Autocorrelation {
             sq: sq()?,
             correlation_length: lengths(&table.required("correlation_length", "\"8 um\"")?)?,
-            decay: table.choice_or(
-                "decay",
-                &[("exponential", Decay::Exponential), ("gaussian", Decay::Gaussian)],
-                Decay::default(),
-            )?,
+            decay: table.choice_or("decay", Decay::default())?,
             lay: lay(table)?,
             heights: heights(table)?,
         }),
@@ -398,7 +386,7 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
         ("grooves", Kind::Grooves),
     ];
     let name = table.required("form", "\"sphere\"")?;
-    let kind = name.choice(&kinds)?;
+    let kind = name.word(&kinds)?;
     suits(table, &format!("form = \"{}\"", name.text()?))?;
     let radius = || table.required("radius", "\"1 mm\"")?.positive(Dimension::Length);
     Ok(match kind {
@@ -412,13 +400,9 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
             }
             Form::Ellipsoid { radius: radii.array(RADII, |item| item.positive(Dimension::Length))? }
         }
-        Kind::Cylinder => Form::Cylinder {
-            radius: radius()?,
-            axis: match table.get("axis") {
-                Some(entry) => entry.choice(&[("x", Axis::X), ("y", Axis::Y)])?,
-                None => Axis::default(),
-            },
-        },
+        Kind::Cylinder => {
+            Form::Cylinder { radius: radius()?, axis: table.choice_or("axis", Axis::default())? }
+        }
         Kind::Cone => {
             let entry = table.required("angle", "\"5 deg\"")?;
             let angle = entry.positive(Dimension::Angle)?;
@@ -438,11 +422,7 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
         Kind::Grooves => Form::Grooves {
             period: table.required("period", "\"0.1 mm\"")?.positive(Dimension::Length)?,
             depth: table.required("depth", "\"1 um\"")?.positive(Dimension::Length)?,
-            profile: table.choice_or(
-                "profile",
-                &[("parabolic", Groove::Parabolic), ("triangular", Groove::Triangular)],
-                Groove::default(),
-            )?,
+            profile: table.choice_or("profile", Groove::default())?,
             lay: lay(table)?,
         },
     })
@@ -450,12 +430,6 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
 
 fn contact(table: &Table<'_>) -> Result<Contact> {
     known_in(table)?;
-    let methods = [
-        ("auto", Method::Auto),
-        ("direct", Method::Direct),
-        ("polonsky-keer", Method::PolonskyKeer),
-        ("active-set", Method::ActiveSet),
-    ];
     const PRESCRIBED: [&str; 6] =
         ["load", "mean_pressure", "approach", "loads", "mean_pressures", "approaches"];
     table.exactly_one(&PRESCRIBED, "for example `load = \"2 N\"` and no other of them")?;
@@ -464,7 +438,7 @@ fn contact(table: &Table<'_>) -> Result<Contact> {
         prescribed: sweep.as_ref().map_or_else(|| prescribed(table), |sweep| Ok(sweep.largest()))?,
         sweep,
         boundary: table.get("boundary").map_or(Ok(Boundary::FREE), |entry| boundary(&entry))?,
-        method: table.choice_or("method", &methods, Method::Auto)?,
+        method: table.choice_or("method", Method::Auto)?,
         tolerance: fraction_or(table, "tolerance", 1e-6)?,
     })
 }
@@ -472,13 +446,12 @@ fn contact(table: &Table<'_>) -> Result<Contact> {
 /// A word for both axes, or one for each.
 fn boundary(entry: &Entry<'_>) -> Result<Boundary> {
     const EXPECTED: &str = "\"free\", \"periodic\", or one of them for x and one for y";
-    let words = [("free", Edge::Free), ("periodic", Edge::Periodic)];
-    Ok(Boundary(entry.pair(EXPECTED, |word| word.choice(&words))?))
+    Ok(Boundary(entry.pair(EXPECTED, |word| word.choice::<Edge>())?))
 }
 
 fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Result<MotionSpec> {
     known_in(table)?;
-    let is_shift = table.choice_or("strategy", &[("overlap", false), ("shift", true)], false)?;
+    let is_shift = table.choice_or("strategy", StrategyKind::Overlap)? == StrategyKind::Shift;
     if contact.boundary.repeats(0) && !is_shift {
         let message = "a boundary periodic along x has no overlap, where a finite body passes over another";
         let hint = "use `boundary = \"free\"` or `[\"free\", \"periodic\"]`, or `strategy = \"shift\"` under [motion]"
@@ -494,13 +467,12 @@ fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Re
         Some(entry) => entry.count(1),
         None => Ok(default),
     };
-    let updates = [("pass", PlasticUpdate::Pass), ("step", PlasticUpdate::Step)];
     Ok(MotionSpec {
         strategy,
         passes: count("passes", 1)?,
         stride: count("stride", 1)?,
         control: control(table, contact.prescribed)?,
-        plastic_update: table.choice_or("plastic_update", &updates, PlasticUpdate::Pass)?,
+        plastic_update: table.choice_or("plastic_update", PlasticUpdate::Pass)?,
         load_tolerance: fraction_or(table, "load_tolerance", 1e-4)?,
     })
 }
@@ -535,13 +507,8 @@ fn control(table: &Table<'_>, prescribed: Prescribed) -> Result<ControlKind> {
         Prescribed::Approach(_) => ControlKind::Approach,
         Prescribed::Load(_) | Prescribed::MeanPressure(_) => ControlKind::PassLoad,
     };
-    let kinds = [
-        ("pass-load", ControlKind::PassLoad),
-        ("step-load", ControlKind::StepLoad),
-        ("approach", ControlKind::Approach),
-    ];
     let Some(entry) = table.get("control") else { return Ok(natural) };
-    let kind = entry.choice(&kinds)?;
+    let kind = entry.choice()?;
     match ((kind == ControlKind::Approach), (natural == ControlKind::Approach)) {
         (true, false) => Err(entry.unexpected(
             "\"pass-load\" or \"step-load\", as [contact] gives a load",

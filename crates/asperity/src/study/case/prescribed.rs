@@ -15,7 +15,7 @@ pub enum Prescribed {
     Load(Newton),
     /// Load over the apparent area, > 0.
     MeanPressure(Pascal),
-    /// From the heights as prepared; of any sign.
+    /// Approach from the heights as prepared; of any sign.
     Approach(Metre),
 }
 

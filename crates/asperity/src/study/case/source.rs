@@ -13,6 +13,7 @@ use crate::units::Metre;
 ///
 /// Its parts act in this order: the source; the steps of [`Preparation`], where `pitch` may stand for `resample`; `plus`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TopographySpec {
     /// File, generator or form.
     #[serde(flatten)]
@@ -53,7 +54,7 @@ pub enum Source {
         /// Number of cells along x and y; the other body's if absent.
         #[serde(skip_serializing_if = "Option::is_none")]
         shape: Option<[usize; 2]>,
-        /// Same seed, same heights.
+        /// The seed of the random numbers: the same seed gives the same heights.
         seed: u64,
     },
     /// A smooth body; its `pitch` is in [`TopographySpec::pitch`].
@@ -109,7 +110,7 @@ pub enum Layer {
         /// The method, with its parameters.
         #[serde(flatten)]
         generate: Generator,
-        /// Same seed, same heights.
+        /// The seed of the random numbers: the same seed gives the same heights.
         seed: u64,
     },
     /// A smooth body.
@@ -121,7 +122,7 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// Its heights on `grid`.
+    /// The layer's heights on `grid`.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.

@@ -4,11 +4,13 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::keys::known_in;
+use crate::choice::choice;
 use crate::error::Result;
 use crate::units::{Dimension, Metre};
 
 /// What is looked at under the surface. Positions x and y count from the corner of the body, depths from its surface.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SubsurfaceSpec {
     /// The body that is looked into.
     pub body: Side,
@@ -19,7 +21,7 @@ pub struct SubsurfaceSpec {
     /// Depths ≥ 0 of the planes that are kept whole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub planes: Vec<Metre>,
-    /// Where the section along x lies, y ≥ 0; through the most stressed point if absent.
+    /// The y ≥ 0 at which the section along x lies; through the most stressed point if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Metre>,
     /// Positions `[x, y]`, each ≥ 0, below which the stress is kept.
@@ -31,14 +33,15 @@ pub struct SubsurfaceSpec {
 }
 
 /// One of the two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// The body underneath.
     Lower,
     /// The body above.
     Upper,
 }
+
+choice!(Side: "lower" => Lower, "upper" => Upper);
 
 /// Beyond this many planes nobody looks at them.
 const MOST_LAYERS: usize = 10_000;
@@ -60,7 +63,7 @@ pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpe
         }
     });
     Ok(SubsurfaceSpec {
-        body: table.choice_or("body", &[("lower", Side::Lower), ("upper", Side::Upper)], Side::Lower)?,
+        body: table.choice_or("body", Side::Lower)?,
         to: table.required("to", "\"20 um\"")?.positive(Dimension::Length)?,
         layers: table.get("layers").map(layers).transpose()?.unwrap_or(40),
         planes: list(table, "planes", "a list of depths such as [\"1 um\", \"5 um\"]", length)?,

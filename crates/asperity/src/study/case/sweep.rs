@@ -15,7 +15,7 @@ pub enum Sweep {
     Loads(Vec<Newton>),
     /// Loads over the apparent area, > 0.
     MeanPressures(Vec<Pascal>),
-    /// From the heights as prepared; of any sign.
+    /// Approaches from the heights as prepared; of any sign.
     Approaches(Vec<Metre>),
 }
 
@@ -100,7 +100,8 @@ fn values<'a, const N: usize>(
     if count > MOST_POINTS {
         return Err(points.unexpected("a whole number of at most 10000", None));
     }
-    let by_ratio = table.choice_or("spacing", &[("log", true), ("linear", false)], by_ratio)?;
+    let spacings = [("log", true), ("linear", false)];
+    let by_ratio = table.get("spacing").map_or(Ok(by_ratio), |entry| entry.word(&spacings))?;
     // A component that is 0 at both ends stays so.
     let has_ratio = |k: usize| first[k] * last[k] > 0.0 || (N > 1 && first[k] == 0.0 && last[k] == 0.0);
     if by_ratio && let Some(k) = (0..N).find(|k| !has_ratio(*k)) {

@@ -185,9 +185,9 @@ pub(super) fn foreseen(
 /// What Hertz' estimate says of a contact.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Foreseen {
-    /// That the rim of the grid cuts it off.
+    /// The warning that the rim of the grid cuts the contact off.
     pub(super) rim: Option<String>,
-    /// That it has too few cells.
+    /// The warning that the contact has too few cells.
     pub(super) coarse: Option<String>,
 }
 
@@ -242,7 +242,7 @@ pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Met
     Some(touch)
 }
 
-/// That there is no contact at an approach below `touch`.
+/// The warning that there is no contact at an approach below `touch`.
 pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
     let length = |value| units::format(value, Dimension::Length);
     format!(
@@ -253,7 +253,7 @@ pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
     )
 }
 
-/// That the largest contact spot has too few cells, if it has.
+/// The warning that the largest contact spot has too few cells, if it has.
 pub(in crate::study) fn too_few_cells(across: usize) -> Option<String> {
     match across {
         1 => Some(format!(
@@ -268,7 +268,8 @@ pub(in crate::study) fn too_few_cells(across: usize) -> Option<String> {
     }
 }
 
-/// That a free rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the outermost cells, or with a
+/// The warning that a free rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the
+/// outermost cells, or with a
 /// load on a side of them that is not much below that of the fullest line inside.
 ///
 /// A sphere or an ellipsoid whose Hertzian contact reaches a little over the rim has its largest pressure to 1 % still;

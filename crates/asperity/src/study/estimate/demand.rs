@@ -15,6 +15,7 @@ use crate::units::Second;
 
 /// What a run takes. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Demand {
     /// The two surfaces, and the making of the larger one.
     pub surfaces: f64,
@@ -89,11 +90,11 @@ struct Surfaces {
 
 /// What is held beside the surfaces, bytes.
 struct Memory {
-    /// By one solver.
+    /// Memory of one solver.
     solver: f64,
-    /// By the positions of a pass together.
+    /// Memory of the positions of a pass together.
     together: f64,
-    /// By the results until they are written.
+    /// Memory of the results until they are written.
     results: f64,
 }
 
@@ -262,7 +263,7 @@ impl Sizes<'_> {
 const SOLVE: f64 = 28.0;
 /// An increment with friction, of dissimilar bodies.
 const SHEAR: f64 = 450.0;
-/// The same of identical bodies, whose pressure is known without the shear.
+/// The work of an increment with friction of identical bodies, whose pressure is known without the shear.
 const SHEAR_ALIKE: f64 = 150.0;
 /// Steady rolling.
 const ROLLING: f64 = 25_000.0;

@@ -31,7 +31,7 @@ pub enum Existing {
 /// Held by the run that writes to a directory; it dies with its process.
 #[derive(Debug)]
 pub(super) struct Lock {
-    /// None where the file system has no locks.
+    /// The locked file; none where the file system has no locks.
     held: Option<File>,
 }
 
@@ -70,7 +70,7 @@ impl Lock {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kept {
     Nothing,
-    /// So many finished passes.
+    /// A number of finished passes.
     Passes(usize),
     /// A loading under way.
     Increments,

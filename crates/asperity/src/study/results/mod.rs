@@ -201,7 +201,7 @@ impl Results {
         self.directory.join("summary.json")
     }
 
-    /// Where the pass after so many begins.
+    /// The state in which the pass after so many begins.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -233,7 +233,7 @@ impl Results {
         self.directory.join("fields.h5")
     }
 
-    /// Where figures go.
+    /// The folder of the figures.
     pub fn figures_folder(&self) -> PathBuf {
         self.directory.join("figures")
     }

@@ -59,7 +59,7 @@ impl Writer {
             atomic::sweep(directory);
         }
         let text = serde_json::to_vec_pretty(&self.case).expect("a JSON value can be written");
-        atomic::write(&self.results.case_path(), &text)
+        atomic::replace(&self.results.case_path(), &text)
     }
 
     /// What is there already.

@@ -109,7 +109,7 @@ impl<'a> Raster<'a> {
         x_fastest(self.shape, |first, heights| self.read(first, heights, &height))
     }
 
-    /// As `heights`, of numbers with y fastest.
+    /// The heights of numbers with y fastest.
     pub(super) fn heights_with_y_fastest(&self, height: impl Fn(f64) -> f64) -> Field {
         // A part at a time, which stays in the first cache between the two loops over it.
         const PART: usize = 1024;
@@ -151,7 +151,7 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// At the start of `bytes`, which errors call `what`.
+    /// A cursor at the start of `bytes`, which errors call `what`.
     pub(super) fn new(bytes: &'a [u8], order: Order, what: &'static str) -> Self {
         Self { what, order, bytes, at: 0 }
     }

@@ -40,7 +40,7 @@ pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
         let mask = heights.mapv(|height| f64::from(height.is_nan()));
         content.extend(component("/0/mask", b'o', &data_field(grid, &mask, "")));
     }
-    atomic::write(path, &[MAGIC, object("GwyContainer", &content).as_slice()].concat())
+    atomic::replace(path, &[MAGIC, object("GwyContainer", &content).as_slice()].concat())
 }
 
 fn data_field(grid: &Grid, values: &Field, unit_of_values: &str) -> Vec<u8> {

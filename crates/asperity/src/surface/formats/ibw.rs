@@ -146,7 +146,7 @@ fn number(kind: u16) -> Outcome<Number> {
 
 /// Metres in the units of a wave.
 struct Units {
-    /// None if it is not a length.
+    /// What a 1 stands for in metres; none if it is not a length.
     data: Option<f64>,
     dimensions: [f64; 2],
     kind: LengthUnit,

@@ -52,6 +52,7 @@ use crate::units::{Dimension, Metre};
 
 /// Heights as a file has them.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Scan {
     /// The name of its module here, such as `x3p`; of text `text` (a matrix), `xyz` (a table of x, y, height) or the
     /// program that wrote its header.
@@ -64,20 +65,21 @@ pub struct Scan {
     pub pitch: Option<[Metre; 2]>,
     /// Heights in metres, `[ix, iy]`, NaN where missing.
     pub heights: Field,
-    /// Where the unit of its numbers comes from.
+    /// What the file says of the unit of its numbers.
     pub unit: LengthUnit,
 }
 
 /// What a file says of the unit of its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LengthUnit {
-    /// It has one.
+    /// The file has a unit.
     Known,
-    /// It has none for its heights: they are in metres unless a unit is given.
+    /// The file has no unit for its heights: they are in metres unless a unit is given.
     Metres,
-    /// It has none at all: heights and pitch are in metres unless a unit is given.
+    /// The file has no unit at all: heights and pitch are in metres unless a unit is given.
     MetresThroughout,
-    /// Its heights are levels, which are no lengths until a unit is given.
+    /// The file's heights are levels, which are no lengths until a unit is given.
     Levels,
 }
 
@@ -176,7 +178,7 @@ impl Scan {
         (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
     }
 
-    /// With its numbers multiplied by the unit that is given, if they have none of their own.
+    /// The scan with its numbers multiplied by the unit that is given, if they have none of their own.
     fn in_unit(mut self, unit: Option<Metre>) -> Decoded {
         match (self.unit, unit) {
             (LengthUnit::Known, Some(_)) => return Err(Fault::OwnUnit { format: self.format }),

@@ -136,7 +136,7 @@ impl Part<'_> {
         found.parse().map_err(unusable)
     }
 
-    /// Of the sides of the image: `300 300 nm`, or `300 nm` of a square one.
+    /// The lengths of the sides of the image: `300 300 nm`, or `300 nm` of a square one.
     fn lengths(&self, common: &HashMap<&str, &str>) -> Outcome<[Metre; 2]> {
         let lengths = |found: &str| {
             let (numbers, unit): (Vec<_>, Vec<_>) =

@@ -232,7 +232,7 @@ fn name(header: &mut Cursor<'_>) -> Outcome<String> {
     padded(header, length).map(text)
 }
 
-/// So many bytes, filled up to a multiple of four.
+/// A number of bytes, filled up to a multiple of four.
 fn padded<'a>(header: &mut Cursor<'a>, count: usize) -> Outcome<&'a [u8]> {
     let content = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;

@@ -55,7 +55,7 @@ enum Item<'a> {
 /// Numbers on a grid.
 #[derive(Clone, Copy)]
 struct Data<'a> {
-    /// Along x and y; of a profile there is one along y.
+    /// Number of heights along x and y; of a profile there is one along y.
     sizes: [u32; 2],
     number: Number,
     numbers: &'a [u8],

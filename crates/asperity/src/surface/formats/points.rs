@@ -154,7 +154,8 @@ impl Positions {
 
 /// Part of a pitch by which a position may be off: by the stage of an instrument.
 const OFF: f64 = 0.25;
-/// The same of so few points that chance would be as good: by the rounding of printed numbers.
+/// The share of points off the raster of so few points that chance would be as good: by the rounding of printed
+/// numbers.
 const OFF_IF_FEW: f64 = 0.02;
 /// The widest gap between positions that occur, in pitches.
 const WIDEST_GAP: usize = 16;

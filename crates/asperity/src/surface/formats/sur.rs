@@ -64,7 +64,7 @@ struct Object<'a> {
     shape: [usize; 2],
     number: Number,
     pitch: [Metre; 2],
-    /// Of one unit of the raw heights.
+    /// The height of one unit of the raw heights, m.
     height: Metre,
     offset: Metre,
     missing: Option<f64>,

@@ -195,7 +195,7 @@ fn an_x3p_written_reads_back_to_the_last_bit() {
     assert_same(&scan.heights, &heights);
     let error = read(&path, Some("phase"), None).unwrap_err();
     assert_eq!(error.to_string(), format!("no height channel `phase` in {}", path.display()));
-    assert_eq!(error.hint().unwrap(), "it holds `height`; choose one with --channel");
+    assert_eq!(error.hint().unwrap(), "it holds `height`; choose one of them");
 }
 
 /// An x3p of 5 × 2 heights, of which the mask 0x95, 0xfd takes away the second, fourth, sixth, seventh and tenth.

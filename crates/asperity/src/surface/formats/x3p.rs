@@ -30,7 +30,7 @@ pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
     let archive =
         encode(grid, heights).map_err(|error| Error::File { path: path.to_owned(), source: error.into() })?;
-    atomic::write(path, &archive)
+    atomic::replace(path, &archive)
 }
 
 fn encode(grid: &Grid, heights: &Field) -> zip::result::ZipResult<Vec<u8>> {
@@ -215,7 +215,7 @@ pub(super) type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 type Outcome<T> = std::result::Result<T, Defect>;
 
 struct Header {
-    /// Along x, y, and of layers.
+    /// Numbers of heights along x and y, and of layers.
     sizes: [usize; 3],
     increments: [f64; 2],
     number: Number,
@@ -396,7 +396,7 @@ fn verify(what: &'static str, expected: &str, content: &[u8]) -> Outcome<()> {
     Err(Defect::Checksum { what, expected: expected.chars().take(32).collect(), found })
 }
 
-/// At most `most` + 1 bytes of an entry.
+/// The first bytes of an entry, at most `most` + 1.
 pub(super) fn entry(
     archive: &mut Archive<'_>,
     name: &str,

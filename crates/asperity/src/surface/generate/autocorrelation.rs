@@ -1,9 +1,10 @@
 //! White noise filtered to a prescribed autocorrelation.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::noise::{shape_with_margin, stationary};
-use super::{HeightDistribution, check_sq, one_or_two};
+use super::{HeightDistribution, check_sq};
+use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::fft::symmetric_transform;
@@ -25,20 +26,19 @@ use crate::units::{Dimension, Metre};
 /// is not periodic and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface; R
 /// is so for the mean over seeds, up to the mean height and Sq of each surface, which are set: of the order
 /// of βxβy/area.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Autocorrelation {
     /// Rms height, > 0.
     pub sq: Metre,
     /// Lengths where the autocorrelation falls to 10 %, along and across the lay, which is along x and y without one;
     /// read from one or two. The ellipse of these semi-axes reaches beyond the neighbouring samples, but not beyond
     /// the length of the surface.
-    #[serde(deserialize_with = "one_or_two")]
     pub correlation_length: [Metre; 2],
     /// How it falls.
-    #[serde(default, skip_serializing_if = "Decay::is_exponential")]
+    #[serde(skip_serializing_if = "Decay::is_exponential")]
     pub decay: Decay,
     /// Angle of the first length's direction against x, towards y, in radians.
-    #[serde(default, skip_serializing_if = "is_along_x")]
+    #[serde(skip_serializing_if = "is_along_x")]
     pub lay: f64,
     /// Skewness and kurtosis of the heights.
     #[serde(flatten)]
@@ -46,8 +46,7 @@ pub struct Autocorrelation {
 }
 
 /// How an autocorrelation falls with the distance.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Decay {
     /// R = exp(−ln 10 s): a surface with edges on the smallest scale, as of grinding (Whitehouse & Archard, Proc. R.
     /// Soc. A 316, 97 (1970)).
@@ -56,6 +55,8 @@ pub enum Decay {
     /// R = exp(−ln 10 s²): a smooth surface.
     Gaussian,
 }
+
+choice!(Decay: "exponential" => Exponential, "gaussian" => Gaussian);
 
 impl Decay {
     fn is_exponential(&self) -> bool {

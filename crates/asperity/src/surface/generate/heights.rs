@@ -1,6 +1,6 @@
 //! The distribution of heights, and the Gaussian process that a translation takes to it.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::johnson::Johnson;
 use crate::error::Result;
@@ -19,8 +19,7 @@ use crate::math::fft::symmetric_transform;
 /// as far as there is such a process: spectra with a sharp edge are only nearly reached, see
 /// [`crate::surface::LowPass`]. The moments are those of the mean over seeds; a surface differs from them by
 /// its statistical error, some √(6/n) and √(24/n) for n independent spots, more for heavy tails.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HeightDistribution {
     /// Skewness Ssk, −6 to 6.
     #[serde(skip_serializing_if = "is_symmetric")]

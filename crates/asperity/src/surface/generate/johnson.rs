@@ -144,7 +144,8 @@ impl Average {
     }
 }
 
-/// Where `f`, monotone, is 0 between `a` < `b`, to `epsilon`; where it has one sign, the end at which it is nearer to 0.
+/// The place where `f`, monotone, is 0 between `a` < `b`, to `epsilon`; where it has one sign, the end at which it is
+/// nearer to 0.
 ///
 /// Interpolates, truncates and projects: faster than linear, and one trial more than bisection at the worst.
 /// Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 5 (2021), with κ₁ = 0.2/(b − a), κ₂ = 1, n₀ = 1.

@@ -1,9 +1,10 @@
 //! White noise through a low-pass filter.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::noise::{shape_with_margin, stationary};
-use super::{HeightDistribution, check_sq, one_or_two};
+use super::{HeightDistribution, check_sq};
+use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
@@ -25,15 +26,14 @@ use crate::units::{Dimension, Metre};
 /// sharp edge of the spectrum to another. Measured, the share of the variance beyond the edge, and by how much it
 /// makes the slopes steeper: Ssk = −0.5, Sku = 3.5: 0.6 %, 1 %; −1, 4.5: 2 %, 3 %; −2, 8: 9 %, 14 %; 0, 2.2: 0.7 %,
 /// 1.5 %.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LowPass {
     /// Rms height, > 0, exact for every surface.
     pub sq: Metre,
     /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two.
-    #[serde(deserialize_with = "one_or_two")]
     pub cutoff: [Metre; 2],
     /// Shape of the pass band.
-    #[serde(default, skip_serializing_if = "Band::is_elliptic")]
+    #[serde(skip_serializing_if = "Band::is_elliptic")]
     pub band: Band,
     /// Skewness and kurtosis of the heights.
     #[serde(flatten)]
@@ -41,8 +41,7 @@ pub struct LowPass {
 }
 
 /// The waves, λ = (2π/ωx, 2π/ωy), that a filter lets pass.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Band {
     /// (λx ωx)² + (λy ωy)² < 4π²: a circle for two equal cut-offs. The autocorrelation is 2 J₁(s)/s,
     /// s = 2π √((x/λx)² + (y/λy)²).
@@ -51,6 +50,8 @@ pub enum Band {
     /// λx |ωx| < 2π and λy |ωy| < 2π. The autocorrelation is sin s sin t/s t, s = 2πx/λx, t = 2πy/λy.
     Rectangular,
 }
+
+choice!(Band: "elliptic" => Elliptic, "rectangular" => Rectangular);
 
 impl Band {
     fn is_elliptic(&self) -> bool {

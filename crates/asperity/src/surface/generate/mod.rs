@@ -14,7 +14,7 @@ pub use heights::HeightDistribution;
 pub use low_pass::{Band, LowPass};
 pub use self_affine::{Amplitude, SelfAffine};
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::Serialize;
 
 use crate::error::{Result, check_in};
 use crate::grid::Grid;
@@ -22,7 +22,7 @@ use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
 /// A method with its parameters; a case file names it by `generate = "low-pass"` and so on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "generate", rename_all = "kebab-case")]
 pub enum Generator {
     /// White noise without its short waves; not periodic.
@@ -65,20 +65,6 @@ impl Generator {
 
 fn check_sq(sq: Metre) -> Result<()> {
     check_in(Dimension::Length, "sq", sq, sq > 0.0 && sq.is_finite(), "an rms height above 0")
-}
-
-/// Reads two lengths, along x and y, or one for both.
-fn one_or_two<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result<[Metre; 2], D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Lengths {
-        One(Metre),
-        Two([Metre; 2]),
-    }
-    Ok(match Lengths::deserialize(deserializer)? {
-        Lengths::One(length) => [length; 2],
-        Lengths::Two(lengths) => lengths,
-    })
 }
 
 #[cfg(test)]
@@ -126,24 +112,6 @@ mod tests {
                 assert!((z - expected).abs() < 1e-17, "{generator:?}: {first:?}");
             }
             assert_ne!(heights, generator.generate(&grid, 8).unwrap().into_heights());
-        }
-    }
-
-    #[test]
-    fn a_method_reads_from_the_keys_of_a_case_file_and_writes_them() {
-        let read = |text: &str| toml::from_str::<Generator>(text);
-        let [low_pass, autocorrelation, self_affine] = generators();
-        assert_eq!(read("generate = 'low-pass'\nsq = 2e-7\ncutoff = 4e-6").unwrap(), low_pass);
-        let text = "generate = 'autocorrelation'\nsq = 2e-7\ncorrelation_length = [2e-6, 4e-6]";
-        assert_eq!(read(text).unwrap(), autocorrelation);
-        let text = "generate = 'self-affine'\nhurst = 0.8\nrolloff = 8e-6\n";
-        assert_eq!(read(&format!("{text}sq = 2e-7")).unwrap(), self_affine);
-        for both_or_none in ["sq = 2e-7\nsdq = 0.1", ""] {
-            let message = read(&format!("{text}{both_or_none}")).unwrap_err().to_string();
-            assert!(message.contains("exactly one of sq and sdq"), "{message}");
-        }
-        for generator in generators() {
-            assert_eq!(read(&toml::to_string(&generator).unwrap()).unwrap(), generator);
         }
     }
 

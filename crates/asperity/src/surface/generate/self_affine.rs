@@ -6,7 +6,7 @@ use ndarray::Array2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rustfft::num_complex::Complex64;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::check_sq;
 use crate::error::{Error, Result, check, check_in};
@@ -24,16 +24,16 @@ use crate::units::{Dimension, Metre};
 ///
 /// A wave has the same phase on every grid of the same extent: with `shortest` given, a finer grid shows the
 /// same surface in more detail, as a study of convergence needs it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 ≤ H ≤ 1; the fractal dimension is 3 − H.
     pub hurst: f64,
     /// Wavelength above which the spectrum is flat, ≥ `shortest`; none: the law holds up to the longest wave.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rolloff: Option<Metre>,
     /// Shortest wavelength, ≥ 2 pitches; none: two of the larger pitch. Waves of exactly two pitches have no
     /// phase on the grid and are left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub shortest: Option<Metre>,
     /// Rms height or rms slope.
     #[serde(flatten)]
@@ -41,42 +41,14 @@ pub struct SelfAffine {
 }
 
 /// What fixes the amplitude of a self-affine surface; both are exact for every surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", try_from = "Keys")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Amplitude {
     /// Rms height, > 0.
     Sq(Metre),
     /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences
     /// of [`crate::surface::HybridParameters::sdq`] find less where waves shorter than about four pitches occur.
     Sdq(f64),
-}
-
-impl Amplitude {
-    /// From the two keys of a case file.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] unless exactly one is given.
-    pub fn from_keys(sq: Option<Metre>, sdq: Option<f64>) -> Result<Self> {
-        match (sq, sdq) {
-            (Some(sq), None) => Ok(Self::Sq(sq)),
-            (None, Some(sdq)) => Ok(Self::Sdq(sdq)),
-            _ => Err(Error::Unsupported("a self-affine topography needs exactly one of sq and sdq")),
-        }
-    }
-}
-
-#[derive(Deserialize)]
-struct Keys {
-    sq: Option<Metre>,
-    sdq: Option<f64>,
-}
-
-impl TryFrom<Keys> for Amplitude {
-    type Error = Error;
-
-    fn try_from(keys: Keys) -> Result<Self> {
-        Self::from_keys(keys.sq, keys.sdq)
-    }
 }
 
 impl SelfAffine {

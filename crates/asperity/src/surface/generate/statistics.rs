@@ -24,7 +24,7 @@ struct Asked {
     autocorrelation: fn([f64; 2]) -> f64,
     ssk: f64,
     sku: f64,
-    /// By how much the autocorrelation may be missed.
+    /// How far the autocorrelation may be off.
     off: f64,
 }
 
@@ -220,7 +220,7 @@ fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
     }
 }
 
-/// Over the seeds.
+/// What was found over the seeds.
 #[derive(Default)]
 struct Sample {
     values: Vec<f64>,

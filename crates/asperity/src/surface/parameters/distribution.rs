@@ -10,7 +10,7 @@ use crate::surface::Topography;
 /// is 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
-    /// Where the first class begins: the lowest value.
+    /// The lowest value, at which the first class begins.
     pub lowest: f64,
     /// Width of a class.
     pub width: f64,
@@ -21,9 +21,9 @@ pub struct Distribution {
 /// How many classes a [`Distribution`] has.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Classes {
-    /// So many.
+    /// A given number of classes.
     Number(usize),
-    /// As wide as 2 IQR n^(−1/3), with IQR the range of the middle half of the n values: Freedman and Diaconis,
+    /// Classes as wide as 2 IQR n^(−1/3), with IQR the range of the middle half of the n values: Freedman and Diaconis,
     /// Z. Wahrscheinlichkeitstheorie verw. Gebiete 57, 453 (1981). At most n; one where IQR = 0.
     #[default]
     FreedmanDiaconis,

@@ -32,20 +32,21 @@ use crate::units::Metre;
 /// No filter is applied: level and filter first. Values are SI, shares parts of one. A parameter without meaning
 /// is NaN, `null` in JSON: its family says where.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Parameters {
-    /// Of the heights alone.
+    /// Parameters of the heights alone.
     #[serde(flatten)]
     pub height: HeightParameters,
-    /// Of the autocorrelation and the spectrum.
+    /// Parameters of the autocorrelation and the spectrum.
     #[serde(flatten)]
     pub spatial: SpatialParameters,
-    /// Of the slopes.
+    /// Parameters of the slopes.
     #[serde(flatten)]
     pub hybrid: HybridParameters,
-    /// Of the material ratio curve.
+    /// Parameters of the material ratio curve.
     #[serde(flatten)]
     pub functional: FunctionalParameters,
-    /// Of the hills and dales, pruned at [`WOLF_PRUNING`].
+    /// Parameters of the hills and dales, pruned at [`WOLF_PRUNING`].
     #[serde(flatten)]
     pub feature: FeatureParameters,
 }

@@ -127,12 +127,12 @@ macro_rules! family {
                 )*]
             }
 
-            /// Without meaning: all NaN.
+            /// Parameters without meaning: all NaN.
             pub fn undefined() -> Self {
                 Self::from_each(|_| f64::NAN)
             }
 
-            /// Each parameter from its place in the family.
+            /// The parameters, each from its place in the family.
             pub(crate) fn from_each(value: impl Fn(fn(&Self) -> f64) -> f64) -> Self {
                 Self { $($field: value(|family| family.$field),)* }
             }

@@ -20,7 +20,8 @@ const SURROUNDINGS: usize = 2;
 const OPEN: f64 = 0.25;
 
 impl Topography {
-    /// With the spikes undefined: samples, and groups of up to about 5 × 5 that touch each other, that deviate from their
+    /// The topography with its spikes undefined: samples, and groups of up to about 5 × 5 that touch each other, that
+    /// deviate from their
     /// surroundings by more than `factor` standard deviations, both those of the surroundings and those of the deviations
     /// over the whole topography; 5 to 10 is usual.
     ///
@@ -83,7 +84,7 @@ fn spikes(z: &Field, factor: f64, stride: usize) -> Vec<(usize, usize)> {
     groups.flat_map(|group| outliers(z, group, factor, sigma)).collect()
 }
 
-/// Those of a group of samples that stand out from what is around all of them.
+/// The samples of a group that stand out from what is around all of them.
 fn outliers(z: &Field, group: Vec<(usize, usize)>, factor: f64, sigma: f64) -> Vec<(usize, usize)> {
     let mut around: Vec<_> = group
         .iter()

@@ -1,28 +1,28 @@
 //! Heights for undefined samples.
 
-use serde::{Deserialize, Serialize};
-
 use super::harmonic::harmonic;
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::surface::Topography;
 
-/// Where the heights of undefined samples come from. Defined samples are never changed.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// The source of the heights of undefined samples. Defined samples are never changed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Fill {
-    /// From nowhere: undefined samples are an error.
+    /// No source: undefined samples are an error.
     #[default]
     None,
-    /// From the nearest defined sample, distance measured in metres.
+    /// The nearest defined sample, distance measured in metres.
     Nearest,
-    /// From Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary: a membrane spanned
+    /// Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary: a membrane spanned
     /// over the hole, without peaks of its own. The rim of the grid is free (no slope across it).
     Harmonic,
 }
 
+choice!(Fill: "none" => None, "nearest" => Nearest, "harmonic" => Harmonic);
+
 impl Topography {
-    /// With every sample defined.
+    /// The topography with every sample defined.
     ///
     /// # Errors
     /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`]
@@ -196,7 +196,7 @@ mod tests {
     fn missing_samples_are_an_error_that_says_what_to_do() {
         let (holed, _) = with_holes([10, 10], [1.0, 1.0], |x, _| x, |i, _| i == 4);
         let message = holed.clone().fill(Fill::None).unwrap_err().to_string();
-        assert_eq!(message, r#"10 of 100 samples are undefined: set fill = "nearest" or fill = "harmonic""#);
+        assert_eq!(message, "10 of 100 samples are undefined");
         let (nothing, _) = with_holes([3, 3], [1.0, 1.0], |x, _| x, |_, _| true);
         assert!(matches!(nothing.fill(Fill::Nearest), Err(Error::NothingDefined { samples: 9 })));
         let (whole, heights) = with_holes([3, 3], [1.0, 1.0], |x, _| x, |_, _| false);

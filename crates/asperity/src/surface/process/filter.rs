@@ -2,35 +2,36 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
-use serde::{Deserialize, Serialize};
-
 use super::median::median;
+use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::good_size;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
+use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
+use rustfft::{Fft, FftPlanner};
 
 /// How the smooth surface of a filter is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Filter {
     /// The weighted mean of the heights around, by the areal Gaussian of ISO 16610-61:
     /// w = exp(−π r²/(αλ)²)/(αλ)², α = √(ln 2/π), of which a wave of length Λ keeps exp(−π(αλ/Λ)²), half at Λ = λ.
     #[default]
     Gaussian,
-    /// The same mean with weights that also fall with the distance r from the smooth surface, as in ISO 16610-71, so
+    /// The weighted mean of the heights around with weights that also fall with the distance r from the smooth
+    /// surface, as in ISO 16610-71, so
     /// that deep scratches and high peaks do not bend it: (1 − (r/c)²)² for |r| < c (Tukey's biweight) and 0 beyond,
     /// c = 4.4478 times the median of |r|, until c has settled to 10⁻³. The regression is of order 0, where the
     /// standard's is of order 2.
     Robust,
 }
 
+choice!(Filter: "gaussian" => Gaussian, "robust" => Robust);
+
 impl Topography {
-    /// Without the waves shorter than the nesting index: the S-filter of ISO 25178-2, a low-pass.
+    /// The topography without the waves shorter than the nesting index: the S-filter of ISO 25178-2, a low-pass.
     ///
     /// The mean is taken over the defined samples within the grid, so that a constant height stays and a hole draws
     /// nothing; along a slope the smooth surface is bent over half a cut-off from a rim. Undefined samples stay so.
@@ -43,7 +44,8 @@ impl Topography {
         Ok(self)
     }
 
-    /// Without the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass. What the S-filter of
+    /// The topography without the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass. What
+    /// the S-filter of
     /// the same index keeps is subtracted.
     ///
     /// # Errors
@@ -78,7 +80,7 @@ fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Fi
 }
 
 fn robust(gaussian: &Gaussian, z: &Field) -> Field {
-    /// Of the standard: 3 times the ratio of standard deviation and median of |r| of Gaussian heights.
+    /// The constant of the standard: 3 times the ratio of standard deviation and median of |r| of Gaussian heights.
     const BIWEIGHT: f64 = 4.4478;
     const SETTLED: f64 = 1e-3;
     const MOST: usize = 50;
@@ -136,12 +138,12 @@ impl Gaussian {
 struct Line {
     forward: std::sync::Arc<dyn Fft<f64>>,
     inverse: std::sync::Arc<dyn Fft<f64>>,
-    /// Of the Gaussian, over the length of the transform.
+    /// The spectrum of the Gaussian, over the length of the transform.
     spectrum: Vec<f64>,
 }
 
 impl Line {
-    /// For `n` samples and a cut-off of `length` pitches.
+    /// A line filter for `n` samples and a cut-off of `length` pitches.
     fn new(n: usize, length: f64) -> Self {
         /// Reach of the Gaussian in cut-offs, where it has fallen to 10⁻¹⁶ of its sum.
         const REACH: f64 = 1.65;

@@ -134,7 +134,7 @@ impl Network {
     }
 }
 
-/// In a numbering: no node here.
+/// What stands in a numbering where a cell is no node.
 const NOWHERE: u32 = u32::MAX;
 
 /// For each cell of the grid, which of `cells` it is.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::polynomial::Polynomial;
 use super::round::{self, Round};
@@ -13,8 +13,8 @@ use crate::surface::Topography;
 /// What is subtracted from the heights: a least-squares fit to the defined samples.
 ///
 /// As text, in files too: `none`, `mean`, `plane`, `quadratic`, `polynomial-3`, `sphere`, `cylinder`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(into = "String", try_from = "String")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(into = "String")]
 pub enum Level {
     /// Nothing.
     #[default]
@@ -90,14 +90,6 @@ impl FromStr for Level {
 impl From<Level> for String {
     fn from(level: Level) -> Self {
         level.to_string()
-    }
-}
-
-impl TryFrom<String> for Level {
-    type Error = LevelError;
-
-    fn try_from(text: String) -> std::result::Result<Self, LevelError> {
-        text.parse()
     }
 }
 

@@ -10,7 +10,7 @@ pub(super) struct NormalEquations {
 const VANISHED: f64 = 1e-12;
 
 impl NormalEquations {
-    /// From the lower triangle of JᵀJ, row by row, which is positive semi-definite.
+    /// The equations from the lower triangle of JᵀJ, row by row, which is positive semi-definite.
     pub(super) fn new(mut lower: Vec<Vec<f64>>) -> Self {
         let n = lower.len();
         let mut pivots = vec![0.0; n];

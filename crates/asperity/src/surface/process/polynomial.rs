@@ -7,7 +7,7 @@ use crate::grid::Field;
 /// field that holds its defined samples: nearly orthogonal on them, so that high orders lose no digits.
 pub(super) struct Polynomial {
     order: usize,
-    /// For each row of the defined part P_0 … P_order, and the first row; and so for the columns.
+    /// The polynomials P_0 … P_order on each row of the defined part, and its first row; and so for the columns.
     along: [(usize, Vec<Vec<f64>>); 2],
 }
 

@@ -1,6 +1,6 @@
 //! All steps from a measured topography to one that can be used, in their order.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::resample::{grid_of_pitch, grid_of_shape};
 use super::turn::rotated;
@@ -16,16 +16,15 @@ use crate::units::{Dimension, Metre};
 /// The steps act in the order of the fields: what belongs to the instrument first (the part to keep, spikes, holes),
 /// then the form, which wants defined heights without spikes, then the direction, then the waves, whose filters want a
 /// surface without form, then the grid, whose cells may be as large as the shortest wave left allows, last the rim.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Preparation {
     /// The part to keep, `[x0, y0, nx, ny]` in samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[usize; 4]>,
-    /// See [`Topography::despike`].
+    /// The factor of [`Topography::despike`]; nothing is removed if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub despike: Option<f64>,
-    /// Where the heights of undefined samples come from; with [`Fill::None`] they stay undefined.
+    /// The source of the heights of undefined samples; with [`Fill::None`] they stay undefined.
     #[serde(skip_serializing_if = "is_default")]
     pub fill: Fill,
     /// What is subtracted.
@@ -57,10 +56,10 @@ pub struct Preparation {
 }
 
 /// A grid to resample to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Resample {
-    /// The same extent with so many cells, see [`Topography::resample_to_shape`].
+    /// A number of cells along x and y on the same extent, see [`Topography::resample_to_shape`].
     Shape([usize; 2]),
     /// Cells of this size, see [`Topography::resample_to_pitch`].
     Pitch([Metre; 2]),
@@ -68,6 +67,7 @@ pub enum Resample {
 
 /// What a preparation came upon.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Findings {
     /// Undefined samples of the window, before anything was done about them.
     pub undefined: usize,
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_what_is_read() {
+    fn only_what_is_done_is_written() {
         let preparation = Preparation {
             level: Level::Polynomial(4),
             resample: Some(Resample::Pitch([1e-6, 2e-6])),
@@ -227,7 +227,5 @@ mod tests {
         };
         let text = serde_json::to_string(&preparation).unwrap();
         assert_eq!(text, r#"{"level":"polynomial-4","mirror":"x","resample":[1e-6,2e-6]}"#);
-        assert_eq!(serde_json::from_str::<Preparation>(&text).unwrap(), preparation);
-        assert!(serde_json::from_str::<Preparation>(r#"{"level":"polynomial-17"}"#).is_err());
     }
 }

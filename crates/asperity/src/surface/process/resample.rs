@@ -1,17 +1,15 @@
 //! The same topography on another grid.
 
-use ndarray::{Axis, Zip};
-use serde::{Deserialize, Serialize};
-
 use super::{Fill, spline};
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
+use ndarray::{Axis, Zip};
 
 /// What stands between samples where cells become smaller.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// The straight line between neighbours: no height leaves the range of the samples, and short waves are flattened.
     /// Right to the second order in the pitch.
@@ -21,8 +19,10 @@ pub enum Interpolation {
     Spline,
 }
 
+choice!(Interpolation: "linear" => Linear, "spline" => Spline);
+
 impl Topography {
-    /// The same extent with `shape` cells.
+    /// The topography with `shape` cells on the same extent.
     ///
     /// In each direction by itself. Where cells become larger, a new height is the average over the new cell,
     /// within an old one that is cut of the straight line with the slope between its neighbours: the plain
@@ -78,7 +78,7 @@ pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
     Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])
 }
 
-/// As many cells of size `pitch` as fit into the extent of `old`.
+/// The grid of as many cells of size `pitch` as fit into the extent of `old`.
 pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
     let extent = old.extent();
     let mut shape = [0; 2];

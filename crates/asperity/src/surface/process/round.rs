@@ -9,14 +9,15 @@ use crate::units::Metre;
 
 /// A sphere or a circular cylinder fitted to a topography.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Round {
-    /// Its radius, positive where the surface is convex (a ball), negative where it is concave (a cup); infinite for a
+    /// The radius, positive where the surface is convex (a ball), negative where it is concave (a cup); infinite for a
     /// plane.
     pub radius: Metre,
     /// The sphere's centre, or the point of the cylinder's axis that is next to the middle of the samples; x and y from
     /// the grid's corner, z as the heights.
     pub centre: [Metre; 3],
-    /// Of a cylinder the direction of its axis in the plane, from x towards y, −π/2 < θ ≤ π/2.
+    /// The direction of a cylinder's axis in the plane, from x towards y, −π/2 < θ ≤ π/2.
     pub axis: Option<f64>,
 }
 
@@ -226,7 +227,7 @@ impl Cloud {
         }
     }
 
-    /// In metres, from the grid's corner.
+    /// The form in metres, from the grid's corner.
     fn placed(&self, radius: f64, centre: [f64; 3], axis: Option<f64>) -> Round {
         let centre = [0, 1, 2].map(|i| self.middle[i] + centre[i] * self.spread);
         Round { radius: radius * self.spread, centre, axis }

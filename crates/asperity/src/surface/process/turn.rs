@@ -58,7 +58,7 @@ impl Topography {
         Self::new(grid, heights)
     }
 
-    /// By at most an eighth of a turn, but not by nothing.
+    /// The topography rotated by at most an eighth of a turn, but not by nothing.
     fn rotate_a_little(self, angle: f64) -> Result<Self> {
         let old = *self.grid();
         let new = rotated_a_little(&old, angle)?;

@@ -46,6 +46,6 @@ mod tests {
             assert!(matches!(numbered().window(window), Err(Error::WindowOutside { .. })));
         }
         let message = numbered().window([2, 0, 3, 1]).unwrap_err().to_string();
-        assert_eq!(message, "window = [2, 0, 3, 1] ([x0, y0, nx, ny]) is not a part of the 4 × 3 samples");
+        assert_eq!(message, "the window [2, 0, 3, 1] ([x0, y0, nx, ny]) is not a part of the 4 × 3 samples");
     }
 }

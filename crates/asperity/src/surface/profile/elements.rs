@@ -48,7 +48,7 @@ impl Element {
 struct Part {
     start: f64,
     end: f64,
-    /// Its highest or lowest height.
+    /// The highest or lowest height of the element.
     extreme: f64,
 }
 

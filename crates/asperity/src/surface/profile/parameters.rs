@@ -174,7 +174,7 @@ impl Profile {
 struct Sections {
     peak: f64,
     pit: f64,
-    /// In one section.
+    /// The number of samples in one section.
     samples: f64,
 }
 

@@ -9,7 +9,7 @@ pub(super) struct Relief {
     /// Heights upwards from where the hills rise; NaN where undefined.
     pub(super) z: Vec<f64>,
     grid: Grid,
-    /// From a cell to its neighbours, and how far they are.
+    /// The steps from a cell to its neighbours, and how far these are.
     steps: [(isize, f64); 8],
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Watershed {
     of: Vec<u32>,
     /// The cell of each peak, and its height.
     peaks: Vec<(usize, f64)>,
-    /// Where each peak ceases to be the highest of the land around it.
+    /// The places where each peak ceases to be the highest of the land around it.
     ends: Vec<End>,
 }
 
@@ -84,7 +84,7 @@ impl Watershed {
         Self { of, peaks, ends }
     }
 
-    /// Each hill lower than `threshold`, or without height, goes to the hill across its saddle.
+    /// The land in which each hill lower than `threshold`, or without height, has gone to the hill across its saddle.
     pub(super) fn prune(self, threshold: f64) -> Pruned {
         let mut hills: Vec<Hill> = Vec::new();
         let mut number = vec![0; self.peaks.len()];
@@ -148,7 +148,8 @@ fn hills(relief: &Relief) -> (Vec<u32>, Vec<(usize, f64)>) {
     (of, peaks)
 }
 
-/// From the cells of `front` over the plateaus that they lie on, nearest first, where there is no way up yet.
+/// Sets the ways from the cells of `front` over the plateaus that they lie on, nearest first, where there is no way
+/// up yet.
 fn spread(relief: &Relief, next: &mut [usize], mut front: Vec<usize>) {
     let mut first = 0;
     while let Some(&cell) = front.get(first) {

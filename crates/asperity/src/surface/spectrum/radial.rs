@@ -2,14 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
-
 use super::{SpectralPoint, Spectrum};
 use crate::grid::Grid;
 
 /// How wave numbers are grouped for a mean over all directions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bins {
     /// Rings of one step, 2π over the longer side of the topography (of a line, over its length).
     Linear,

@@ -1,7 +1,5 @@
 //! Windows: weights that fall to zero at the rim.
 
-use serde::{Deserialize, Serialize};
-
 use crate::grid::Field;
 
 /// Weights that make the ends of a topography meet before its transform, over ξ and η, which run from −1 to 1 from
@@ -10,8 +8,7 @@ use crate::grid::Field;
 /// Without a window, what is not periodic has a step at the rim, and with it a spectrum that falls no faster than
 /// q⁻² along the axes, whatever the surface. Harris, Proc. IEEE 66, 51 (1978); for surfaces Jacobs, Junge & Pastewka,
 /// Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Window {
     /// 1 everywhere: for periodic surfaces.
     #[default]

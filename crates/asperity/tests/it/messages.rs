@@ -1,0 +1,121 @@
+//! What the library says is for every front end: only `study`, which reads case files, speaks of their keys, and nothing
+//! speaks of the arguments of a command.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What only a front end knows.
+const ARGUMENTS: [&str; 9] =
+    ["--channel", "--unit", "--pitch", "--fill", "--level", "--out", "--resume", "--overwrite", "--threads"];
+const TABLES: [&str; 7] =
+    ["[contact]", "[friction]", "[motion]", "[subsurface]", "[output]", "[[history]]", ".topography]"];
+const KEYS: [&str; 20] = [
+    "method",
+    "tolerance",
+    "boundary",
+    "fill",
+    "level",
+    "window",
+    "resample",
+    "shape",
+    "pitch",
+    "hardness",
+    "coupling",
+    "increments",
+    "control",
+    "strategy",
+    "passes",
+    "stride",
+    "plastic_update",
+    "pressure_every",
+    "load_tolerance",
+    "channel",
+];
+
+#[test]
+fn no_message_of_the_library_speaks_of_keys_or_arguments() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    let mut literals_seen = 0;
+    for file in files(&source) {
+        let name = file.strip_prefix(&source).unwrap().to_string_lossy().into_owned();
+        let text = fs::read_to_string(&file).unwrap();
+        for literal in literals(before_tests(&text)) {
+            literals_seen += 1;
+            let of_a_case = !name.starts_with("study") && speaks_of_a_case(&literal);
+            if of_a_case || ARGUMENTS.iter().any(|argument| literal.contains(argument)) {
+                found.push(format!("src/{name}: {literal}"));
+            }
+        }
+    }
+    assert!(literals_seen > 1000, "only {literals_seen} literals: are they still read rightly?");
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+fn speaks_of_a_case(literal: &str) -> bool {
+    let assigned = |key: &&str| {
+        literal
+            .match_indices(&format!("{key} = "))
+            .any(|(at, _)| !literal[..at].ends_with(|c: char| c == '_' || c.is_alphanumeric()))
+            || literal.contains(&format!("`{key}`"))
+    };
+    TABLES.iter().any(|table| literal.contains(table)) || KEYS.iter().any(assigned)
+}
+
+/// Every Rust file under `folder` but those of tests alone.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.file_stem().is_some_and(|stem| stem == "tests") {
+            continue;
+        }
+        if path.is_dir() {
+            files.extend(self::files(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files
+}
+
+fn before_tests(text: &str) -> &str {
+    text.split("#[cfg(test)]").next().unwrap_or_default()
+}
+
+/// The string literals of code, without what stands in comments.
+fn literals(code: &str) -> Vec<String> {
+    let code: String = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .map(|line| line.to_owned() + "\n")
+        .collect();
+    let mut literals = Vec::new();
+    let (mut literal, mut before): (Option<String>, char) = (None, ' ');
+    let mut chars = code.chars();
+    while let Some(c) = chars.next() {
+        match (&mut literal, c) {
+            // A quotation mark as a character.
+            (None, '"') if before == '\'' => {}
+            (None, '"') => literal = Some(String::new()),
+            (None, _) => {}
+            (Some(text), '\\') => {
+                text.push(c);
+                text.extend(chars.next());
+            }
+            (Some(_), '"') => literals.extend(literal.take()),
+            (Some(text), c) => text.push(c),
+        }
+        before = c;
+    }
+    literals
+}
+
+#[test]
+fn what_is_for_a_front_end_alone_is_found() {
+    let code = "//! \"`method`\"\nlet c = '\"'; say(\"set fill = \\\"nearest\\\"\");\n// \"no\"\nsay(\"a\");";
+    assert_eq!(literals(code), ["set fill = \\\"nearest\\\"", "a"]);
+    assert!(speaks_of_a_case("set fill = \\\"nearest\\\""));
+    assert!(speaks_of_a_case("give `increments`") && speaks_of_a_case("in [motion]"));
+    assert!(!speaks_of_a_case("refill = x") && !speaks_of_a_case("the method of Polonsky and Keer"));
+}
