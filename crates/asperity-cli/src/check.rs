@@ -94,11 +94,17 @@ fn pair(estimate: &Estimate) -> String {
         return format!("{modulus}, elastic");
     }
     let who = match estimate.lower_share {
-        1.0 => "the lower body deforms",
-        0.0 => "the upper body deforms",
-        _ => "both deform alike",
+        Some(1.0) => "the lower body deforms",
+        Some(0.0) => "the upper body deforms",
+        Some(_) => "both deform alike",
+        None => "the softer of two cells deforms",
     };
-    format!("{modulus}, pressure up to {}; {who} plastically", pressure(estimate.hardness))
+    let up_to = match estimate.max_hardness {
+        most if most == estimate.hardness => pressure(most),
+        most if most.is_infinite() => format!("{} where it is softest", pressure(estimate.hardness)),
+        most => format!("{} … {}", pressure(estimate.hardness), pressure(most)),
+    };
+    format!("{modulus}, pressure up to {up_to}; {who} plastically")
 }
 
 fn contact(case: &Case, estimate: &Estimate) -> String {

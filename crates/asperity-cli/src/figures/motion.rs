@@ -1,10 +1,10 @@
 //! Figures of a motion: what it did to the bodies, its pressures, its course.
 
 use asperity::io::fields::Fields;
-use asperity::material::{Compliances, Material};
+use asperity::material::Compliances;
 use asperity::motion::{PassRecord, StepRecord};
 use asperity::operator::{Boundary, Edge, Operators};
-use asperity::study::{Results, pressure_name};
+use asperity::study::{Results, cap_name, pressure_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
 use asperity::{Choice, Field, Grid};
@@ -141,10 +141,19 @@ fn pressures(
     let read = |step: &StepRecord| Stored::read(fields, &pressure_name(step.step));
     let range = [0.0, largest.max(f64::MIN_POSITIVE)];
     let number = SHEET.min(kept.len());
-    let shown: Vec<(String, Stored)> = (0..number)
-        .map(|k| {
-            // The middles of equal parts of the pass: its very ends show next to nothing.
-            let step = kept[(2 * k + 1) * kept.len() / (2 * number)];
+    // The middles of equal parts of the pass: its very ends show next to nothing.
+    let middles: Vec<&StepRecord> =
+        (0..number).map(|k| kept[(2 * k + 1) * kept.len() / (2 * number)]).collect();
+    let caps: Vec<Cap> = middles
+        .iter()
+        .map(|step| match names.contains(&cap_name(step.step)) {
+            true => Ok(Cap::Field(Stored::read(fields, &cap_name(step.step))?.framed(lower).field)),
+            false => Cap::read(fields),
+        })
+        .collect::<Outcome<_>>()?;
+    let shown: Vec<(String, Stored)> = middles
+        .iter()
+        .map(|step| {
             let title = format!("position {}: {}", step.step, format(step.load, Dimension::Force));
             Ok((title, read(step)?.framed(lower)))
         })
@@ -152,7 +161,8 @@ fn pressures(
     sheet.add("pressure", "pressure on the lower body", of, || {
         Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure(title).range(range)).collect()))
     })?;
-    let contacts: Vec<Stored> = shown.iter().map(|(_, stored)| stored.contact(cap)).collect();
+    let contacts: Vec<Stored> =
+        shown.iter().zip(&caps).map(|((_, stored), cap)| stored.contact(cap)).collect();
     sheet.add("contact", "contact on the lower body", of, || {
         let titled = contacts.iter().zip(&shown).map(|(contact, (title, _))| (contact, title));
         let maps = titled.map(|(contact, title)| contact.map(title, "", Unit::Number, cap.colours()));
@@ -193,8 +203,9 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     let case = results.case()?;
     let [lower, upper] = materials(&case)?;
     let compliances = Compliances::new(&lower, &upper)?;
-    let yields = |body: &Material| body.hardness.is_finite();
-    let step_by_step = case["motion"]["plastic_update"] == "step" && (yields(&lower) || yields(&upper));
+    // Without end where it is a word.
+    let yields = |body: &str| !case[body]["hardness"].is_string();
+    let step_by_step = case["motion"]["plastic_update"] == "step" && (yields("lower") || yields("upper"));
     if step_by_step || (!case["friction"].is_null() && compliances.coupling != 0.0) {
         return Ok(None);
     }

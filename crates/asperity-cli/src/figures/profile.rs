@@ -52,6 +52,11 @@ impl Profile {
         let end = (ix..row.len()).find(|i| row[*i] <= 0.0).unwrap_or(row.len());
         let around = (AROUND * (end - first)).max(LEAST);
         let shown = first.saturating_sub(around)..(end + around).min(row.len());
+        // Which body flows depends on the cell where one of them has a map of its hardness.
+        let mapped = ["lower", "upper"].iter().any(|body| case[body]["hardness"].is_object());
+        if mapped && facing.plastic.iter().any(|w| *w > 0.0) {
+            return Ok(None);
+        }
         let [lower, upper] = materials(case)?;
         let [elastic, plastic] =
             [elastic_share(&lower, &upper)?, plastic_share(lower.hardness, upper.hardness)];

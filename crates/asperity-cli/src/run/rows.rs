@@ -28,7 +28,7 @@ impl Rows {
             apart: false,
             rim: if has_ends && case.motion.is_some() { case.output.rim } else { 0.0 },
             slides: case.friction.is_some(),
-            yields: [&case.lower, &case.upper].iter().any(|body| body.material.hardness.is_finite()),
+            yields: [&case.lower, &case.upper].iter().any(|body| body.hardness.yields()),
         }
     }
 

@@ -25,7 +25,7 @@ pub use loading::{
     Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
 pub use pair::Pair;
-pub(crate) use pair::initial_gap;
+pub(crate) use pair::{facing_values, initial_gap};
 pub use path::{Position, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord};

@@ -162,20 +162,9 @@ impl Pair {
     /// Bounds of the pressure on the cells that face each other: none above the hardness of the softer, nor above what the
     /// shear of bodies that slide under `friction` leaves of it.
     pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
-        let hardness = match (&self.lower.hardness, &self.upper.hardness) {
-            (CellValues::Uniform(lower), CellValues::Uniform(upper)) => {
-                CellValues::Uniform(lower.min(*upper))
-            }
-            (lower, upper) => {
-                let shape = self.grid(position.columns).shape;
-                let bear = |cell| {
-                    let cells = self.cells_of_bodies(position, cell);
-                    lower.at(cells[0]).min(upper.at(cells[1]))
-                };
-                let values = (0..shape[0] * shape[1]).map(bear).collect();
-                CellValues::Field(Field::from_shape_vec(shape, values).expect("a value for each cell"))
-            }
-        };
+        let shapes = [self.lower_grid().shape, self.upper_grid().shape];
+        let hardness =
+            facing_values([&self.lower.hardness, &self.upper.hardness], shapes, position, f64::min);
         let bounds = Bounds::up_to(hardness);
         friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
     }
@@ -212,13 +201,37 @@ impl Pair {
 
     /// Of a flat cell of the contact at `position`: its flat cells of the lower and of the upper body.
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
-        let width = self.lower.width();
-        let (column, across) = (cell / width, cell % width);
-        [
-            (position.lower + column) % self.lower.columns() * width + across,
-            (position.upper + column) % self.upper.columns() * width + across,
-        ]
+        facing_cells([self.lower_grid().shape, self.upper_grid().shape], position, cell)
     }
+}
+
+/// The flat cells of bodies of these shapes that a flat cell of the contact at `position` is made of.
+fn facing_cells(shapes: [[usize; 2]; 2], position: &Position, cell: usize) -> [usize; 2] {
+    let width = shapes[0][1];
+    let (column, across) = (cell / width, cell % width);
+    [
+        (position.lower + column) % shapes[0][0] * width + across,
+        (position.upper + column) % shapes[1][0] * width + across,
+    ]
+}
+
+/// What `of` makes of the values of two bodies of these shapes where their cells face each other.
+pub(crate) fn facing_values(
+    values: [&CellValues; 2],
+    shapes: [[usize; 2]; 2],
+    position: &Position,
+    of: impl Fn(f64, f64) -> f64,
+) -> CellValues {
+    if let [CellValues::Uniform(lower), CellValues::Uniform(upper)] = values {
+        return CellValues::Uniform(of(*lower, *upper));
+    }
+    let shape = [position.columns, shapes[0][1]];
+    let facing = |cell| {
+        let [lower, upper] = facing_cells(shapes, position, cell);
+        of(values[0].at(lower), values[1].at(upper))
+    };
+    let values = (0..shape[0] * shape[1]).map(facing).collect();
+    CellValues::Field(Field::from_shape_vec(shape, values).expect("a value for each cell"))
 }
 
 /// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.

@@ -10,9 +10,9 @@ pub use demand::{Demand, demand};
 use super::case::{Body, Case, Course, Layer, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
-use crate::grid::Field;
-use crate::material::{Compliances, composite_hardness, plastic_share};
-use crate::motion::{Control, Motion, Position, Stage, Strategy, initial_gap};
+use crate::grid::{CellValues, Field};
+use crate::material::{Compliances, plastic_share};
+use crate::motion::{Control, Motion, Position, Stage, Strategy, facing_values, initial_gap};
 use crate::reference::HertzSphere;
 use crate::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::study::subsurface::Plan;
@@ -29,10 +29,12 @@ pub struct Estimate {
     pub dundurs: f64,
     /// How a static contact is computed; none of a motion.
     pub course: Option<Course>,
-    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair.
+    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; of maps the least.
     pub hardness: Pascal,
-    /// The lower body's share of the plastic deformation, 0 to 1.
-    pub lower_share: f64,
+    /// Largest cap on the pressure of any two cells, which is the same where no hardness is a map.
+    pub max_hardness: Pascal,
+    /// The lower body's share of the plastic deformation, 0 to 1; none where it differs from cell to cell.
+    pub lower_share: Option<f64>,
     /// What is prescribed; the load of a static contact is a [`Control::StepLoad`].
     pub control: Control,
     /// Number of positions in a pass; 1 for a static contact.
@@ -75,18 +77,34 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         (None, solver::Control::Load(load)) => Control::StepLoad(load),
         (None, solver::Control::Approach(approach)) => Control::Approach(approach),
     };
-    let hardness = composite_hardness(lower, upper);
+    let [lower_hardness, upper_hardness] = [&bodies.lower.hardness, &bodies.upper.hardness];
+    let hardness = lower_hardness.min().min(upper_hardness.min());
     let course = case.course(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    let cap = match (case.motion(apparent_area), &course) {
+    // Of the cells that face each other at a position, the softer's.
+    let facing_hardness = |position: &Position| {
+        let shapes = [lower_grid.shape, upper_grid.shape];
+        facing_values([lower_hardness, upper_hardness], shapes, position, f64::min)
+    };
+    let mean_hardness = |position: &Position| {
+        let cells = position.columns * lower_grid.shape[1];
+        facing_hardness(position).sum(cells) / cells as f64
+    };
+    if let (None, Some(Course::Stages(stages))) = (case.motion(apparent_area), &course) {
+        bears(law, stages, mean_hardness(&positions[0]), apparent_area)?;
+    }
+    let cap = |hardness| match (case.motion(apparent_area), &course) {
         (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
-        (None, Some(Course::Stages(stages))) => {
-            bears(law, stages, hardness, apparent_area)?;
-            stage_cap(law, &stages[0], hardness)
-        }
+        (None, Some(Course::Stages(stages))) => stage_cap(law, &stages[0], hardness),
         _ => hardness,
     };
-    let bearable: Vec<Newton> = overlaps.iter().map(|columns| cap * column_area(*columns)).collect();
+    let bearable: Vec<Newton> = positions
+        .iter()
+        .map(|position| match facing_hardness(position) {
+            CellValues::Uniform(hardness) => cap(hardness) * column_area(position.columns),
+            CellValues::Field(hardness) => lower_grid.cell_area() * hardness.mapv(cap).sum(),
+        })
+        .collect();
     let plastic_limit = control.plastic_limit(&bearable);
     control.check_limit(plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
@@ -99,7 +117,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         dundurs: compliances.dundurs(),
         course,
         hardness,
-        lower_share: plastic_share(lower.hardness, upper.hardness),
+        max_hardness: lower_hardness.max().min(upper_hardness.max()),
+        lower_share: share_of_lower(lower_hardness, upper_hardness),
         control,
         positions: overlaps.len(),
         passes: case.motion.map_or(1, |motion| motion.passes),
@@ -116,6 +135,17 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let yields = rolls_plastically(case, &estimate);
     estimate.foreseen.extend(yields);
     Ok(estimate)
+}
+
+/// The lower body's share of the plastic deformation, where it is the same for all cells.
+fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
+    let one_each = |values: &CellValues| values.min() == values.max();
+    match (one_each(lower) && one_each(upper), lower.max() < upper.min(), lower.min() > upper.max()) {
+        (true, ..) => Some(plastic_share(lower.min(), upper.min())),
+        (_, true, _) => Some(1.0),
+        (_, _, true) => Some(0.0),
+        _ => None,
+    }
 }
 
 /// The positions of a pass; of a static contact, the only one.

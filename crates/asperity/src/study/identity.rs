@@ -9,10 +9,10 @@ use super::prepare::Bodies;
 use crate::error::{Error, Result};
 use crate::io::sha256;
 
-/// Keys of a surface file in a case.
-const FILES: [&str; 2] = ["/lower/topography", "/upper/topography"];
+/// What may name a file in a case, the surfaces first.
+const FILES: [&str; 4] = ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
 
-/// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each surface file beside its name, and under
+/// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each file beside its name, and under
 /// `identity` the digest of all that decides the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
@@ -27,6 +27,9 @@ pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
         let digest = body.origin.as_ref().map(|origin| origin.sha256.clone());
         if let (Source::File { .. }, Some(digest)) = (&spec.source, digest) {
             topography["sha256"] = digest.into();
+        }
+        if let (Some(digest), Some(map)) = (&body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
+            map["sha256"] = digest.clone().into();
         }
     }
     resolved["identity"] = of(&resolved).into();

@@ -22,7 +22,7 @@ pub use estimate::{Demand, Estimate, demand, estimate};
 pub use identity::resolved;
 pub use loading::LoadingWriter;
 pub use prepare::{Bodies, Origin, Prepared, bodies, exact_pitch, grids};
-pub use results::{Existing, PassWriter, Results, Writer, pressure_name, traction_name};
+pub use results::{Existing, PassWriter, Results, Writer, cap_name, pressure_name, traction_name};
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, Summary};

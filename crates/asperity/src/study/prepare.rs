@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::case::{Body, Case, Mount, Source, TopographySpec};
+use super::case::{Body, Case, Hardness, Mount, Source, TopographySpec};
 use crate::error::{Error, Result};
-use crate::grid::Grid;
+use crate::grid::{CellValues, Grid};
 use crate::io::sha256;
 use crate::motion::Strategy;
-use crate::surface::{self, Findings, Preparation, ReadOptions, Resample, Scan, Topography};
+use crate::surface::{self, Findings, LengthUnit, Preparation, ReadOptions, Resample, Scan, Topography};
 use crate::units::{self, Dimension, Metre};
 
 /// Relative difference up to which two pitches are one.
@@ -31,6 +31,10 @@ pub struct Prepared {
     pub topography: Topography,
     /// The file that the heights were read from; none if they were made.
     pub origin: Option<Origin>,
+    /// What its cells bear; a map is turned over with the heights.
+    pub hardness: CellValues,
+    /// Digest of the file of a map of the hardness, hexadecimal.
+    pub hardness_sha256: Option<String>,
     /// How they face.
     pub mount: Mount,
     /// What was missing and is filled, what was removed.
@@ -150,7 +154,47 @@ fn prepared(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    Ok(Prepared { topography, origin, mount, findings })
+    let (hardness, hardness_sha256) = hardness(at, body, topography.grid(), mount)?;
+    Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
+}
+
+/// What the cells of a body on `grid` bear, and the digest of the file that tells.
+fn hardness(at: Place<'_>, body: &Body, grid: &Grid, mount: Mount) -> Result<(CellValues, Option<String>)> {
+    let map = match &body.hardness {
+        Hardness::Uniform(value) => return Ok((CellValues::Uniform(*value), None)),
+        Hardness::Map(map) => map,
+    };
+    let error = |key: &str, message: String, hint: Option<String>| {
+        at.case.error_at(&format!("{}.hardness.{key}", at.body), message, hint)
+    };
+    let (scan, sha256) = read(&map.path, map.channel.as_deref(), None).map_err(|source| {
+        error(if map.channel.is_some() { "channel" } else { "file" }, source.to_string(), None)
+    })?;
+    let file = map.path.display();
+    if scan.unit == LengthUnit::Known {
+        let hint = "give a file of numbers alone, such as npy or csv".to_owned();
+        return Err(error("file", format!("{file} holds lengths, expected a hardness"), Some(hint)));
+    }
+    let (found, expected) = (scan.heights.dim(), (grid.shape[0], grid.shape[1]));
+    if found != expected {
+        let message = format!(
+            "{file} has {} × {} values, the body as it is prepared {} × {} cells",
+            found.0, found.1, expected.0, expected.1
+        );
+        return Err(error("file", message, Some("a map has a value for each cell".to_owned())));
+    }
+    let mut values = scan.heights * map.unit;
+    if let Some(value) = values.iter().find(|value| !Dimension::Pressure.range().holds(**value)) {
+        let value = units::format(*value, Dimension::Pressure);
+        let hint = "give the unit of its numbers, for example `unit = \"GPa\"`".to_owned();
+        let message = format!("{file} has a hardness of {value}, expected pressures above 0 of a solid");
+        return Err(error("file", message, Some(hint)));
+    }
+    if mount == Mount::TurnedOver {
+        values.invert_axis(ndarray::Axis(0));
+        values = values.as_standard_layout().into_owned();
+    }
+    Ok((CellValues::Field(values), Some(sha256)))
 }
 
 /// What the file holds, and its digest.

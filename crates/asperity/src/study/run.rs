@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::error::Result;
+use crate::grid::CellValues;
 use crate::motion::{
     Equilibrium, LoadedContact, Motion, Pair, Simulation, StaticContact, Watch, load_in_stages, press, roll,
     sweep,
@@ -40,7 +41,8 @@ pub fn run(
     let bodies = bodies(case)?;
     let estimate = estimate(case, &bodies)?;
     let resolved = identity::resolved(case, &bodies);
-    let initial = pair(case, [bodies.lower.topography, bodies.upper.topography])?;
+    let hardness = [bodies.lower.hardness, bodies.upper.hardness];
+    let initial = pair(case, [bodies.lower.topography, bodies.upper.topography], hardness.clone())?;
     let params =
         Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() };
     let area = estimate.apparent_area;
@@ -73,7 +75,7 @@ pub fn run(
             if done == 0 {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
             } else if done < motion.passes {
-                let mut pair = pair(case, writer.results().surfaces_after(done)?)?;
+                let mut pair = pair(case, writer.results().surfaces_after(done)?, hardness)?;
                 [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
                 *simulation = simulate(pair, motion)?.resumed(done, writer.results().warm_start_after(done)?);
             }
@@ -108,9 +110,10 @@ enum Work {
     Motion(Motion, Box<Simulation>),
 }
 
-fn pair(case: &Case, surfaces: [Topography; 2]) -> Result<Pair> {
+/// The bodies of `case` with these surfaces.
+fn pair(case: &Case, surfaces: [Topography; 2], hardness: [CellValues; 2]) -> Result<Pair> {
     let [lower, upper] = surfaces;
-    Pair::new(lower, upper, [&case.lower.material, &case.upper.material])
+    Pair::new(lower, upper, [&case.lower.material, &case.upper.material])?.with_hardness(hardness)
 }
 
 /// A static contact.

@@ -8,7 +8,8 @@ use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangen
 use asperity::study;
 use asperity::study::bodies;
 use asperity::study::case::{
-    Boundary, Case, ControlKind, Course, Edge, InPlane, Layer, Method, Mount, Prescribed, Side, Source, Sweep,
+    Boundary, Case, ControlKind, Course, Edge, Hardness, InPlane, Layer, Method, Mount, Prescribed, Side,
+    Source, Sweep,
 };
 use asperity::study::demand;
 use asperity::surface::{
@@ -21,8 +22,8 @@ fn the_case_of_the_contract_is_read_in_si() {
     let case = load("running_in");
     assert_eq!(case.title, "two ground steel surfaces running in");
     assert_eq!(case.lower.material.young, 210e9);
-    assert_eq!(case.lower.material.hardness, 4e9);
-    assert_eq!(case.upper.material.hardness, f64::INFINITY);
+    assert_eq!(case.lower.hardness, Hardness::Uniform(4e9));
+    assert_eq!(case.upper.hardness, Hardness::Uniform(f64::INFINITY));
     assert_eq!((case.lower.mount, case.upper.mount), (Some(Mount::AsIs), Some(Mount::TurnedOver)));
     let lower = &case.lower.topography;
     assert_eq!(

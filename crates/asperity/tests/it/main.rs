@@ -8,6 +8,7 @@ mod documents;
 mod extremes;
 mod friction;
 mod good_inputs;
+mod hardness;
 mod laws;
 mod line;
 mod loading;

@@ -245,6 +245,17 @@ impl<'a> Entry<'a> {
         if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
+    /// What a 1 stands for: a unit by its name, or a quantity above 0.
+    pub(super) fn unit(&self, dimension: Dimension) -> Result<f64> {
+        match self.value.as_str() {
+            Some(word) if word.starts_with(char::is_alphabetic) => {
+                units::parse(&format!("1 {word}"), dimension)
+                    .map_err(|error| self.error(error.for_key(self.key()), error.hint()))
+            }
+            _ => self.positive(dimension),
+        }
+    }
+
     /// A quantity above 0, or infinity, whose meaning is `infinite`.
     pub(super) fn positive_or_infinite(&self, dimension: Dimension, infinite: &str) -> Result<f64> {
         let value = match self.value.as_str() {

@@ -6,6 +6,7 @@
 mod cursor;
 mod document;
 mod friction;
+mod hardness;
 mod keys;
 mod parse;
 mod prescribed;
@@ -20,6 +21,7 @@ use serde::{Serialize, Serializer};
 
 use self::document::Document;
 pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
+pub use self::hardness::{Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
@@ -69,9 +71,11 @@ pub struct Case {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Body {
-    /// The body's constants; the hardness is infinite where the file gives none.
+    /// The body's elastic constants; what it bears, [`Body::hardness`] tells.
     #[serde(flatten, serialize_with = "with_infinities")]
     pub material: Material,
+    /// The most pressure that the body's cells bear; infinite where the file gives none.
+    pub hardness: Hardness,
     /// The body's surface.
     pub topography: TopographySpec,
     /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
@@ -246,9 +250,16 @@ impl Case {
 
     /// The files that the case names.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        [&self.lower, &self.upper].into_iter().filter_map(|body| match &body.topography.source {
-            Source::File { path, .. } => Some(path),
-            _ => None,
+        [&self.lower, &self.upper].into_iter().flat_map(|body| {
+            let surface = match &body.topography.source {
+                Source::File { path, .. } => Some(path),
+                _ => None,
+            };
+            let map = match &body.hardness {
+                Hardness::Map(map) => Some(&map.path),
+                Hardness::Uniform(_) => None,
+            };
+            surface.into_iter().chain(map)
         })
     }
 }
@@ -275,10 +286,9 @@ fn with_infinities<S: Serializer>(
     struct Keys {
         young: Number,
         poisson: f64,
-        hardness: Number,
     }
-    let Material { young, poisson, hardness } = *material;
-    Keys { young: young.into(), poisson, hardness: hardness.into() }.serialize(serializer)
+    let Material { young, poisson, .. } = *material;
+    Keys { young: young.into(), poisson }.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

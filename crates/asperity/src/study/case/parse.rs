@@ -5,6 +5,7 @@ use std::path::Path;
 use super::cursor::{Entry, Table};
 use super::document::Document;
 use super::friction::friction;
+use super::hardness::hardness;
 use super::keys::{belongs, known_in, known_of_topographies, suits};
 use super::prescribed::prescribed;
 use super::subsurface::subsurface;
@@ -52,7 +53,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
     let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
-    let yields = material::composite_hardness(&lower.material, &upper.material).is_finite();
+    let yields = lower.hardness.yields() || upper.hardness.yields();
     let friction =
         root.table("friction")?.map(|table| friction(&table, yields, motion.is_some())).transpose()?;
     let stages = root.get("history");
@@ -165,12 +166,7 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     let poisson = table
         .required("poisson", "0.3")?
         .number(|value| (0.0..=0.5).contains(&value), "a number from 0 to 0.5")?;
-    let hardness = match table.get("hardness") {
-        Some(entry) => {
-            entry.positive_or_infinite(Dimension::Pressure, "an elastic body, as is leaving it out")?
-        }
-        None => f64::INFINITY,
-    };
+    let hardness = hardness(table, folder)?;
     let topography = topography(&table.required_table("topography")?, folder)?;
     let mount = match table.get("mount") {
         Some(entry) => Some(entry.choice()?),
@@ -179,8 +175,8 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
         None => Some(Mount::AsIs),
     };
     // Checked above, entry by entry: this can find nothing new.
-    let material = Material::new(young, poisson, hardness)?;
-    Ok(Body { material, topography, mount })
+    let material = Material::elastic(young, poisson)?;
+    Ok(Body { material, hardness, topography, mount })
 }
 
 /// Whether a file of results would hold the underside of a body there.
@@ -262,7 +258,7 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
     Ok(Source::File {
         path,
         channel: table.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
-        unit: table.get("unit").map(|entry| entry.positive(Dimension::Length)).transpose()?,
+        unit: table.get("unit").map(|entry| entry.unit(Dimension::Length)).transpose()?,
     })
 }
 

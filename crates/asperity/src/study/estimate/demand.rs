@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::material::{Compliances, composite_hardness};
+use crate::material::Compliances;
 use crate::motion::{Control, PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Coupling, Friction, Method, Sliding};
@@ -160,16 +160,10 @@ impl Sizes<'_> {
             solver += plan.memory();
         }
         let motion = case.motion(nx * ny * self.lower.cell_area());
-        let hardness = composite_hardness(&case.lower.material, &case.upper.material);
+        let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
         let together = motion
             .and_then(|motion| {
-                memory_together(
-                    &motion,
-                    case.contact.method,
-                    hardness.is_finite(),
-                    self.overlaps,
-                    self.lower.shape[1],
-                )
+                memory_together(&motion, case.contact.method, yields, self.overlaps, self.lower.shape[1])
             })
             .unwrap_or(0.0);
         // Each field as it is, and as it is written; the solution.

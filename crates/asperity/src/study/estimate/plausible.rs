@@ -2,7 +2,7 @@
 
 use super::Estimate;
 use crate::grid::Grid;
-use crate::study::case::{Case, Source};
+use crate::study::case::{Body, Case, Hardness, Source};
 use crate::units::{self, Dimension, Metre, Pascal};
 
 /// Softer than any rubber.
@@ -58,7 +58,11 @@ fn wide(case: &Case, grid: &Grid) -> String {
 }
 
 fn hard(case: &Case, estimate: &Estimate) -> String {
-    let body = softer(case.lower.material.hardness, case.upper.material.hardness);
+    let bears = |body: &Body| match body.hardness {
+        Hardness::Uniform(value) => value,
+        Hardness::Map(_) => 0.0,
+    };
+    let body = softer(bears(&case.lower), bears(&case.upper));
     let pressure = |value| units::format(value, Dimension::Pressure);
     format!(
         "`hardness = {}` of the {body} body is above a tenth of E*, {}, and hardly any solid is so hard: check the \

@@ -295,6 +295,11 @@ pub fn pressure_name(step: usize) -> String {
     format!("pressure_{step:05}")
 }
 
+/// Name of the field of what the cells of a position bear, which is counted from 1; there where they differ.
+pub fn cap_name(step: usize) -> String {
+    format!("cap_{step:05}")
+}
+
 /// Name of the shear traction along x of a position, which is counted from 1.
 pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")

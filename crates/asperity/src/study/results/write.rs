@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::entry::{self, Existing, Kept, Lock};
-use super::{BODIES, Results, pressure_name, state_name, states_attribute, traction_name};
+use super::{BODIES, Results, cap_name, pressure_name, state_name, states_attribute, traction_name};
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
@@ -112,9 +112,6 @@ impl Writer {
         }
         if let Some(solution) = contact.solution.frictional() {
             add("stick", "1", &solution.stick);
-            if let CellValues::Field(cap) = solution.normal.bounds.upper() {
-                add("cap", "Pa", cap);
-            }
         }
         file.write(&self.results.static_path())
     }
@@ -230,6 +227,10 @@ impl Output for PassWriter<'_> {
                 let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
                 let grid = pair.grid(contact.position.columns);
                 file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                let friction = report.sliding.as_ref().map(|sliding| &sliding.friction);
+                if let CellValues::Field(cap) = pair.bounds(&contact.position, friction).upper() {
+                    file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
+                }
                 if let Some(sliding) = report.sliding {
                     let traction = pressure.mapv(|p| sliding.shear(p)[0]);
                     file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
@@ -273,6 +274,9 @@ fn static_fields(mut file: FieldFile, pair: &Pair, solution: &Solution, plastic:
     ] {
         file.add_field(name, unit, &grid, [0.0, 0.0], field);
     }
+    if let CellValues::Field(cap) = solution.bounds.upper() {
+        file.add_field("cap", "Pa", &grid, [0.0, 0.0], cap);
+    }
     file
 }
 
@@ -293,6 +297,9 @@ fn add_bodies(file: &mut FieldFile, pair: &Pair) {
     let grids = [pair.lower_grid(), pair.upper_grid()];
     for ((name, body), grid) in BODIES.into_iter().zip([&pair.lower, &pair.upper]).zip(grids) {
         file.add_field(name, "m", &grid, [0.0, 0.0], &body.heights);
+        if let CellValues::Field(hardness) = &body.hardness {
+            file.add_field(&state_name("hardness", name), "Pa", &grid, [0.0, 0.0], hardness);
+        }
         for (state, State { unit, values }) in &body.state {
             file.add_field(&state_name(state, name), unit, &grid, [0.0, 0.0], values);
         }

@@ -1,0 +1,73 @@
+//! What a body bears: one pressure, or a map of its cells.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+
+use super::Number;
+use super::cursor::Table;
+use crate::error::Result;
+use crate::units::{Dimension, Pascal};
+
+/// Hardness of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hardness {
+    /// The same in every cell, > 0; infinite for an elastic body.
+    Uniform(Pascal),
+    /// A value for each cell of the body as it is prepared.
+    Map(HardnessMap),
+}
+
+/// A hardness that is read from a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HardnessMap {
+    /// The file.
+    #[serde(rename = "file")]
+    pub path: PathBuf,
+    /// Its channel; the first one if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channel: Option<String>,
+    /// What a 1 in the file stands for, > 0.
+    pub unit: Pascal,
+}
+
+impl Hardness {
+    /// Whether any cell can yield.
+    pub fn yields(&self) -> bool {
+        match self {
+            Self::Uniform(value) => value.is_finite(),
+            Self::Map(_) => true,
+        }
+    }
+}
+
+impl Serialize for Hardness {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Uniform(value) => Number::from(*value).serialize(serializer),
+            Self::Map(map) => map.serialize(serializer),
+        }
+    }
+}
+
+/// The hardness in the table of a body.
+pub(super) fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
+    let Some(entry) = table.get("hardness") else { return Ok(Hardness::Uniform(Pascal::INFINITY)) };
+    if !entry.is_table() {
+        let value =
+            entry.positive_or_infinite(Dimension::Pressure, "an elastic body, as is leaving it out")?;
+        return Ok(Hardness::Uniform(value));
+    }
+    let map = entry.table()?;
+    map.known(&["file", "channel", "unit"], |_| None)?;
+    let name = map.required("file", "\"hardness.npy\"")?;
+    let path = match name.text()? {
+        "" => return Err(name.unexpected("the name of a file", None)),
+        path => folder.join(path),
+    };
+    Ok(Hardness::Map(HardnessMap {
+        path,
+        channel: map.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
+        unit: map.get("unit").map(|entry| entry.unit(Dimension::Pressure)).transpose()?.unwrap_or(1.0),
+    }))
+}
