@@ -29,7 +29,7 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
     let rows = [
         ("lower", body(&bodies.lower)),
         ("upper", body(&bodies.upper)),
-        ("pair", pair(estimate)),
+        ("pair", pair(case, estimate)),
         ("contact", contact(case, estimate)),
         ("motion", motion(case, estimate)),
         ("memory", memory(demand)),
@@ -87,9 +87,10 @@ fn body(body: &Prepared) -> String {
     text
 }
 
-fn pair(estimate: &Estimate) -> String {
+fn pair(case: &Case, estimate: &Estimate) -> String {
     let pressure = |value| units::format(value, Dimension::Pressure);
-    let modulus = format!("E* {}", pressure(estimate.modulus));
+    let coated = if case.is_coated() { " without the coating" } else { "" };
+    let modulus = format!("E* {}{coated}", pressure(estimate.modulus));
     if estimate.hardness.is_infinite() {
         return format!("{modulus}, elastic");
     }

@@ -1,7 +1,7 @@
 //! Elastic constants of the bodies and of the pair.
 
 use crate::error::{Error, Result, check, check_in};
-use crate::units::{Dimension, Pascal};
+use crate::units::{Dimension, Metre, Pascal};
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +12,45 @@ pub struct Material {
     pub poisson: f64,
     /// Hardness, > 0: the largest pressure that the body bears; infinite for an elastic body.
     pub hardness: Pascal,
+    /// What covers the body, if anything does; the constants above are those of the body under it, but for the hardness,
+    /// which caps the pressure whatever it is that yields.
+    pub coating: Option<Coating>,
+}
+
+/// An elastic, isotropic layer of even thickness that is bonded to a body.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Coating {
+    /// Thickness, > 0, finite.
+    pub thickness: Metre,
+    /// Young's modulus, > 0, finite.
+    pub young: Pascal,
+    /// Poisson's ratio, 0 ≤ ν ≤ 0.5.
+    pub poisson: f64,
+}
+
+impl Coating {
+    /// A layer of these constants.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a constant has no physical meaning.
+    pub fn new(thickness: Metre, young: Pascal, poisson: f64) -> Result<Self> {
+        check_in(
+            Dimension::Length,
+            "thickness",
+            thickness,
+            thickness > 0.0 && thickness.is_finite(),
+            "a finite thickness above 0",
+        )?;
+        check_in(
+            Dimension::Pressure,
+            "young",
+            young,
+            young > 0.0 && young.is_finite(),
+            "a finite modulus above 0: a rigid coating leaves nothing to deform",
+        )?;
+        check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
+        Ok(Self { thickness, young, poisson })
+    }
 }
 
 impl Material {
@@ -37,11 +76,21 @@ impl Material {
         )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
         check_in(Dimension::Pressure, "hardness", hardness, hardness > 0.0, "a hardness above 0")?;
-        Ok(Self { young, poisson, hardness })
+        Ok(Self { young, poisson, hardness, coating: None })
+    }
+
+    /// A body of this material under a `coating`.
+    pub fn coated(self, coating: Coating) -> Self {
+        Self { coating: Some(coating), ..self }
+    }
+
+    /// Modulus of plane strain E/(1 − ν²), without the coating.
+    pub fn plane_strain_modulus(&self) -> Pascal {
+        self.young / (1.0 - self.poisson * self.poisson)
     }
 }
 
-/// What the elastic constants of a pair of half-spaces come to: compliances, 1/Pa.
+/// What the elastic constants of a pair of half-spaces come to, their coatings left aside: compliances, 1/Pa.
 ///
 /// ```text
 /// 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂                                normal
@@ -53,7 +102,7 @@ impl Material {
 /// negative where the lower body is the stiffer. Johnson (1985), ch. 3 and 5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compliances {
-    /// 1/E* > 0.
+    /// 1/E* > 0; 0 of rigid bodies of which one is coated.
     pub normal: f64,
     /// 1/N* ≥ 0.
     pub lateral: f64,
@@ -65,7 +114,7 @@ impl Compliances {
     /// The compliances of a pair of bodies.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if both bodies are rigid.
+    /// [`Error::OutOfRange`] if both bodies are rigid, and neither is coated.
     pub fn new(lower: &Material, upper: &Material) -> Result<Self> {
         let of = |m: &Material| {
             let (e, nu) = (m.young, m.poisson);
@@ -74,7 +123,7 @@ impl Compliances {
         let (one, other) = (of(lower), of(upper));
         let this =
             Self { normal: one[0] + other[0], lateral: one[1] + other[1], coupling: one[2] - other[2] };
-        if this.normal > 0.0 {
+        if this.normal > 0.0 || lower.coating.is_some() || upper.coating.is_some() {
             Ok(this)
         } else {
             Err(Error::OutOfRange {
@@ -91,9 +140,9 @@ impl Compliances {
         1.0 / self.normal
     }
 
-    /// Dundurs' β = E*/G*, from −1/2 to 1/2; positive where the lower body is the softer.
+    /// Dundurs' β = E*/G*, from −1/2 to 1/2; positive where the lower body is the softer. 0 where nothing deforms.
     pub fn dundurs(&self) -> f64 {
-        self.coupling / self.normal
+        if self.normal == 0.0 { 0.0 } else { self.coupling / self.normal }
     }
 
     /// The compliances of the same bodies, if normal tractions did nothing tangentially, nor tangential ones normally.
@@ -105,7 +154,7 @@ impl Compliances {
 /// Composite modulus E* of a pair, see [`Compliances`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if both bodies are rigid.
+/// [`Error::OutOfRange`] if both bodies are rigid, and neither is coated.
 pub fn composite_modulus(lower: &Material, upper: &Material) -> Result<Pascal> {
     Compliances::new(lower, upper).map(|pair| pair.modulus())
 }

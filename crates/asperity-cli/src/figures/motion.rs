@@ -1,17 +1,16 @@
 //! Figures of a motion: what it did to the bodies, its pressures, its course.
 
 use asperity::io::fields::Fields;
-use asperity::material::Compliances;
+use asperity::kernel::response;
 use asperity::motion::{PassRecord, StepRecord};
-use asperity::operator::{Boundary, Edge, Operators};
+use asperity::operator::Operators;
 use asperity::study::{Results, cap_name, pressure_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
-use asperity::{Choice, Field, Grid};
-use serde_json::Value;
+use asperity::{Field, Grid};
 
 use super::pressure;
-use super::profile::{Facing, Profile, materials};
+use super::profile::{Facing, Profile, boundary, materials};
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
@@ -188,25 +187,17 @@ fn pressures(
     Ok(())
 }
 
-/// The boundary as `case.json` has it: a word for both axes, or one for each.
-fn boundary(words: &Value) -> Option<Boundary> {
-    let edge = |word: &Value| Edge::of_word(word.as_str()?);
-    match words.as_array().map(Vec::as_slice) {
-        Some([x, y]) => Some(Boundary([edge(x)?, edge(y)?])),
-        _ => Some(Boundary([edge(words)?; 2])),
-    }
-}
-
 /// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
 /// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
 fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
     let case = results.case()?;
     let [lower, upper] = materials(&case)?;
-    let compliances = Compliances::new(&lower, &upper)?;
+    let bodies = response(&lower, &upper)?;
+    let couples = bodies.coupled().is_some_and(|bodies| bodies.couples());
     // Without end where it is a word.
     let yields = |body: &str| !case[body]["hardness"].is_string();
     let step_by_step = case["motion"]["plastic_update"] == "step" && (yields("lower") || yields("upper"));
-    if step_by_step || (!case["friction"].is_null() && compliances.coupling != 0.0) {
+    if step_by_step || (!case["friction"].is_null() && couples) {
         return Ok(None);
     }
     let [below, above] = results.surfaces_after(step.pass - 1)?;
@@ -215,7 +206,7 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     let columns = below.heights().nrows().min(above.heights().nrows());
     let largest = Grid { shape: [columns, shape[1]], ..pressure.grid };
     let mut displacement = Field::zeros(shape);
-    Operators::new(largest, compliances, boundary).on(shape).apply(&pressure.field, &mut displacement);
+    Operators::new(largest, bodies, boundary).on(shape).apply(&pressure.field, &mut displacement);
     let offset = (step.offset / pressure.grid.pitch[0]).round() as isize;
     let facing = |body: &Topography, first: isize| {
         let columns = body.heights().nrows() as isize;

@@ -1,7 +1,9 @@
 //! A section along x through the most loaded spot: both bodies as they are pressed together, the gap, the pressure.
 
-use asperity::Field;
-use asperity::material::{Compliances, Material, plastic_share};
+use asperity::kernel::response;
+use asperity::material::{Coating, Compliances, Material, plastic_share};
+use asperity::operator::{Boundary, Edge, Operators};
+use asperity::{Choice, Field, Grid};
 use serde_json::Value;
 
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
@@ -58,21 +60,22 @@ impl Profile {
             return Ok(None);
         }
         let [lower, upper] = materials(case)?;
-        let [elastic, plastic] =
-            [elastic_share(&lower, &upper)?, plastic_share(lower.hardness, upper.hardness)];
+        let plastic = plastic_share(lower.hardness, upper.hardness);
+        let sunk = sunk(facing, case, &lower, &upper)?;
         let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
             let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
             shown.clone().map(|i| [x(i), value(i)]).collect()
         };
         let (u, w) = (|i: usize| facing.displacement[[i, iy]], |i: usize| facing.plastic[[i, iy]]);
+        let sunk = |i: usize| sunk[[i, iy]];
         let below = |i: usize| facing.lower[[i, iy]];
         let above = |i: usize| facing.upper[[i, iy]] - facing.approach;
         Ok(Some(Self {
             y: (iy as f64 + 0.5) * facing.pitch[1],
             undeformed: [along(&below), along(&above)],
             deformed: [
-                along(&|i| below(i) - elastic * u(i) - plastic * w(i)),
-                along(&|i| above(i) + (1.0 - elastic) * u(i) + (1.0 - plastic) * w(i)),
+                along(&|i| below(i) - sunk(i) - plastic * w(i)),
+                along(&|i| above(i) + u(i) - sunk(i) + (1.0 - plastic) * w(i)),
             ],
             gap: along(&|i| above(i) - below(i) + u(i) + w(i)),
             pressure: along(&|i| row[i]),
@@ -127,16 +130,41 @@ pub(super) fn materials(case: &Value) -> Outcome<[Material; 2]> {
     let body = |name: &str| -> Outcome<Material> {
         // What JSON cannot hold, or what is not there, is infinite.
         let number = |key: &str| case[name][key].as_f64().unwrap_or(f64::INFINITY);
-        Ok(Material::new(number("young"), case[name]["poisson"].as_f64().unwrap_or(0.0), number("hardness"))?)
+        let constants = &case[name]["coating"];
+        let of = |key: &str| constants[key].as_f64().unwrap_or(f64::NAN);
+        let coating = match constants.is_null() {
+            true => None,
+            false => Some(Coating::new(of("thickness"), of("young"), of("poisson"))?),
+        };
+        let poisson = case[name]["poisson"].as_f64().unwrap_or(0.0);
+        Ok(Material { coating, ..Material::new(number("young"), poisson, number("hardness"))? })
     };
     Ok([body("lower")?, body("upper")?])
 }
 
-/// The part of the elastic displacement that is the lower body's.
-fn elastic_share(lower: &Material, upper: &Material) -> Outcome<f64> {
-    if lower.young.is_infinite() {
-        return Ok(0.0);
+/// The boundary as `case.json` has it: a word for both axes, or one for each.
+pub(super) fn boundary(words: &Value) -> Option<Boundary> {
+    let edge = |word: &Value| Edge::of_word(word.as_str()?);
+    match words.as_array().map(Vec::as_slice) {
+        Some([x, y]) => Some(Boundary([edge(x)?, edge(y)?])),
+        _ => Some(Boundary([edge(words)?; 2])),
     }
+}
+
+/// The part of the elastic displacement that is the lower body's, positive downwards.
+fn sunk(facing: &Facing, case: &Value, lower: &Material, upper: &Material) -> Outcome<Field> {
     let rigid = Material::elastic(f64::INFINITY, 0.0)?;
-    Ok(Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal)
+    if lower.young.is_infinite() && lower.coating.is_none() {
+        return Ok(Field::zeros(facing.pressure.raw_dim()));
+    }
+    if lower.coating.is_none() && upper.coating.is_none() {
+        let share = Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal;
+        return Ok(share * facing.displacement);
+    }
+    // Of a coated pair the share depends on the wavelength.
+    let boundary = boundary(&case["contact"]["boundary"]).unwrap_or_default();
+    let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
+    let mut sunk = grid.zeros();
+    Operators::new(grid, response(lower, &rigid)?, boundary).on(grid.shape).apply(facing.pressure, &mut sunk);
+    Ok(sunk)
 }

@@ -13,13 +13,24 @@ const FAR: f64 = 20.0;
 /// At distance r the four terms cancel to about 2 log₁₀(r/a) digits, so that beyond r = 20 max(a, b) the integral is
 /// taken by 4 × 4 Gauss points instead, whose error is less than (a/r)⁸/100 of the largest that k takes at r.
 pub(super) fn integral(
+    at: [f64; 2],
+    half: [f64; 2],
+    closed: impl Fn(f64, f64) -> f64,
+    k: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    integral_below(at, 0.0, half, closed, k)
+}
+
+/// As [`integral`], of what is smooth on the scale of the distance from a point at this `depth` below.
+pub(super) fn integral_below(
     [x, y]: [f64; 2],
+    depth: f64,
     half: [f64; 2],
     closed: impl Fn(f64, f64) -> f64,
     k: impl Fn(f64, f64) -> f64,
 ) -> f64 {
     let [a, b] = half;
-    if x.hypot(y) > FAR * a.max(b) {
+    if x.hypot(y).hypot(depth) > FAR * a.max(b) {
         by_quadrature([x, y], half, k)
     } else {
         by_corners([x, y], half, closed)

@@ -1,16 +1,20 @@
 //! Influence coefficients: what a unit traction on one cell does to another.
 
 mod cell;
+mod coated;
 pub mod coupled;
 mod half_spaces;
+mod layering;
 pub mod line;
 pub mod normal;
 mod response;
 pub mod spectral;
 pub mod subsurface;
 
+pub use coated::{CoatedHalfSpace, response};
 pub use coupled::{Coefficients, CoupledTable, coupled_displacement, coupled_matrix};
 pub use half_spaces::HalfSpaces;
+pub use layering::Layering;
 pub use line::Line;
 pub use normal::{influence_matrix, influence_table, normal_displacement};
 pub use response::{CoupledResponse, Influence, Response, SharedResponse};

@@ -13,5 +13,5 @@ pub(crate) use convolution::{Convolution, Kernel};
 pub(crate) use fft::RealFft2;
 pub(crate) use good_size::good_size;
 pub(crate) use mixed::{MixedConvolution, MixedKernel};
-pub(crate) use quadrature::integrate;
+pub(crate) use quadrature::{gauss_legendre, integrate};
 pub(crate) use tensor_convolution::{TensorConvolution, TensorKernel};

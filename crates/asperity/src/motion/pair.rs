@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
-use crate::kernel::SharedResponse;
+use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
 use crate::motion::body::Body;
 use crate::motion::path::Position;
@@ -30,7 +30,7 @@ impl Pair {
     ///
     /// # Errors
     /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] where heights are
-    /// missing, [`Error::OutOfRange`] if both materials are rigid.
+    /// missing, [`Error::OutOfRange`] if both materials are rigid and neither is coated.
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
@@ -59,7 +59,7 @@ impl Pair {
             lower: Body::new(lower.into_heights(), materials[0].hardness),
             upper: Body::new(upper.into_heights(), materials[1].hardness),
             compliances,
-            response: compliances.into(),
+            response: response(materials[0], materials[1])?,
             share: None,
         })
     }
@@ -96,12 +96,12 @@ impl Pair {
         self.pitch
     }
 
-    /// Composite modulus E*.
+    /// Composite modulus E* of the bodies without their coatings.
     pub fn modulus(&self) -> Pascal {
         self.compliances.modulus()
     }
 
-    /// The elastic constants of the pair.
+    /// The elastic constants of the pair without the coatings.
     pub fn compliances(&self) -> &Compliances {
         &self.compliances
     }

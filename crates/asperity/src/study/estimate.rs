@@ -23,7 +23,7 @@ use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Composite modulus E* of the pair.
+    /// Composite modulus E* of the pair without its coatings, infinite where both bodies are rigid.
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
@@ -243,6 +243,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
     {
         coarse(name, body, &mut warnings);
+        warnings.extend(thin(name, case, body.topography.grid().pitch));
         if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
             tilted(name, body, &mut warnings);
         }
@@ -266,7 +267,10 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         let TopographySpec { source, plus, .. } = &body.topography;
         matches!(source, Source::Form { .. }) || plus.iter().any(|layer| matches!(layer, Layer::Form { .. }))
     };
-    if pressure > estimate.hardness && ![&case.lower, &case.upper].into_iter().any(is_form) {
+    if pressure > estimate.hardness
+        && !case.is_coated()
+        && ![&case.lower, &case.upper].into_iter().any(is_form)
+    {
         warnings.push(format!(
             "most of the contact will be plastic: slopes of {:.4} call for pressures of {}, the hardness is {}: \
              the hardness, not elasticity, will make the answer",
@@ -301,6 +305,22 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     warnings
 }
 
+/// A coating that the cells do not resolve.
+fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
+    let body = if name == "lower" { &case.lower } else { &case.upper };
+    let thickness = body.material.coating?.thickness;
+    let cell = pitch[0].max(pitch[1]);
+    let length = |value| units::format(value, Dimension::Length);
+    (thickness < cell).then(|| {
+        format!(
+            "the coating of the {name} body is thinner, {}, than a cell, {}: what it does to the mean displacement of a cell \
+             is right, how the pressure varies over its thickness is not seen; take a smaller `pitch` for that",
+            length(thickness),
+            length(cell)
+        )
+    })
+}
+
 /// What can be told of the contacts: that there is none, that the rim of the grid cuts them off, that they have too few
 /// cells.
 fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) {
@@ -323,6 +343,10 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
     };
     let gap = initial_gap(surfaces, position);
     let pitch = bodies.lower.topography.grid().pitch;
+    if case.is_coated() {
+        // Hertz knows no layers.
+        return;
+    }
     let foreseen = contact::foreseen(&gap, pitch, estimate.modulus, case.contact.boundary, control);
     // Of a motion and of a sweep only tables are left, which do not tell where in a contact the pressure is.
     let tabled = case.motion.is_some() || case.is_swept();
@@ -338,7 +362,7 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
     /// Dundurs' β from which on the coupling changes pressures and stick by more than some per cent.
     const UNLIKE: f64 = 0.1;
     let beta = estimate.dundurs;
-    if friction.coupling != Coupling::Full && beta.abs() > UNLIKE {
+    if friction.coupling != Coupling::Full && beta.abs() > UNLIKE && !case.is_coated() {
         warnings.push(format!(
             "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
         ));

@@ -18,6 +18,7 @@
 //! Shear and tangential displacement, and what sticks, do as pressure, approach and contact do. Increments in which the
 //! contact grows, and steps of rolling, are of order 1.
 
+mod coated;
 mod dissimilar;
 mod operators;
 mod partial_slip;
@@ -124,6 +125,11 @@ pub const CASES: &[Case] = &[
     sinusoid::HALF,
     sinusoid::THREE_QUARTERS,
     sinusoid::FULL,
+    coated::HARMONICS,
+    coated::FREE_AND_PERIODIC,
+    coated::THICK,
+    coated::FOUNDATION,
+    coated::INCOMPRESSIBLE,
     rough::PLASTIC_LIMIT,
     rough::WORK,
     rough::METHODS,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Grid;
+use asperity::material::Coating;
 use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity::study;
@@ -16,6 +17,20 @@ use asperity::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
     Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
 };
+
+#[test]
+fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none() {
+    let case = load("coated");
+    let [lower, upper] = [case.lower.material.coating, case.upper.material.coating];
+    assert_eq!(lower, Some(Coating::new(2e-6, 300e9, 0.25).unwrap()));
+    assert_eq!(upper, Some(Coating::new(0.5e-6, 3e9, 0.5).unwrap()));
+    assert!(case.is_coated() && case.lower.material.hardness == 6e9);
+    let written = serde_json::to_value(&case).unwrap();
+    assert_eq!(written["lower"]["coating"]["thickness"], 2e-6);
+    let plain = load("smallest");
+    assert!(!plain.is_coated());
+    assert!(serde_json::to_value(&plain).unwrap()["lower"].get("coating").is_none());
+}
 
 #[test]
 fn the_case_of_the_contract_is_read_in_si() {

@@ -18,6 +18,7 @@ mod motion;
 mod moving_surfaces;
 mod random_motions;
 mod real_surface;
+mod response;
 mod sliding;
 mod solver;
 mod subsurface;

@@ -3,7 +3,7 @@
 //! `CASES=1000 cargo test -p asperity --test it random_motions` tries so many, from the seed `SEED`.
 
 use asperity::error::LoadLimit;
-use asperity::material::Material;
+use asperity::material::{Coating, Material};
 use asperity::motion::{
     Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation, StepRecord,
     Strategy,
@@ -52,6 +52,7 @@ struct Case {
     hardness: [f64; 2],
     /// Whether the hardness differs from cell to cell.
     maps: bool,
+    coatings: [Option<Coating>; 2],
     columns: [usize; 2],
     width: usize,
     sq: f64,
@@ -110,8 +111,36 @@ impl Case {
         };
         let method = [Method::Auto, Method::ActiveSet, Method::Direct, Method::PolonskyKeer][pick(rng, 4)];
         let tolerance = [1e-6, 1e-8, 1e-3][pick(rng, 3)];
-        let seed = rng.random();
-        Self { boundary, motion, method, tolerance, young, hardness, maps, columns, width, sq, seed }
+        let seed: u64 = rng.random();
+        // Lines of contact and coupled friction are those of bodies without a coating.
+        let coated = boundary.repeats(0) == boundary.repeats(1) && pick(rng, 3) == 0;
+        let mut coating = || {
+            let thickness = PITCH * 10f64.powf(rng.random_range(-1.5..1.0));
+            let young = 100e9 * 10f64.powf(rng.random_range(-2.0..2.0));
+            Coating::new(thickness, young, [0.0, 0.3, 0.5][pick(rng, 3)]).unwrap()
+        };
+        let coatings = match coated {
+            true => {
+                motion.friction = None;
+                [[true, false], [false, true], [true, true]][seed as usize % 3]
+                    .map(|is| is.then(&mut coating))
+            }
+            false => [None; 2],
+        };
+        Self {
+            boundary,
+            motion,
+            method,
+            tolerance,
+            young,
+            hardness,
+            maps,
+            coatings,
+            columns,
+            width,
+            sq,
+            seed,
+        }
     }
 
     fn params(&self) -> Params {
@@ -124,7 +153,10 @@ impl Case {
             let amplitude = Amplitude::Sq(self.sq);
             SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude }.generate(&grid, seed).unwrap()
         };
-        let [a, b] = [0, 1].map(|k| Material::new(self.young[k], 0.3, self.hardness[k]).unwrap());
+        let [a, b] = [0, 1].map(|k| Material {
+            coating: self.coatings[k],
+            ..Material::new(self.young[k], 0.3, self.hardness[k]).unwrap()
+        });
         let seed = self.seed % 1_000_000;
         let pair = Pair::new(surface(self.columns[0], seed), surface(self.columns[1], seed + 1), [&a, &b]);
         if !self.maps {
@@ -230,7 +262,7 @@ fn hold(
     }
     let operators = Operators::new(
         before.grid(case.columns[0].min(case.columns[1])),
-        *before.compliances(),
+        before.response().clone(),
         case.boundary,
     );
     let positions = case.motion.strategy.positions(case.columns[0], case.columns[1], case.motion.stride);

@@ -19,6 +19,20 @@ const MODULUS: f64 = 210e9 / (2.0 * (1.0 - 0.09));
 const RADIUS: f64 = 1e-3;
 const PITCH: f64 = 0.5e-6;
 
+// ---- coatings --------------------------------------------------------------------------------------------
+
+#[test]
+fn a_coating_thinner_than_a_cell_is_told_of_and_hertz_says_nothing_of_a_coated_body() {
+    const THIN: &str = "[lower.coating]\nthickness = 0.4e-6\nyoung = \"3 GPa\"\npoisson = 0.3\n";
+    const THICK: &str = "[upper.coating]\nthickness = 5e-6\nyoung = \"3 GPa\"\npoisson = 0.3\n";
+    let warnings = |motion| Static { form: sphere(), load: 1.0, motion, ..Static::default() }.check();
+    let said = "the coating of the lower body is thinner, 0.4 µm, than a cell, 0.5 µm";
+    assert!(warnings(THIN).iter().any(|warning| warning.starts_with(said)), "{:?}", warnings(THIN));
+    // By Hertz a body without the coating is cut off by the rim.
+    assert!(warnings("").iter().any(|warning| warning.contains("by Hertz")));
+    assert_eq!(warnings(THICK), Vec::<String>::new());
+}
+
 // ---- the rim of the grid ---------------------------------------------------------------------------------
 
 #[test]

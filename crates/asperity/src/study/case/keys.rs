@@ -5,9 +5,11 @@ use super::document::join;
 use crate::error::Result;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 7] = [
-    ("lower", &["young", "poisson", "hardness", "topography"]),
-    ("upper", &["young", "poisson", "hardness", "topography", "mount"]),
+const TABLES: [(&str, &[&str]); 9] = [
+    ("lower", &["young", "poisson", "hardness", "coating", "topography"]),
+    ("upper", &["young", "poisson", "hardness", "coating", "topography", "mount"]),
+    ("lower.coating", &["thickness", "young", "poisson"]),
+    ("upper.coating", &["thickness", "young", "poisson"]),
     (
         "contact",
         &[

@@ -29,7 +29,7 @@ pub use self::sweep::Sweep;
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
-use crate::material::Material;
+use crate::material::{Coating, Material};
 use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
 pub use crate::operator::{Boundary, Edge};
 use crate::solver;
@@ -197,6 +197,11 @@ pub struct Output {
 const MOST_BYTES: u64 = 4 << 20;
 
 impl Case {
+    /// Whether a body is coated.
+    pub fn is_coated(&self) -> bool {
+        [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
+    }
+
     /// Reads a case file; the files it names are looked for in its folder.
     ///
     /// # Errors
@@ -286,9 +291,11 @@ fn with_infinities<S: Serializer>(
     struct Keys {
         young: Number,
         poisson: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        coating: Option<Coating>,
     }
-    let Material { young, poisson, .. } = *material;
-    Keys { young: young.into(), poisson }.serialize(serializer)
+    let Material { young, poisson, coating, .. } = *material;
+    Keys { young: young.into(), poisson, coating }.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

@@ -16,8 +16,9 @@ use super::{
 };
 use crate::error::Result;
 use crate::grid::MOST_CELLS;
-use crate::material::{self, Material};
+use crate::material::{self, Coating, Material};
 use crate::motion::{PlasticUpdate, Strategy};
+use crate::solver::Coupling;
 use crate::surface::UNDERSIDE;
 use crate::surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
@@ -45,7 +46,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let upper = body(&upper_table, folder)?;
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     if material::composite_modulus(&lower.material, &upper.material).is_err() {
-        let hint = "give one of them a finite 'young'";
+        let hint = "give one of them a finite 'young' or a coating";
         return Err(upper_table
             .required("young", "\"210 GPa\"")?
             .error("both bodies are rigid".to_owned(), Some(hint.to_owned())));
@@ -83,8 +84,48 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         let hint = "leave [subsurface] out, or use \"free\" or \"periodic\"".to_owned();
         return Err(entry.error(message.to_owned(), Some(hint)));
     }
+    if [&lower, &upper].iter().any(|body| body.material.coating.is_some()) {
+        pressed_alone(&root, &contact, friction.as_ref(), motion.is_some())?;
+    }
     let output = output(root.table("output")?.as_ref())?;
     Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
+}
+
+/// What a coated body answers to is a pressure, on a surface that is free or periodic: an error where more is asked for.
+fn pressed_alone(
+    root: &Table<'_>,
+    contact: &Contact,
+    friction: Option<&FrictionSpec>,
+    moves: bool,
+) -> Result<()> {
+    if let (Some(table), Some(friction)) = (root.table("friction")?, friction)
+        && (!moves || friction.law.coupling != Coupling::None)
+    {
+        let message = "what shear does to a coated body is not known yet".to_owned();
+        let hint = match moves {
+            true => "set `coupling = \"none\"`, or leave the coating out",
+            false => "leave [friction] or the coating out",
+        };
+        let hint = Some(hint.to_owned());
+        return Err(match table.get("coupling").filter(|_| moves) {
+            Some(entry) => entry.error(message, hint),
+            None => table.error(message, hint),
+        });
+    }
+    if let Some(entry) = root.required_table("contact")?.get("boundary")
+        && contact.boundary.repeats(0) != contact.boundary.repeats(1)
+    {
+        let message = "a coated body has no boundary that is periodic along one axis alone yet".to_owned();
+        let hint = "use \"free\" or \"periodic\", or leave the coating out".to_owned();
+        return Err(entry.error(message, Some(hint)));
+    }
+    match root.table("subsurface")? {
+        None => Ok(()),
+        Some(table) => {
+            let hint = "leave [subsurface] or the coating out".to_owned();
+            Err(table.error("stresses under a coating are not known yet".to_owned(), Some(hint)))
+        }
+    }
 }
 
 /// An error if both bodies wait for each other's shape or pitch.
@@ -163,10 +204,9 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     known_in(table)?;
     let young =
         table.required("young", "\"210 GPa\"")?.positive_or_infinite(Dimension::Pressure, "a rigid body")?;
-    let poisson = table
-        .required("poisson", "0.3")?
-        .number(|value| (0.0..=0.5).contains(&value), "a number from 0 to 0.5")?;
+    let poisson = poisson(table)?;
     let hardness = hardness(table, folder)?;
+    let coating = table.table("coating")?.map(|table| coating(&table)).transpose()?;
     let topography = topography(&table.required_table("topography")?, folder)?;
     let mount = match table.get("mount") {
         Some(entry) => Some(entry.choice()?),
@@ -175,8 +215,19 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
         None => Some(Mount::AsIs),
     };
     // Checked above, entry by entry: this can find nothing new.
-    let material = Material::elastic(young, poisson)?;
+    let material = Material { coating, ..Material::elastic(young, poisson)? };
     Ok(Body { material, hardness, topography, mount })
+}
+
+fn poisson(table: &Table<'_>) -> Result<f64> {
+    table.required("poisson", "0.3")?.number(|value| (0.0..=0.5).contains(&value), "a number from 0 to 0.5")
+}
+
+fn coating(table: &Table<'_>) -> Result<Coating> {
+    known_in(table)?;
+    let thickness = table.required("thickness", "\"2 um\"")?.positive(Dimension::Length)?;
+    let young = table.required("young", "\"300 GPa\"")?.positive(Dimension::Pressure)?;
+    Coating::new(thickness, young, poisson(table)?)
 }
 
 /// Whether a file of results would hold the underside of a body there.

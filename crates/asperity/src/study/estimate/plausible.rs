@@ -14,13 +14,13 @@ const HARD: f64 = 0.1;
 
 /// What is implausible about `case`, whose cells are those of `grid`.
 pub(super) fn implausible(case: &Case, grid: &Grid, estimate: &Estimate, warnings: &mut Vec<String>) {
-    if estimate.modulus < SOFT {
+    if estimate.modulus < SOFT && !case.is_coated() {
         warnings.push(soft(case, estimate));
     }
     if grid.pitch.iter().any(|pitch| *pitch > WIDE) {
         warnings.push(wide(case, grid));
     }
-    if estimate.hardness > HARD * estimate.modulus && estimate.hardness.is_finite() {
+    if estimate.hardness > HARD * estimate.modulus && !case.is_coated() && estimate.hardness.is_finite() {
         warnings.push(hard(case, estimate));
     }
 }

@@ -1,0 +1,169 @@
+//! Bodies under a coating.
+
+use std::f64::consts::PI;
+
+use super::smooth::{RADIUS, sphere_gap};
+use super::{Case, Check, Expected, largest, press, relative, study};
+use crate::error::Result;
+use crate::grid::{Field, Grid};
+use crate::kernel::{CoatedHalfSpace, Response};
+use crate::material::{Coating, Material};
+use crate::operator::{FreeFft, Operator, PeriodicFft};
+use crate::reference::HertzSphere;
+use crate::solver::Control;
+use crate::units::Pascal;
+
+const RIGID: Pascal = Pascal::INFINITY;
+
+fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> Result<CoatedHalfSpace> {
+    let coating = Coating::new(thickness, layer[0], layer[1])?;
+    Ok(CoatedHalfSpace::new(&Material::elastic(young, poisson)?, &coating))
+}
+
+/// A wave meets the layer where it is short, the body below where it is long, a foundation where that is rigid, and what flows
+/// between two planes where the layer cannot be compressed either.
+pub(super) const HARMONICS: Case = Case {
+    name: "Coated half-space: harmonics",
+    source: "O'Sullivan and King (1988); Johnson (1985), section 5.8",
+    checks: || {
+        let first = |finest| Expected::Order { order: 0.9..=1.1, finest };
+        let second = |finest| Expected::Order { order: 1.9..=2.1, finest };
+        let checks = [
+            ("no contrast", Expected::RoundOff(1e-14)),
+            ("short waves: layer", Expected::RoundOff(1e-14)),
+            ("long waves: body below", first(1e-2)),
+            ("long waves: foundation", second(1e-4)),
+            ("long waves: lubrication", second(1e-4)),
+        ];
+        study("1/qt", &[64, 128, 256], checks, |n| {
+            let [layer, base] = [[1.0, 0.3], [3.0, 0.2]];
+            let half_space =
+                |[young, poisson]: [f64; 2], q: f64| 2.0 * (1.0 - poisson * poisson) / (young * q);
+            let at =
+                |base, thickness, layer| Ok(coated(base, thickness, layer)?.harmonic_displacement(0.0, 1.0));
+            let thin = 1.0 / n as f64;
+            let [_, nu] = layer;
+            Ok([
+                relative(at(layer, thin, layer)?, half_space(layer, 1.0)),
+                relative(at(base, n as f64, layer)?, half_space(layer, 1.0)),
+                relative(at(base, thin, layer)?, half_space(base, 1.0)),
+                relative(at([RIGID, 0.0], thin, layer)?, thin * (1.0 + nu) * (1.0 - 2.0 * nu) / (1.0 - nu)),
+                relative(at([RIGID, 0.0], thin, [1.0, 0.5])?, thin.powi(3)),
+            ])
+        })
+    },
+};
+
+/// A smooth pressure without force or moment, which neither its images nor the mean disturb: its waves, which are exact, against
+/// the sum of its cells, over each of which the pressure is taken as uniform.
+pub(super) const FREE_AND_PERIODIC: Case = Case {
+    name: "Coated half-space: cells against harmonics",
+    source: "the Hankel transform",
+    checks: || {
+        const BODIES: [(&str, [f64; 2], f64, [f64; 2]); 4] = [
+            ("stiff layer", [1.0, 0.3], 1.0, [10.0, 0.2]),
+            ("soft layer", [10.0, 0.2], 1.0, [1.0, 0.4]),
+            ("thin layer", [3.0, 0.2], 0.01, [1.0, 0.3]),
+            ("incompressible on rigid", [RIGID, 0.0], 0.5, [1.0, 0.5]),
+        ];
+        let checks = BODIES.map(|(name, ..)| (name, Expected::Order { order: 1.75..=2.1, finest: 1e-3 }));
+        study("width/Δx", &[8, 16, 32], checks, |n| {
+            let grid = Grid::new([12 * n; 2], [1.0 / n as f64; 2])?;
+            let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+                let s = (grid.centre(0, i) - 6.0).powi(2) + (grid.centre(1, j) - 6.0).powi(2);
+                (1.0 - 2.0 * s + 0.5 * s * s) * (-s).exp()
+            });
+            let errors = BODIES.map(|(_, base, thickness, layer)| -> Result<f64> {
+                let body = coated(base, thickness, layer)?;
+                let (mut free, mut periodic) = (grid.zeros(), grid.zeros());
+                FreeFft::new(grid, body).apply(&pressure, &mut free);
+                PeriodicFft::new(grid, body).apply(&pressure, &mut periodic);
+                Ok(largest(&(&free - &periodic)) / largest(&periodic))
+            });
+            let [a, b, c, d] = errors;
+            Ok([a?, b?, c?, d?])
+        })
+    },
+};
+
+/// A layer that is thick against the contact: Hertz' contact of the layer, over a half-space that sinks as a whole by what
+/// contrast of the compliances there is, and bends by that times (a/t)³.
+pub(super) const THICK: Case = Case {
+    name: "Coated half-space: Hertz on a thick layer",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let checks = [
+            ("approach", Expected::Order { order: 0.9..=1.2, finest: 0.05 }),
+            ("peak pressure", Expected::Order { order: 2.5..=3.5, finest: 1e-3 }),
+        ];
+        study("t/a", &[2, 4, 8], checks, |n| {
+            let (layer, base) = ([3.0, 0.3], [9.0, 0.2]);
+            let modulus = layer[0] / (1.0 - layer[1] * layer[1]);
+            let hertz = HertzSphere { radius: RADIUS, modulus, load: 7.0 };
+            let a = hertz.contact_radius();
+            let grid = Grid::new([96; 2], [a / 32.0; 2])?;
+            let (gap, load) = (sphere_gap(&grid)?, Control::Load(hertz.load));
+            // Against the same on the same grid without contrast, which leaves the error of the grid out.
+            let solve = |base| -> Result<[f64; 2]> {
+                let body = coated(base, n as f64 * a, layer)?;
+                let solution = press(&mut FreeFft::new(grid, body), &gap, Pascal::INFINITY, load)?;
+                Ok([solution.approach, solution.max_pressure()])
+            };
+            let (found, same) = (solve(base)?, solve(layer)?);
+            Ok([relative(found[0], same[0]), relative(found[1], same[1])])
+        })
+    },
+};
+
+/// A compressible layer that is thin against the contact, on a rigid body: an elastic foundation of modulus
+/// E(1 − ν)/(1 + ν)(1 − 2ν), but for terms of order (qt)² in the harmonics and an edge as wide as the layer is thick.
+pub(super) const FOUNDATION: Case = Case {
+    name: "Coated half-space: thin layer on a rigid body",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let (young, poisson) = (1.0, 0.3);
+        let foundation = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        let checks = [
+            ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 1e-3 }),
+            ("approach", Expected::Order { order: 1.4..=2.2, finest: 1e-3 }),
+        ];
+        thin_layer(checks, [young, poisson], |thickness| {
+            let peak = foundation / (2.0 * RADIUS * thickness);
+            [0.5 * PI * peak, peak, 0.5 / RADIUS]
+        })
+    },
+};
+
+/// The same where it cannot be compressed either: it flows as between two planes, p = 3G(a² − r²)²/32Rt³.
+pub(super) const INCOMPRESSIBLE: Case = Case {
+    name: "Coated half-space: thin incompressible layer on a rigid body",
+    source: "Johnson (1985), section 5.8",
+    checks: || {
+        let young: f64 = 1.0;
+        let checks = [
+            ("peak pressure", Expected::Order { order: 1.5..=2.2, finest: 0.05 }),
+            ("approach", Expected::Order { order: 1.4..=2.2, finest: 0.05 }),
+        ];
+        thin_layer(checks, [young, 0.5], |thickness| {
+            let peak = young / (32.0 * RADIUS * thickness.powi(3));
+            [PI / 3.0 * peak, peak, 0.25 / RADIUS]
+        })
+    },
+};
+
+/// A sphere on a layer of thickness a/n on a rigid body, under the load at which the `limit` for t → 0 has the radius a = 1;
+/// it tells load, peak pressure and approach.
+fn thin_layer(
+    checks: [(&'static str, Expected); 2],
+    layer: [f64; 2],
+    limit: impl Fn(f64) -> [f64; 3],
+) -> Result<Vec<Check>> {
+    study("a/t", &[4, 8, 16], checks, |n| {
+        let thickness = 1.0 / n as f64;
+        let grid = Grid::new([10 * n; 2], [0.25 * thickness; 2])?;
+        let [load, peak, approach] = limit(thickness);
+        let mut operator = FreeFft::new(grid, coated([RIGID, 0.0], thickness, layer)?);
+        let solution = press(&mut operator, &sphere_gap(&grid)?, Pascal::INFINITY, Control::Load(load))?;
+        Ok([relative(solution.max_pressure(), peak), relative(solution.approach, approach)])
+    })
+}
