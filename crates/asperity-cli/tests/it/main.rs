@@ -1,6 +1,7 @@
 //! The command as its users meet it, as one program: a module for each subject.
 
 mod command;
+mod digests;
 mod documents;
 mod run;
 #[cfg(unix)]

@@ -1,0 +1,385 @@
+//! What the examples compute, as they stand and made small, against `digests/`: an answer that changed fails here.
+//!
+//! Of each series of numbers (a column of a table, a field, the fields of all positions together) the digest holds how many
+//! they are, their mean, their rms, their sum under weights that differ from place to place, and some of them.
+//! `ASPERITY_DIGESTS=write cargo test -p asperity-cli --test it digests` writes them anew.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use asperity::io::fields::Fields;
+use asperity::study::{self, Case, Existing};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// An example, changed.
+struct Variant {
+    name: &'static str,
+    example: &'static str,
+    /// What stands in the case file, and what stands there instead.
+    edits: &'static [(&'static str, &'static str)],
+    /// How far an answer may be from its digest, relative to the rms of its series.
+    tolerance: f64,
+    /// Ends of the names of what is not held.
+    except: &'static [&'static str],
+}
+
+const VARIANTS: [Variant; 13] = [
+    as_it_stands("quickstart"),
+    as_it_stands("hertz"),
+    as_it_stands("friction"),
+    as_it_stands("measured"),
+    as_it_stands("paper"),
+    Variant {
+        name: "hertz-small",
+        example: "hertz",
+        edits: &[
+            ("shape = [128, 128]", "shape = [27, 23]"),
+            ("0.5 um", "2 um"),
+            ("layers = 60", "layers = 6"),
+            ("tolerance = 1e-8", "method = \"direct\""),
+        ],
+        tolerance: 1e-10,
+        except: &[],
+    },
+    Variant {
+        name: "hertz-rolling",
+        example: "hertz",
+        edits: &[
+            ("shape = [128, 128]", "shape = [23, 23]"),
+            ("0.5 um", "2 um"),
+            ("layers = 60", "layers = 4"),
+            ("tolerance = 1e-8", "tolerance = 1e-12"),
+            ("[subsurface]", "[friction]\ncoefficient = 0.3\ncreepage = [4e-4, 1e-4]\n[subsurface]"),
+        ],
+        tolerance: 1e-8,
+        except: &[],
+    },
+    Variant {
+        name: "friction-small",
+        example: "friction",
+        edits: FRICTION_SMALL,
+        tolerance: 1e-8,
+        except: &[],
+    },
+    Variant {
+        name: "friction-dissimilar",
+        example: "friction",
+        edits: &[
+            FRICTION_SMALL[0],
+            FRICTION_SMALL[1],
+            FRICTION_SMALL[2],
+            FRICTION_SMALL[3],
+            FRICTION_SMALL[4],
+            ("boundary = \"free\"", "boundary = \"free\"\ntolerance = 1e-10"),
+            ("[upper]\nyoung = \"210 GPa\"", "[upper]\nhardness = \"1.1 GPa\"\nyoung = \"70 GPa\""),
+        ],
+        tolerance: 1e-7,
+        except: &[],
+    },
+    Variant {
+        name: "measured-small",
+        example: "measured",
+        edits: &[
+            ("window = [0, 0, 96, 128]", "window = [20, 30, 32, 32]"),
+            ("shape = [64, 128]", "shape = [20, 32]"),
+            ("\"32 um\"", "\"16 um\""),
+            ("0.4 N", "40 mN"),
+            ("passes = 3", "passes = 2\nstride = 5\nload_tolerance = 1e-11"),
+            ("[motion]", "tolerance = 1e-12\n[motion]"),
+            ("pressure_every = 20", "pressure_every = 3"),
+        ],
+        tolerance: 1e-8,
+        except: &[],
+    },
+    Variant {
+        name: "paper-small",
+        example: "paper",
+        edits: &[
+            ("shape = [100, 100]", "shape = [24, 20]"),
+            ("12 um", "8 um"),
+            ("0.2 N", "9 mN"),
+            ("stride = 1 ", "stride = 3 "),
+            ("load_tolerance = 1e-4", "load_tolerance = 1e-11"),
+            ("boundary = \"free\"", "boundary = \"free\"\ntolerance = 1e-12"),
+            ("pressure_every = 20", "pressure_every = 4"),
+        ],
+        tolerance: 1e-8,
+        except: &[],
+    },
+    Variant {
+        name: "quickstart-small",
+        example: "quickstart",
+        edits: QUICKSTART_SMALL,
+        tolerance: 1e-8,
+        except: &[],
+    },
+    Variant {
+        name: "quickstart-periodic",
+        example: "quickstart",
+        edits: &[
+            QUICKSTART_SMALL[0],
+            QUICKSTART_SMALL[1],
+            QUICKSTART_SMALL[2],
+            QUICKSTART_SMALL[3],
+            ("boundary = \"free\"", "boundary = \"periodic\"\ntolerance = 1e-12"),
+            ("[motion]", "[friction]\ncoefficient = 0.2\n[motion]\nstrategy = \"shift\""),
+            ("\"pass-load\"", "\"step-load\""),
+            ("plastic_update = \"pass\"", "plastic_update = \"step\""),
+        ],
+        tolerance: 1e-7,
+        except: &[],
+    },
+];
+
+const FRICTION_SMALL: &[(&str, &str)] = &[
+    ("shape = [128, 128]", "shape = [23, 23]"),
+    ("0.4 um", "2.1 um"),
+    ("increments = 12", "increments = 2"),
+    ("increments = 24", "increments = 4"),
+    ("layers = 30", "layers = 4"),
+    ("boundary = \"free\"", "boundary = \"free\"\ntolerance = 1e-12"),
+];
+
+const QUICKSTART_SMALL: &[(&str, &str)] = &[
+    ("shape = [64, 64]", "shape = [24, 24]"),
+    ("180 mN", "25 mN"),
+    ("passes = 5", "passes = 2"),
+    ("stride = 1 ", "stride = 3 "),
+    ("boundary = \"free\"", "boundary = \"free\"\ntolerance = 1e-12"),
+    ("control = \"pass-load\"", "load_tolerance = 1e-11\ncontrol = \"pass-load\""),
+];
+
+/// To 10⁻⁴: loads are met to that, and pressures to a residual of 10⁻⁶. Which of the points that symmetry makes equal is the
+/// most stressed is left to the last digit.
+const fn as_it_stands(example: &'static str) -> Variant {
+    Variant {
+        name: example,
+        example,
+        edits: &[],
+        tolerance: 1e-4,
+        except: &["position", "section_xy", "section_yz"],
+    }
+}
+
+/// What an answer costs may differ by so much of itself between machines: an iteration more or less.
+const COST_TOLERANCE: f64 = 0.1;
+
+#[test]
+fn the_examples_compute_what_they_did() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let write = std::env::var("ASPERITY_DIGESTS").is_ok_and(|value| value == "write");
+    let mut differences = Vec::new();
+    for variant in &VARIANTS {
+        let digest = digest(&computed(variant, &root.join("examples").join(variant.example)));
+        let path = root.join("tests/it/digests").join(variant.name).with_extension("json");
+        if write {
+            fs::write(&path, written(&digest)).unwrap();
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let kept: Digest = serde_json::from_str(&text).unwrap();
+        differences.extend(
+            differing(&kept, &digest, variant.tolerance)
+                .into_iter()
+                .map(|what| format!("{}: {what}", variant.name)),
+        );
+    }
+    assert!(differences.is_empty(), "{} differ\n{}", differences.len(), differences.join("\n"));
+}
+
+#[test]
+fn every_example_has_its_digests() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for example in fs::read_dir(examples).unwrap() {
+        let name = example.unwrap().file_name();
+        let of_it = VARIANTS.iter().filter(|variant| name == variant.example);
+        let [small, whole] = of_it.fold([0; 2], |mut count, variant| {
+            count[usize::from(variant.edits.is_empty())] += 1;
+            count
+        });
+        assert!(whole == 1 && small > 0, "{name:?} has {small} small variants, and {whole} as it stands");
+    }
+}
+
+// ---- what is computed ------------------------------------------------------------------------------------
+
+/// Series of numbers by name.
+type SeriesByName = BTreeMap<String, Vec<f64>>;
+
+/// Runs the variant, and returns all numbers of its results.
+fn computed(variant: &Variant, example: &Path) -> SeriesByName {
+    let mut text = fs::read_to_string(example.join("case.toml")).unwrap();
+    for (is, becomes) in variant.edits {
+        assert!(text.contains(is), "{}: the example has no {is:?}", variant.name);
+        text = text.replace(is, becomes);
+    }
+    let case = Case::parse(&text, &example.join("case.toml"), example).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    study::run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let mut series = numbers(folder.path());
+    series.retain(|name, _| !variant.except.iter().any(|end| name.ends_with(end)));
+    series
+}
+
+/// All numbers of the results in a folder, but for times and residuals, which are noise, and warm starts.
+fn numbers(folder: &Path) -> SeriesByName {
+    let mut series = SeriesByName::new();
+    for path in files(folder) {
+        let name = path.strip_prefix(folder).unwrap().display().to_string();
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("csv") => add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series),
+            Some("h5") if !name.contains("warm-start") => add_fields(&name, &path, &mut series),
+            Some("json") if name == "summary.json" => {
+                let mut summary: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+                summary.as_object_mut().unwrap().remove("case");
+                add_value(&name, &summary, &mut series);
+            }
+            _ => {}
+        }
+    }
+    series.retain(|name, _| !name.ends_with("wall_time_s") && !name.ends_with("residual"));
+    series
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.into_iter().flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+fn add_table(name: &str, text: &str, series: &mut SeriesByName) {
+    let mut rows = text.lines().map(|row| row.split(','));
+    let columns: Vec<String> = rows.next().unwrap().map(|column| format!("{name} {column}")).collect();
+    for row in rows {
+        for (column, value) in columns.iter().zip(row) {
+            let value: f64 = value.parse().unwrap();
+            assert!(value.is_finite(), "{column} is {value}");
+            series.entry(column.clone()).or_default().push(value);
+        }
+    }
+}
+
+/// Fields that differ in the number at the end of their name are one series.
+fn add_fields(name: &str, path: &Path, series: &mut SeriesByName) {
+    let fields = Fields::open(path).unwrap();
+    for field in fields.names().unwrap() {
+        let stem = field.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit());
+        series.entry(format!("{name} {stem}")).or_default().extend(fields.read(&field).unwrap().values);
+    }
+}
+
+/// The numbers of an array are one series; so is what stands under one key in a list of objects.
+fn add_value(name: &str, value: &Value, series: &mut SeriesByName) {
+    match value {
+        Value::Number(number) => series.entry(name.to_owned()).or_default().push(number.as_f64().unwrap()),
+        Value::Array(values) => values.iter().for_each(|value| add_value(name, value, series)),
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| add_value(&format!("{name} {key}"), value, series))
+        }
+        _ => {}
+    }
+}
+
+// ---- digests ---------------------------------------------------------------------------------------------
+
+/// What is kept of each series.
+type Digest = BTreeMap<String, Moments>;
+
+/// What is kept of a series.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Moments {
+    count: usize,
+    rms: f64,
+    mean: f64,
+    /// Mean under weights of −1 to 1 that no pattern of the values follows.
+    weighted: f64,
+    /// Values at equal distances.
+    samples: Vec<f64>,
+}
+
+impl Moments {
+    const SAMPLES: usize = 4;
+
+    fn of(values: &[f64]) -> Self {
+        let mean = |of: &dyn Fn(usize, f64) -> f64| {
+            values.iter().enumerate().map(|(k, value)| of(k, *value)).sum::<f64>() / values.len() as f64
+        };
+        Self {
+            count: values.len(),
+            rms: mean(&|_, value| value * value).sqrt(),
+            mean: mean(&|_, value| value),
+            weighted: mean(&|k, value| value * (1.0 + 0.7 * (k * k % 9973) as f64).sin()),
+            samples: (1..=Self::SAMPLES).map(|k| values[k * values.len() / (Self::SAMPLES + 1)]).collect(),
+        }
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        [self.rms, self.mean, self.weighted].into_iter().chain(self.samples.iter().copied())
+    }
+}
+
+fn digest(series: &SeriesByName) -> Digest {
+    series.iter().map(|(name, values)| (name.clone(), Moments::of(values))).collect()
+}
+
+/// A line for each series.
+fn written(digest: &Digest) -> String {
+    let line = |(name, moments): (&String, &Moments)| {
+        format!("  {}: {}", serde_json::to_string(name).unwrap(), serde_json::to_string(moments).unwrap())
+    };
+    format!("{{\n{}\n}}\n", digest.iter().map(line).collect::<Vec<_>>().join(",\n"))
+}
+
+/// What `got` has otherwise than `kept`.
+fn differing(kept: &Digest, got: &Digest, tolerance: f64) -> Vec<String> {
+    let names: BTreeSet<&String> = kept.keys().chain(got.keys()).collect();
+    let difference = |name: &String| match (kept.get(name), got.get(name)) {
+        (Some(_), None) => Some("is not there".to_owned()),
+        (None, _) => Some("is new".to_owned()),
+        (Some(kept), Some(got)) if kept.count != got.count => {
+            Some(format!("has {} values, expected {}", got.count, kept.count))
+        }
+        (Some(one), Some(other)) => {
+            let is_cost = ["iterations", "convolutions"].iter().any(|cost| name.ends_with(cost));
+            let tolerance = if is_cost { COST_TOLERANCE } else { tolerance };
+            let scale = scale(name, kept);
+            let errors = one.numbers().zip(other.numbers()).map(|(a, b)| (a - b).abs());
+            let error = errors.fold(0.0, f64::max);
+            (error > tolerance * scale).then(|| format!("is off by {:.1e} of its rms", error / scale))
+        }
+    };
+    let told = |name: &String| difference(name).map(|what| format!("{name} {what}"));
+    names.into_iter().filter_map(told).collect()
+}
+
+/// The rms of a series, or of the largest component of its vector or tensor.
+fn scale(name: &str, digest: &Digest) -> f64 {
+    let components = ["xx", "xy", "xz", "yy", "yz", "zz", "x", "y"];
+    let stem = |name: &str| {
+        components.iter().find_map(|end| name.strip_suffix(&format!("_{end}"))).unwrap_or(name).to_owned()
+    };
+    let of_it = digest.iter().filter(|(other, _)| stem(other) == stem(name));
+    of_it.map(|(_, moments)| moments.rms).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_digest_tells_what_changed() {
+    let series = |values: [[f64; 4]; 2]| {
+        let names = ["steps.csv force_x", "steps.csv force_y"];
+        digest(
+            &names.iter().zip(values).map(|(name, values)| ((*name).to_owned(), values.to_vec())).collect(),
+        )
+    };
+    let kept = series([[1.0, 2.0, 3.0, 4.0], [0.0, 0.0, 1e-18, 0.0]]);
+    let differences = |values| differing(&kept, &series(values), 1e-10);
+    assert_eq!(differences([[1.0, 2.0, 3.0, 4.0], [0.0, 1e-17, 0.0, 0.0]]), Vec::<String>::new());
+    assert_eq!(
+        differences([[1.0, 2.0, 3.0, 4.0], [0.0, 3e-9, 0.0, 0.0]]),
+        ["steps.csv force_y is off by 1.1e-9 of its rms"]
+    );
+    assert_eq!(differences([[2.0, 1.0, 3.0, 4.0], [0.0; 4]]).len(), 1, "exchanged values are told");
+    assert_eq!(kept, serde_json::from_str(&written(&kept)).unwrap());
+    assert_eq!(differing(&kept, &digest(&SeriesByName::new()), 1.0).len(), 2);
+}
