@@ -21,7 +21,8 @@ pub(crate) fn holds(needed: f64) -> Result<()> {
 /// Bytes that can be had: of memory and swap, of those of the container, of the address space (`ulimit -v`).
 fn available() -> f64 {
     let memory = MemoryRefreshKind::nothing().with_ram().with_swap();
-    let system = System::new_with_specifics(RefreshKind::nothing().with_memory(memory)).ok();
+    let system = System::new_with_specifics(RefreshKind::nothing().with_memory(memory));
+    let system = sysinfo::IS_SUPPORTED_SYSTEM.then_some(system);
     let free = system.as_ref().map(|system| system.available_memory() + system.free_swap());
     // What a container holds of files can be had back: only what is resident is taken.
     let limits = system.and_then(|system| system.cgroup_limits());

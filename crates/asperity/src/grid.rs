@@ -93,8 +93,8 @@ impl From<Field> for CellValues {
     }
 }
 
-/// The most cells of a grid: a field of them takes 32 GiB.
-pub const MOST_CELLS: usize = 1 << 32;
+/// The most cells of a grid: a field of them takes 32 GiB. Where `usize` has 32 bits, as many as it can count.
+pub const MOST_CELLS: usize = if usize::BITS > 32 { (1_u64 << 32) as usize } else { usize::MAX };
 
 /// A regular grid of rectangular cells.
 #[derive(Debug, Clone, Copy, PartialEq)]

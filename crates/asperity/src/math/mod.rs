@@ -1,5 +1,6 @@
 //! Mathematics that several modules share.
 
+mod cholesky;
 pub(crate) mod convolution;
 pub(crate) mod elliptic;
 pub(crate) mod fft;
@@ -9,6 +10,7 @@ mod quadrature;
 pub(crate) mod sum;
 pub(crate) mod tensor_convolution;
 
+pub(crate) use cholesky::Cholesky;
 pub(crate) use convolution::{Convolution, Kernel};
 pub(crate) use fft::RealFft2;
 pub(crate) use good_size::good_size;

@@ -1,6 +1,6 @@
 //! The motion itself: pass after pass.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;

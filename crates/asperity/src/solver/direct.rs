@@ -1,11 +1,10 @@
 //! Dense quadratic programming: exact to round-off, for contacts of up to a few thousand cells.
 
-use faer::Mat;
-use faer::linalg::solvers::{Llt, Solve};
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
@@ -234,23 +233,22 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let coefficient = |a: (usize, usize), b: (usize, usize)| {
             self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]] + self.stiffening
         };
-        let matrix = Mat::from_fn(free.len(), free.len(), |i, j| coefficient(free[i], free[j]));
-        let right = Mat::from_fn(free.len(), 2, |i, column| match column {
-            0 => {
-                let given: f64 =
-                    loaded.iter().map(|cell| coefficient(free[i], *cell) * pressure[*cell]).sum();
-                approach - self.problem.initial_gap[free[i]] - given
-            }
-            _ => 1.0,
-        });
+        // Only its lower triangle is read.
+        let lower = |(i, j)| if j <= i { coefficient(free[i], free[j]) } else { 0.0 };
+        let matrix = Field::from_shape_fn([free.len(); 2], lower);
+        let interference = |cell: &(usize, usize)| {
+            let given: f64 = loaded.iter().map(|other| coefficient(*cell, *other) * pressure[*other]).sum();
+            approach - self.problem.initial_gap[*cell] - given
+        };
+        let interference: Vec<f64> = free.iter().map(interference).collect();
         self.factorisations += 1;
-        let factor = Llt::new(matrix.as_ref(), faer::Side::Lower).map_err(|_| {
+        let factor = Cholesky::new(matrix).ok_or_else(|| {
             // Only the mean of a periodic surface has no stiffness.
             Error::PeriodicFullContact { approach, mean_gap: self.problem.initial_gap.mean().unwrap_or(0.0) }
         })?;
-        let solved = factor.solve(&right);
-        free.iter().enumerate().for_each(|(i, cell)| pressure[*cell] = solved[(i, 0)]);
-        Ok((pressure, (0..free.len()).map(|i| solved[(i, 1)]).sum()))
+        let solved = factor.solve(&interference);
+        free.iter().zip(solved).for_each(|(cell, p)| pressure[*cell] = p);
+        Ok((pressure, factor.solve(&vec![1.0; free.len()]).iter().sum()))
     }
 
     /// Bracketed Newton iteration on the approach.

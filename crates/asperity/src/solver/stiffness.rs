@@ -87,12 +87,12 @@ const ACCURACY: f64 = 0.1;
 
 #[cfg(test)]
 mod tests {
-    use faer::linalg::solvers::Solve;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
     use crate::grid::Grid;
+    use crate::math::Cholesky;
     use crate::operator::{Boundary, DirectSum, Edge, FreeFamily, PeriodicFft};
 
     const FINE: Params =
@@ -105,10 +105,9 @@ mod tests {
             let ((a, b), (c, d)) = (cells[i], cells[j]);
             operator.influence(a.abs_diff(c), b.abs_diff(d))
         };
-        let matrix = faer::Mat::from_fn(cells.len(), cells.len(), influence);
-        let ones = faer::Mat::from_fn(cells.len(), 1, |_, _| 1.0);
-        let rates = matrix.partial_piv_lu().solve(&ones);
-        operator.grid().cell_area() * (0..cells.len()).map(|i| rates[(i, 0)]).sum::<f64>()
+        let matrix = Array2::from_shape_fn([cells.len(); 2], |(i, j)| influence(i, j));
+        let rates = Cholesky::new(matrix).unwrap().solve(&vec![1.0; cells.len()]);
+        operator.grid().cell_area() * rates.iter().sum::<f64>()
     }
 
     #[test]

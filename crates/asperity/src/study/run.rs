@@ -1,7 +1,8 @@
 //! From a case to its results: what the command line and every other caller run.
 
 use std::path::Path;
-use std::time::Instant;
+
+use web_time::Instant;
 
 use crate::error::Result;
 use crate::grid::CellValues;

@@ -115,11 +115,13 @@ fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them()
     for control in [Control::PassLoad(LOAD), Control::StepLoad(0.5 * LOAD)] {
         let motion = Motion { plastic_update: PlasticUpdate::Step, ..motion(control, 2) };
         let kept = run(rough_pair(24), motion);
+        let lost = |pass: &PassRecord| pass.lost("plastic")[0] + pass.lost("plastic")[1];
+        let first = lost(&kept.passes[0]);
+        assert!(first > 0.0);
+        // Under a load of each position the second pass deforms nothing, or what round-off does.
         for pass in &kept.passes {
             let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
-            let lost = pass.lost("plastic")[0] + pass.lost("plastic")[1];
-            assert!(lost > 0.0);
-            assert!((lost / steps - 1.0).abs() < 1e-12, "lost {lost:e}, deformed {steps:e}");
+            assert!((lost(pass) - steps).abs() < 1e-12 * first, "lost {:e}, deformed {steps:e}", lost(pass));
         }
         assert_each_body_lost_what_it_fell(&rough_pair(24), &kept);
     }

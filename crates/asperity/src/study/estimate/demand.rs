@@ -1,6 +1,6 @@
 //! Memory and time of a run, told from the numbers of cells alone: before a surface is made.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::error::{Error, Result};
 use crate::grid::Grid;

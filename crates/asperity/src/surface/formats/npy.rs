@@ -4,8 +4,6 @@
 
 use std::path::Path;
 
-use npyz::{DType, Endianness, NpyHeader, TypeChar, WriterBuilder};
-
 use super::binary::{Number, Order, Raster};
 use super::{Decoded, Fault, LengthUnit, Scan, cells, only_channel};
 use crate::error::{Defect, Result};
@@ -17,13 +15,22 @@ use crate::io::atomic;
 /// # Errors
 /// [`Error::File`](crate::Error::File).
 pub(super) fn write(path: &Path, heights: &Field) -> Result<()> {
-    let shape = [heights.nrows() as u64, heights.ncols() as u64];
+    let [nx, ny] = [heights.nrows(), heights.ncols()];
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({nx}, {ny}), }}\n");
+    // The numbers begin at a multiple of 64 bytes; what is filled up stands before the end of the line.
+    let length = (MAGIC.len() + 4 + header.len()).next_multiple_of(64) - MAGIC.len() - 4;
+    let header = format!("{:<1$}\n", header.trim_end(), length - 1);
     atomic::write_with(path, |file| {
-        let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
-        array.extend(heights.iter().copied())?;
-        array.finish()
+        file.write_all(MAGIC)?;
+        file.write_all(&[1, 0])?;
+        file.write_all(&(header.len() as u16).to_le_bytes())?;
+        file.write_all(header.as_bytes())?;
+        heights.iter().try_for_each(|height| file.write_all(&height.to_le_bytes()))
     })
 }
+
+/// Before the version, the length of the header and the header.
+const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
@@ -39,16 +46,26 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 }
 
 fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
-    vet_header(bytes)?;
-    let mut data = bytes;
-    let header = NpyHeader::from_reader(&mut data).map_err(container)?;
-    let &[nx, ny] = header.shape() else {
-        let found = format!("{}-dimensional", header.shape().len());
+    let (text, data) = split(bytes)?;
+    let Some(header) = Header::read(&text) else {
+        return Err(Defect::Value {
+            what: "the header",
+            found: text.chars().take(80).collect::<String>().trim_end().to_owned(),
+            expected: "that of a 2-dimensional array",
+        });
+    };
+    let all = header.shape.iter().fold(1u128, |product, n| product.saturating_mul((*n).max(1).into()));
+    if all > 1 << 60 {
+        return Err(Defect::TooLarge { cells: all, limit: super::MAX_CELLS });
+    }
+    let &[nx, ny] = header.shape.as_slice() else {
+        let found = format!("{}-dimensional", header.shape.len());
         return Err(Defect::Value { what: "the array", found, expected: "2-dimensional" });
     };
-    let found = header.dtype().descr();
-    let unreadable = Defect::Value { what: "the array's type", found, expected: "real numbers" };
-    let DType::Plain(number) = header.dtype() else { return Err(unreadable) };
+    let Some((number, order)) = number(header.descr) else {
+        let found = format!("'{}'", header.descr);
+        return Err(Defect::Value { what: "the array's type", found, expected: "real numbers" });
+    };
     let cells = cells(&[nx, ny])?;
     if cells == 0 {
         return Err(Defect::Value {
@@ -57,85 +74,120 @@ fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
             expected: "not empty",
         });
     }
-    let expected = (cells as u64).saturating_mul(number.size_field());
+    let expected = (cells as u64).saturating_mul(number.bytes() as u64);
     if data.len() as u64 != expected {
         return Err(Defect::Length { what: "the array", expected, found: data.len() as u64 });
     }
-    let order = if number.endianness() == Endianness::Big { Order::Big } else { Order::Little };
-    let number = match (number.type_char(), number.size_field()) {
-        (TypeChar::Float, 8) => Number::Float64,
-        (TypeChar::Float, 4) => Number::Float32,
-        (TypeChar::Int, 1) => Number::Int8,
-        (TypeChar::Int, 2) => Number::Int16,
-        (TypeChar::Int, 4) => Number::Int32,
-        (TypeChar::Int, 8) => Number::Int64,
-        (TypeChar::Uint, 1) => Number::Uint8,
-        (TypeChar::Uint, 2) => Number::Uint16,
-        (TypeChar::Uint, 4) => Number::Uint32,
-        (TypeChar::Uint, 8) => Number::Uint64,
-        _ => return Err(unreadable),
-    };
     let raster = Raster::new([nx as usize, ny as usize], number, order, data)?;
-    Ok(match header.order() {
-        npyz::Order::C => raster.heights_with_y_fastest(|height| height),
-        npyz::Order::Fortran => raster.heights(|height| height),
+    Ok(if header.fortran_order {
+        raster.heights(|height| height)
+    } else {
+        raster.heights_with_y_fastest(|height| height)
     })
 }
 
-fn container(error: std::io::Error) -> Defect {
-    Defect::Container(error.to_string())
+/// The header and what follows it.
+fn split(bytes: &[u8]) -> std::result::Result<(String, &[u8]), Defect> {
+    let little = |bytes: &[u8]| bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte));
+    let (start, length) = match bytes.get(MAGIC.len()) {
+        Some(1) => (10, bytes.get(8..10).map(little)),
+        _ => (12, bytes.get(8..12).map(little)),
+    };
+    let expected = length.map_or(start, |length| start + length);
+    match bytes.split_at_checked(usize::try_from(expected).unwrap_or(usize::MAX)) {
+        Some((header, data)) if length.is_some() => {
+            Ok((String::from_utf8_lossy(&header[start as usize..]).into_owned(), data))
+        }
+        _ => Err(Defect::Length { what: "the header", expected, found: bytes.len() as u64 }),
+    }
 }
 
-/// Refuses headers on which the decoder would overflow: those nested too deeply, or too large in their product.
-fn vet_header(bytes: &[u8]) -> std::result::Result<(), Defect> {
-    let little = |range: std::ops::Range<usize>| {
-        let bytes = bytes.get(range)?;
-        Some(bytes.iter().rev().fold(0u64, |number, byte| number << 8 | u64::from(*byte)))
-    };
-    let (start, length): (usize, _) = match bytes.get(6) {
-        Some(1) => (10, little(8..10)),
-        _ => (12, little(8..12)),
-    };
-    let header =
-        length.and_then(|length| bytes.get(start..start.checked_add(usize::try_from(length).ok()?)?));
-    let Some(header) = header else {
-        let expected = length.map_or(start as u64, |length| length.saturating_add(start as u64));
-        return Err(Defect::Length { what: "the header", expected, found: bytes.len() as u64 });
-    };
-    let unusual = Defect::Value {
-        what: "the header",
-        found: String::from_utf8_lossy(&header[..header.len().min(80)]).trim_end().to_owned(),
-        expected: "that of a 2-dimensional array",
-    };
-    let (mut depth, mut quote, mut number, mut product) = (0i32, None, None::<u128>, 1u128);
-    for &byte in header {
-        if let Some(open) = quote {
-            if byte == b'\\' {
-                return Err(unusual);
+/// The dictionary of an array whose elements are of one kind.
+struct Header<'a> {
+    /// The kind, `<f8`.
+    descr: &'a str,
+    fortran_order: bool,
+    shape: Vec<u64>,
+}
+
+impl<'a> Header<'a> {
+    /// `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, its keys in any order.
+    fn read(text: &'a str) -> Option<Self> {
+        let (mut descr, mut fortran_order, mut shape) = (None, None, None);
+        let mut rest = Literal(text);
+        rest.take("{")?;
+        while rest.take("}").is_none() {
+            let key = rest.text()?;
+            rest.take(":")?;
+            match key {
+                "descr" => descr = Some(rest.text()?),
+                "fortran_order" => fortran_order = Some(rest.truth()?),
+                "shape" => shape = Some(rest.numbers()?),
+                _ => return None,
             }
-            quote = (byte != open).then_some(open);
-            continue;
+            if rest.take(",").is_none() {
+                rest.take("}")?;
+                break;
+            }
         }
-        if byte.is_ascii_digit() {
-            number = Some(number.unwrap_or(0).saturating_mul(10).saturating_add(u128::from(byte - b'0')));
-            continue;
-        }
-        product = product.saturating_mul(number.take().unwrap_or(1).max(1));
-        match byte {
-            b'\'' | b'"' => quote = Some(byte),
-            b'(' | b'[' | b'{' => depth += 1,
-            b')' | b']' | b'}' => depth -= 1,
-            b',' | b':' | b' ' | b'\n' => {}
-            // Of True and False.
-            _ if b"TrueFals".contains(&byte) => {}
-            _ => return Err(unusual),
-        }
-        if !(0..=4).contains(&depth) {
-            return Err(unusual);
-        }
+        rest.0.trim().is_empty().then_some(())?;
+        Some(Self { descr: descr?, fortran_order: fortran_order?, shape: shape? })
     }
-    if product > 1 << 60 {
-        return Err(Defect::TooLarge { cells: product, limit: super::MAX_CELLS });
+}
+
+/// What is left to read of a literal of Python.
+struct Literal<'a>(&'a str);
+
+impl<'a> Literal<'a> {
+    fn take(&mut self, token: &str) -> Option<()> {
+        self.0 = self.0.trim_start().strip_prefix(token)?;
+        Some(())
     }
-    Ok(())
+
+    fn text(&mut self) -> Option<&'a str> {
+        let quote = if self.take("'").is_some() { '\'' } else { self.take("\"").map(|()| '"')? };
+        let (text, rest) = self.0.split_once(quote)?;
+        self.0 = rest;
+        (!text.contains('\\')).then_some(text)
+    }
+
+    fn truth(&mut self) -> Option<bool> {
+        if self.take("True").is_some() { Some(true) } else { self.take("False").map(|()| false) }
+    }
+
+    fn numbers(&mut self) -> Option<Vec<u64>> {
+        let mut numbers = Vec::new();
+        self.take("(")?;
+        while self.take(")").is_none() {
+            let text = self.0.trim_start();
+            let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+            numbers.push(text[..end].parse().ok()?);
+            self.0 = &text[end..];
+            if self.take(",").is_none() {
+                self.take(")")?;
+                break;
+            }
+        }
+        Some(numbers)
+    }
+}
+
+/// How the numbers of a kind are stored, where they are real.
+fn number(descr: &str) -> Option<(Number, Order)> {
+    let kind = descr.trim_start_matches(['<', '>', '=', '|']);
+    let order = if descr.starts_with('>') { Order::Big } else { Order::Little };
+    let number = match kind {
+        "f8" => Number::Float64,
+        "f4" => Number::Float32,
+        "i1" => Number::Int8,
+        "i2" => Number::Int16,
+        "i4" => Number::Int32,
+        "i8" => Number::Int64,
+        "u1" => Number::Uint8,
+        "u2" => Number::Uint16,
+        "u4" => Number::Uint32,
+        "u8" => Number::Uint64,
+        _ => return None,
+    };
+    Some((number, order))
 }
