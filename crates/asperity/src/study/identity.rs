@@ -163,6 +163,7 @@ mod tests {
             .collect();
         let frozen = [
             ("as_the_other", "3a9cbdd3"),
+            ("coated", "c0bedc7a"),
             ("driven", "deeb49fa"),
             ("ellipsoid", "f5ac373b"),
             ("forms", "45aafccc"),

@@ -24,7 +24,7 @@ fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none
     let [lower, upper] = [case.lower.material.coating, case.upper.material.coating];
     assert_eq!(lower, Some(Coating::new(2e-6, 300e9, 0.25).unwrap()));
     assert_eq!(upper, Some(Coating::new(0.5e-6, 3e9, 0.5).unwrap()));
-    assert!(case.is_coated() && case.lower.material.hardness == 6e9);
+    assert!(case.is_coated() && case.lower.hardness == Hardness::Uniform(6e9));
     let written = serde_json::to_value(&case).unwrap();
     assert_eq!(written["lower"]["coating"]["thickness"], 2e-6);
     let plain = load("smallest");
