@@ -62,6 +62,15 @@
 //!
 //! [`study::estimate()`] and the results of [`study::run()`] warn where a case comes near to one of them.
 //!
+//! # Features
+//!
+//! | feature | gives | depends on |
+//! |---|---|---|
+//! | `formats` | [`io`] and the files of [`surface`]: [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions), [`Format`](surface::Format) | HDF5, zip, tiff, csv, XML, digests |
+//! | `study`, the default | `formats` and [`study`]: case files, runs, results | toml, JSON |
+//!
+//! Without them (`default-features = false`) are surfaces that are made, closed forms, operators, solvers, stress and motion.
+//!
 //! # References
 //!
 //! - K. L. Johnson, *Contact Mechanics*, Cambridge University Press (1985).
@@ -78,6 +87,7 @@ pub mod units;
 pub mod choice;
 pub mod error;
 pub mod grid;
+#[cfg(feature = "formats")]
 pub mod io;
 mod math;
 pub mod stress;
@@ -90,6 +100,7 @@ pub mod solver;
 pub mod subsurface;
 pub mod motion;
 pub mod verification;
+#[cfg(feature = "study")]
 pub mod study;
 
 pub use ndarray;
@@ -99,6 +110,6 @@ pub use error::{Error, Result};
 pub use grid::{CellValues, Field, Grid, SingleField};
 
 /// The programs in the README are tests.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "study"))]
 #[doc = include_str!("../../../README.md")]
 struct Readme;

@@ -71,6 +71,7 @@ impl FieldFile {
     }
 
     /// A file of the run of this identity, which it says.
+    #[cfg(feature = "study")]
     pub(crate) fn of_run(identity: &str) -> Self {
         let mut file = Self::new();
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);

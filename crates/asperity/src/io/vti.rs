@@ -152,8 +152,8 @@ impl Sheet {
 /// [`Error::File`](crate::Error::File).
 ///
 /// # Panics
-/// If there are fewer than two planes, or they are not of one shape.
-pub(crate) fn write_volume(
+/// If there are no planes, or they are not of one shape.
+pub fn write_volume(
     path: &Path,
     name: &str,
     planes: &[Array2<f32>],

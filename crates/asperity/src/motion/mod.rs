@@ -25,14 +25,17 @@ pub use loading::{
     Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
 pub use pair::Pair;
+#[cfg(feature = "study")]
 pub(crate) use pair::{facing_values, initial_gap};
 pub use path::{Position, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord};
 pub use rim::Interior;
 pub use simulation::Simulation;
+#[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
 pub use sweep::{Point, SweepOutput, sweep};
+#[cfg(feature = "study")]
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Output, PassReport, Progress, Watch};

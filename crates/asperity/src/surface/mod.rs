@@ -5,6 +5,7 @@
 
 mod correlation;
 mod form;
+#[cfg(feature = "formats")]
 mod formats;
 mod fractal;
 mod generate;
@@ -19,7 +20,9 @@ mod topography;
 
 pub use correlation::Correlation;
 pub use form::{Axis, Form, Groove};
+#[cfg(feature = "formats")]
 pub use formats::{Format, LengthUnit, ReadOptions, Scan};
+#[cfg(feature = "study")]
 pub(crate) use formats::{UNDERSIDE, contents};
 pub use fractal::SelfAffinity;
 pub use generate::{

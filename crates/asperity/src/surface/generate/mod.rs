@@ -48,6 +48,7 @@ impl Generator {
     }
 
     /// Cells of the transforms that making a topography on `grid` takes: with margins where its heights are not periodic.
+    #[cfg(feature = "study")]
     pub(crate) fn cells(&self, grid: &Grid) -> f64 {
         let margin = match self {
             Self::LowPass(method) => method.cutoff.map(|length| 4.0 * length),
