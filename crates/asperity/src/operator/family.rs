@@ -1,11 +1,11 @@
 //! Operators of every size that a motion needs.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use crate::grid::{Field, Grid};
 use crate::kernel::{CoupledResponse, SharedResponse};
 use crate::operator::coupled::CoupledKernel;
+use crate::operator::shared::Shared;
 use crate::operator::{Boundary, CoupledOperator, FreeFamily, Operator, PeriodicKernel};
 
 /// Makes operators of one cell size, pair of bodies and boundary, which share the spectra of their coefficients.
@@ -16,14 +16,14 @@ pub struct Operators {
     largest: Grid,
     response: SharedResponse,
     boundary: Boundary,
-    shared: Shared,
+    normal: Normal,
     /// Coupled kernels by the size of their transforms.
-    coupled: Mutex<HashMap<[usize; 2], Arc<CoupledKernel>>>,
+    coupled: Shared<[usize; 2], CoupledKernel>,
 }
 
-enum Shared {
+enum Normal {
     Free(Arc<FreeFamily>),
-    Periodic(Mutex<HashMap<[usize; 2], Arc<PeriodicKernel>>>),
+    Periodic(Shared<[usize; 2], PeriodicKernel>),
 }
 
 impl Operators {
@@ -35,24 +35,21 @@ impl Operators {
     /// An operator, if the boundary is periodic along one axis and the response knows no line.
     pub fn new(largest: Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Self {
         let response = response.into();
-        let shared = if boundary.leaves_mean_free() {
-            Shared::Periodic(Mutex::default())
+        let normal = if boundary.leaves_mean_free() {
+            Normal::Periodic(Shared::default())
         } else {
-            Shared::Free(FreeFamily::new(&largest, response.clone(), boundary))
+            Normal::Free(FreeFamily::new(&largest, response.clone(), boundary))
         };
-        Self { largest, response, boundary, shared, coupled: Mutex::default() }
+        Self { largest, response, boundary, normal, coupled: Shared::default() }
     }
 
     /// The normal operator on `shape` cells.
     pub fn on(&self, shape: [usize; 2]) -> Box<dyn Operator> {
-        match &self.shared {
-            Shared::Free(family) => Box::new(family.operator(shape)),
-            Shared::Periodic(kernels) => {
-                let mut kernels = kernels.lock().expect("no holder panics");
-                let kernel = kernels
-                    .entry(shape)
-                    .or_insert_with(|| PeriodicKernel::new(self.grid(shape), self.response.clone()));
-                Box::new(kernel.operator())
+        match &self.normal {
+            Normal::Free(family) => Box::new(family.operator(shape)),
+            Normal::Periodic(kernels) => {
+                let make = || PeriodicKernel::new(self.grid(shape), self.response.clone());
+                Box::new(kernels.get(shape, make).operator())
             }
         }
     }
@@ -62,16 +59,15 @@ impl Operators {
     /// # Panics
     /// If the response is known in the normal direction only.
     pub fn coupled_on(&self, shape: [usize; 2]) -> Box<dyn CoupledOperator> {
-        let mut kernels = self.coupled.lock().expect("no holder panics");
         let grid = self.grid(shape);
         let padded = self.boundary.padded(shape);
         let response = self.coupled_response();
-        let kernel = kernels.entry(padded).or_insert_with(|| match &self.shared {
-            Shared::Free(_) => {
+        let kernel = self.coupled.get(padded, || match &self.normal {
+            Normal::Free(_) => {
                 let line = self.boundary.line(&grid, self.boundary.datum(&self.largest));
                 CoupledKernel::free(padded, grid.pitch, response, line.as_ref())
             }
-            Shared::Periodic(_) => CoupledKernel::periodic(&grid, response),
+            Normal::Periodic(_) => CoupledKernel::periodic(&grid, response),
         });
         Box::new(kernel.operator(grid, response.couples(), self.on(shape)))
     }
@@ -89,5 +85,52 @@ impl Operators {
 
     fn grid(&self, shape: [usize; 2]) -> Grid {
         Grid { shape, pitch: self.largest.pitch }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+    use std::thread;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::kernel::{Influence, Response};
+
+    /// Bodies whose coefficients are computed in parallel, by threads that take up other tasks meanwhile.
+    #[derive(Debug)]
+    struct InParallel;
+
+    impl Response for InParallel {
+        fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+            rayon::yield_now();
+            if qx == 0.0 && qy == 0.0 { 0.0 } else { 2.0 / qx.hypot(qy) }
+        }
+
+        fn influence(&self, _: [f64; 2]) -> Box<dyn Influence> {
+            Box::new(|x: f64, y: f64| {
+                rayon::yield_now();
+                1.0 / (1.0 + x.hypot(y))
+            })
+        }
+    }
+
+    #[test]
+    fn positions_may_ask_for_an_operator_while_its_coefficients_are_computed_in_parallel() {
+        for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+            let (done, is_done) = mpsc::channel();
+            thread::spawn(move || {
+                let operators = Operators::new(Grid::new([4, 4], [1.0; 2]).unwrap(), InParallel, boundary);
+                let displacement = || {
+                    let mut displacement = Field::zeros([4, 4]);
+                    operators.on([4, 4]).apply(&Field::ones([4, 4]), &mut displacement);
+                    displacement
+                };
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+                done.send(pool.install(|| rayon::join(displacement, displacement)))
+            });
+            let (one, other) = is_done.recv_timeout(Duration::from_secs(60)).expect("no deadlock");
+            assert_eq!(one, other);
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! The boundary that is free along one axis or both, by transforms padded with zeros there, pruned to what is not zero.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, OnceLock};
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{Influence, SharedResponse};
 use crate::math::{Kernel, MixedConvolution, MixedKernel};
+use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Operator};
 use crate::units::Metre;
 
@@ -21,9 +21,10 @@ pub struct FreeFamily {
     datum: Metre,
     /// The influence of a cell that stands alone.
     influence: OnceLock<Arc<dyn Influence>>,
-    kernels: Mutex<HashMap<[usize; 2], Arc<MixedKernel>>>,
-    /// One for each coarse pitch, which depends on the number of cells along a periodic axis.
-    coarse: Mutex<Vec<Arc<FreeFamily>>>,
+    /// By the size of their transforms.
+    kernels: Shared<[usize; 2], MixedKernel>,
+    /// One for each coarse pitch, by its bits: it depends on the number of cells along a periodic axis.
+    coarse: Shared<[u64; 2], FreeFamily>,
 }
 
 impl FreeFamily {
@@ -49,8 +50,8 @@ impl FreeFamily {
             boundary,
             datum,
             influence: OnceLock::new(),
-            kernels: Mutex::default(),
-            coarse: Mutex::default(),
+            kernels: Shared::default(),
+            coarse: Shared::default(),
         })
     }
 
@@ -77,12 +78,10 @@ impl FreeFamily {
     }
 
     fn kernel(&self, padded: [usize; 2], influence: &dyn Influence) -> Arc<MixedKernel> {
-        let mut kernels = self.kernels.lock().expect("no holder panics");
-        let kernel = kernels.entry(padded).or_insert_with(|| {
+        self.kernels.get(padded, || {
             let shape = padded.map(|n| n / 2 + 1);
             MixedKernel::new(Kernel::from_values(padded, &influence.table(shape, self.pitch)))
-        });
-        Arc::clone(kernel)
+        })
     }
 }
 
@@ -132,10 +131,8 @@ impl Operator for FreeFft {
     fn coarse(&self) -> Box<dyn Operator> {
         let FreeFamily { ref response, boundary, datum, ref coarse, .. } = *self.family;
         let grid = boundary.coarse(&self.grid);
-        let mut coarse = coarse.lock().expect("no holder panics");
-        let family = coarse.iter().find(|family| family.pitch == grid.pitch).cloned().unwrap_or_else(|| {
-            coarse.push(FreeFamily::with_datum(grid.pitch, response.clone(), boundary, datum));
-            Arc::clone(&coarse[coarse.len() - 1])
+        let family = coarse.get(grid.pitch.map(f64::to_bits), || {
+            FreeFamily::with_datum(grid.pitch, response.clone(), boundary, datum)
         });
         Box::new(family.operator(grid.shape))
     }

@@ -6,6 +6,7 @@ mod direct_sum;
 mod family;
 mod free_fft;
 mod periodic_fft;
+mod shared;
 
 pub use boundary::{Boundary, Edge};
 pub use coupled::{CoupledFft, CoupledOperator, CoupledSum};
