@@ -278,7 +278,7 @@ impl Simulation {
 
     /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
     /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
-    /// they are in full contact at all positions.
+    /// they are in full contact at all positions. Where some cells yield and others never do, there is none.
     fn limit(&self) -> Limit {
         let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
         let hardness = cap(self.pair.max_hardness());
@@ -293,7 +293,7 @@ impl Simulation {
             let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
             let approach = highest + (1.0 + coefficient) * hardness * sinks;
             Limit { approach, cause: LoadLimit::Yielded }
-        } else if self.boundary.leaves_mean_free() {
+        } else if self.boundary.leaves_mean_free() && !self.pair.yields() {
             // Closer to it the load is less certain than the residual.
             let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
             let rough = largest(|gap| gap.std(0.0));
@@ -438,6 +438,36 @@ mod tests {
         let mut reports = Reports(Vec::new());
         simulation.run(&(), &mut [&mut reports]).unwrap();
         reports.0
+    }
+
+    #[test]
+    fn cells_that_never_yield_bear_what_those_that_do_leave_them() {
+        let grid = crate::grid::Grid::new([12, 8], [1e-6; 2]).unwrap();
+        let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(5e-9) };
+        let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
+        let surface = |seed| form.generate(&grid, seed).unwrap();
+        let pair = Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap();
+        let soft = Field::from_shape_fn([12, 8], |(i, _)| if i % 4 < 2 { 0.1e9 } else { f64::INFINITY });
+        let pair = pair.with_hardness([soft.into(), f64::INFINITY.into()]).unwrap();
+        let load = 1e9 * grid.area();
+        let motion = Motion {
+            strategy: Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
+            passes: 1,
+            stride: 3,
+            control: Control::PassLoad(load),
+            plastic_update: PlasticUpdate::Pass,
+            load_tolerance: 1e-4,
+            friction: None,
+        };
+        for method in [Method::Direct, Method::ActiveSet] {
+            let params = Params { method, ..Params::default() };
+            let mut simulation = Simulation::new(pair.clone(), Boundary::PERIODIC, motion, params).unwrap();
+            let mut reports = Reports(Vec::new());
+            simulation.run(&(), &mut [&mut reports]).unwrap();
+            // The planes of the mean heights are 0: pressed beyond full contact.
+            assert!(reports.0[0].approach > 0.0, "{method:?}: {:e}", reports.0[0].approach);
+            assert!((reports.0[0].mean_load / load - 1.0).abs() < 1e-4, "{method:?}");
+        }
     }
 
     #[test]

@@ -184,11 +184,20 @@ fn hardness(at: Place<'_>, body: &Body, grid: &Grid, mount: Mount) -> Result<(Ce
         return Err(error("file", message, Some("a map has a value for each cell".to_owned())));
     }
     let mut values = scan.heights * map.unit;
-    if let Some(value) = values.iter().find(|value| !Dimension::Pressure.range().holds(**value)) {
-        let value = units::format(*value, Dimension::Pressure);
-        let hint = "give the unit of its numbers, for example `unit = \"GPa\"`".to_owned();
-        let message = format!("{file} has a hardness of {value}, expected pressures above 0 of a solid");
-        return Err(error("file", message, Some(hint)));
+    if let Some(((i, j), &value)) =
+        values.indexed_iter().find(|(_, value)| !Dimension::Pressure.range().holds(**value))
+    {
+        let found = match value.is_nan() {
+            true => "no number".to_owned(),
+            false => format!("a hardness of {}", units::format(value, Dimension::Pressure)),
+        };
+        let message =
+            format!("{file} has {found} in cell [{i}, {j}], expected a pressure above 0 of a solid");
+        let hint = match value > 0.0 {
+            true => "give the unit of its numbers, for example `unit = \"GPa\"`",
+            false => "every cell has a hardness; for one that never yields give more than any pressure",
+        };
+        return Err(error("file", message, Some(hint.to_owned())));
     }
     if mount == Mount::TurnedOver {
         values.invert_axis(ndarray::Axis(0));

@@ -146,5 +146,9 @@ fn a_map_that_does_not_fit_is_refused_at_its_key() {
     let message = refused(&stripes([20, 24]));
     assert!(message.ends_with("has 20 × 24 values, the body as it is prepared 24 × 20 cells"), "{message}");
     let message = refused(&stripes([24, 20]).mapv(|hardness| hardness - 1.0));
-    assert!(message.contains("has a hardness of 0 Pa, expected"), "{message}");
+    assert!(message.contains("has a hardness of 0 Pa in cell [0, 0], expected"), "{message}");
+    let mut map = stripes([24, 20]);
+    map[[3, 7]] = f64::NAN;
+    let message = refused(&map);
+    assert!(message.contains("has no number in cell [3, 7], expected"), "{message}");
 }
