@@ -3,8 +3,11 @@
 use ndarray::linalg::general_mat_mul;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Axis, s};
 
-/// Rows of a block: what is done one by one costs as much as they are, what is done in products gains by them.
-const BLOCK: usize = 64;
+/// Columns of a block: the more, the fewer times all to their left is read.
+const BLOCK: usize = 128;
+
+/// Columns that are factorised row by row, too few for a product of matrices.
+const LEAF: usize = 8;
 
 /// A = L Lᵀ.
 pub(crate) struct Cholesky {
@@ -25,9 +28,7 @@ impl Cholesky {
             let below = matrix.slice_mut(s![first.., ..first + size]);
             let (done, mut column) = below.split_at(Axis(1), first);
             general_mat_mul(-1.0, &done, &done.slice(s![..size, ..]).t(), 1.0, &mut column);
-            let (mut diagonal, rest) = column.split_at(Axis(0), size);
-            factorise(&mut diagonal)?;
-            divide(rest, diagonal.view());
+            factorise(column)?;
         }
         Some(Self { lower: matrix })
     }
@@ -52,8 +53,25 @@ impl Cholesky {
     }
 }
 
-/// A block by itself, row after row.
-fn factorise(block: &mut ArrayViewMut2<f64>) -> Option<()> {
+/// A block column from its diagonal down: its left half, then its right half, of which the left is taken away.
+fn factorise(mut column: ArrayViewMut2<f64>) -> Option<()> {
+    let size = column.ncols();
+    if size <= LEAF {
+        let (mut diagonal, rest) = column.split_at(Axis(0), size);
+        factorise_rows(&mut diagonal)?;
+        divide(rest, diagonal.view());
+        return Some(());
+    }
+    let half = size / 2;
+    factorise(column.slice_mut(s![.., ..half]))?;
+    let below = column.slice_mut(s![half.., ..]);
+    let (done, mut right) = below.split_at(Axis(1), half);
+    general_mat_mul(-1.0, &done, &done.slice(s![..size - half, ..]).t(), 1.0, &mut right);
+    factorise(right)
+}
+
+/// A square by itself, row after row.
+fn factorise_rows(block: &mut ArrayViewMut2<f64>) -> Option<()> {
     for i in 0..block.nrows() {
         let (above, mut rest) = block.view_mut().split_at(Axis(0), i);
         let mut row = rest.row_mut(0);
