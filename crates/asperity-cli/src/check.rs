@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use asperity::Choice;
-use asperity::motion::{Control, PlasticUpdate, Point, Stage};
-use asperity::solver::{self, Creep, Friction, Rolling, Tangential};
+use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage};
+use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity::study::case::{Boundary, Course, Mount, Side, StrategyKind};
 use asperity::study::{Bodies, Case, Demand, Estimate, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
@@ -110,11 +110,15 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
 
 fn contact(case: &Case, estimate: &Estimate) -> String {
     let force = |value| units::format(value, Dimension::Force);
-    let control = match estimate.control {
-        Control::PassLoad(load) => format!("mean load {} over a pass", force(load)),
-        Control::StepLoad(load) if case.motion.is_some() => format!("load {} at each position", force(load)),
-        Control::StepLoad(load) => format!("load {}", force(load)),
-        Control::Approach(approach) => format!("approach {}", units::format(approach, Dimension::Length)),
+    let control = match (estimate.control, estimate.load_control) {
+        (Control::Approach(approach), _) => {
+            format!("approach {}", units::format(approach, Dimension::Length))
+        }
+        (Control::Load(load), LoadControl::Pass) => format!("mean load {} over a pass", force(load)),
+        (Control::Load(load), LoadControl::Step) => match case.motion {
+            Some(_) => format!("load {} at each position", force(load)),
+            None => format!("load {}", force(load)),
+        },
     };
     let boundary = match case.contact.boundary {
         Boundary([edge, same]) if edge == same => format!("{} boundary", edge.word()),
@@ -125,13 +129,11 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
         Some(Course::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
         _ => control,
     };
-    if let (Control::PassLoad(load) | Control::StepLoad(load), true) =
-        (estimate.control, estimate.plastic_limit.is_finite())
-    {
+    if let (Control::Load(load), true) = (estimate.control, estimate.plastic_limit.is_finite()) {
         let share = 100.0 * load / estimate.plastic_limit;
         let _ = write!(text, " ({share:.1} % of the plastic limit {})", force(estimate.plastic_limit));
     }
-    if let Control::PassLoad(load) | Control::StepLoad(load) = estimate.control {
+    if let Control::Load(load) = estimate.control {
         let mean = units::format(load / estimate.mean_facing_area, Dimension::Pressure);
         let at_most = if case.contact.sweep.is_some() { " at most" } else { "" };
         let _ = write!(text, ", mean pressure {mean} on what faces{at_most}");
@@ -143,13 +145,13 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
 /// The loads or approaches of a sweep.
 fn swept(points: &[Point]) -> String {
     let value = |point: &Point| match point.control {
-        solver::Control::Load(value) | solver::Control::Approach(value) => value,
+        Control::Load(value) | Control::Approach(value) => value,
     };
     let [least, most] =
         [f64::min, f64::max].map(|pick| points.iter().map(value).reduce(pick).unwrap_or_default());
     let (kind, dimension) = match points[0].control {
-        solver::Control::Load(_) => ("load", Dimension::Force),
-        solver::Control::Approach(_) => ("approach", Dimension::Length),
+        Control::Load(_) => ("load", Dimension::Force),
+        Control::Approach(_) => ("approach", Dimension::Length),
     };
     let [least, most] = [least, most].map(|end| units::format(end, dimension));
     format!("{}, {kind} {least} to {most}", plural(points.len(), "point", "points"))

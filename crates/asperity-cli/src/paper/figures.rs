@@ -5,10 +5,10 @@ use std::path::Path;
 use asperity::grid::Grid;
 use asperity::kernel::{influence_matrix, influence_table};
 use asperity::motion::{
-    Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
+    Contact, LoadControl, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
 };
 use asperity::operator::Boundary;
-use asperity::solver::Params;
+use asperity::solver::{Control, Params};
 use asperity::surface::LowPass;
 use asperity::units::{Dimension, Pascal, format};
 use asperity::{Field, Result};
@@ -148,7 +148,8 @@ fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
         strategy: Strategy::Overlap,
         passes: PASSES,
         stride: 1,
-        control: Control::PassLoad(LOAD),
+        control: Control::Load(LOAD),
+        load_control: LoadControl::Pass,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
         friction: None,

@@ -42,18 +42,16 @@ pub use watch::{Output, PassReport, Progress, Watch};
 
 use crate::choice::choice;
 use crate::error::{Error, Result};
-use crate::solver::{Friction, Sliding};
+use crate::solver::{Control, Friction, Sliding};
 use crate::units::{Metre, MetrePerSecond, Newton};
 
-/// What is prescribed in the normal direction during the motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Control {
-    /// One approach for a whole pass, found so that the mean load over its positions is this.
-    PassLoad(Newton),
-    /// One load, the same at every position.
-    StepLoad(Newton),
-    /// One approach, the same at every position of every pass.
-    Approach(Metre),
+/// Where a load that is prescribed holds in a motion; an approach holds at every position of every pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadControl {
+    /// In the mean over a pass, at the one approach of all its positions that makes it so.
+    Pass,
+    /// At every position.
+    Step,
 }
 
 /// How the bodies pass over each other.
@@ -70,28 +68,22 @@ pub enum Strategy {
     },
 }
 
-impl Control {
-    /// The largest load that this control can ask for where the cells at each position bear so much together: in the mean
-    /// over a pass, or at the position that bears the least.
-    pub fn plastic_limit(&self, bearable: &[Newton]) -> Newton {
+impl LoadControl {
+    /// The largest load that can be asked for where the cells at each position bear so much together: in the mean over a
+    /// pass, or at the position that bears the least.
+    pub fn plastic_limit(self, bearable: &[Newton]) -> Newton {
         match self {
-            Self::PassLoad(_) => bearable.iter().sum::<f64>() / bearable.len() as f64,
-            Self::StepLoad(_) => bearable.iter().copied().fold(f64::INFINITY, f64::min),
-            Self::Approach(_) => bearable.iter().copied().fold(0.0, f64::max),
+            Self::Pass => bearable.iter().sum::<f64>() / bearable.len() as f64,
+            Self::Step => bearable.iter().copied().fold(f64::INFINITY, f64::min),
         }
     }
+}
 
-    /// Holds a load against the [`Control::plastic_limit`].
-    ///
-    /// # Errors
-    /// [`Error::BeyondPlasticLimit`].
-    pub fn check_limit(&self, limit: Newton) -> Result<()> {
-        match *self {
-            Self::PassLoad(load) | Self::StepLoad(load) if load >= limit => {
-                Err(Error::BeyondPlasticLimit { load, limit })
-            }
-            _ => Ok(()),
-        }
+/// An error where a load is prescribed that is not below the [`LoadControl::plastic_limit`].
+pub(crate) fn check_limit(control: Control, limit: Newton) -> Result<()> {
+    match control {
+        Control::Load(load) if load >= limit => Err(Error::BeyondPlasticLimit { load, limit }),
+        _ => Ok(()),
     }
 }
 
@@ -138,6 +130,8 @@ pub struct Motion {
     pub stride: usize,
     /// Load or approach.
     pub control: Control,
+    /// Where a load holds.
+    pub load_control: LoadControl,
     /// When plastic deformation is applied.
     pub plastic_update: PlasticUpdate,
     /// Relative tolerance on the pass-mean load, > 0.

@@ -16,9 +16,9 @@ use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
 use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Output, PassReport, Progress, Watch};
-use crate::motion::{Control, Motion, Strategy};
+use crate::motion::{LoadControl, Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{self, Coupling, Params};
+use crate::solver::{Control, Coupling, Params};
 use crate::units::{Dimension, Metre, Newton};
 
 /// Two bodies that pass over each other.
@@ -48,7 +48,7 @@ impl Simulation {
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
         let bearable: Vec<Newton> = positions.iter().map(|p| bearable(&pair, &motion, p)).collect();
-        motion.control.check_limit(motion.control.plastic_limit(&bearable))?;
+        check_limit(motion.control, motion.load_control.plastic_limit(&bearable))?;
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
         let operators = pair.operators(largest, boundary)?;
@@ -177,16 +177,9 @@ impl Simulation {
             watch,
             progress,
         };
-        let load = match self.motion.control {
-            Control::PassLoad(load) => load,
-            Control::StepLoad(load) => {
-                let control = solver::Control::Load(load);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
-            }
-            Control::Approach(approach) => {
-                let control = solver::Control::Approach(approach);
-                return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1));
-            }
+        let load = match (self.motion.control, self.motion.load_control) {
+            (Control::Load(load), LoadControl::Pass) => load,
+            (control, _) => return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1)),
         };
         let mut residual = LOOSEST;
         let mut guess = self.warm.guess;
@@ -218,7 +211,7 @@ impl Simulation {
             limit: self.limit(),
         };
         let found = search.run(guess, residual, |approach, residual| {
-            let control = solver::Control::Approach(approach);
+            let control = Control::Approach(approach);
             let outcome = solver.solve_roughly(&self.pair, control, (residual, &self.params), &earlier)?;
             solver.progress.trial += 1;
             earlier.insert(0, outcome.contacts.clone());
@@ -245,7 +238,7 @@ impl Simulation {
         let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(self.pair.lower.width()));
-            let control = solver::Control::Load(load);
+            let control = Control::Load(load);
             Contact::solve(&self.pair, &self.operators, *fullest, None, control, start.as_ref(), &params)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
@@ -315,7 +308,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     check("stride", motion.stride as f64, motion.stride > 0, "at least one cell")?;
     let tolerance = motion.load_tolerance;
     check("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
-    if let Control::PassLoad(load) | Control::StepLoad(load) = motion.control {
+    if let Control::Load(load) = motion.control {
         check_in(Dimension::Force, "load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
     }
     if let Some(friction) = motion.friction {
@@ -421,7 +414,8 @@ mod tests {
             strategy,
             passes: 3,
             stride: 4,
-            control: Control::PassLoad(0.05 * 3e9 * grid.area()),
+            control: Control::Load(0.05 * 3e9 * grid.area()),
+            load_control: LoadControl::Pass,
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-6,
             friction: None,

@@ -10,8 +10,9 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
 use crate::motion::watch::Progress;
-use crate::motion::{Control, Motion, PlasticUpdate};
+use crate::motion::{LoadControl, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
+use crate::solver::Control;
 use crate::solver::{Bounds, Method, Params, Residual, Site, Sliding, coarse_site, solve_together};
 use crate::units::Newton;
 
@@ -40,7 +41,7 @@ pub(crate) fn memory_together(
     let cells = width * columns.iter().sum::<usize>();
     let frozen = motion.plastic_update == PlasticUpdate::Pass || !yields;
     let iterative = matches!(method, Method::Auto | Method::ActiveSet);
-    let searched = matches!(motion.control, Control::PassLoad(_));
+    let searched = matches!((motion.control, motion.load_control), (Control::Load(_), LoadControl::Pass));
     (frozen && iterative && searched && cells <= MAX_CELLS).then_some(PER_CELL * cells as f64)
 }
 

@@ -12,9 +12,11 @@ use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field};
 use crate::material::{Compliances, plastic_share};
-use crate::motion::{Control, Motion, Position, Stage, Strategy, facing_values, initial_gap};
+use crate::motion::{
+    LoadControl, Motion, Position, Stage, Strategy, check_limit, facing_values, initial_gap,
+};
 use crate::reference::HertzSphere;
-use crate::solver::{self, Coupling, Creep, Friction, Rolling, Tangential};
+use crate::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::study::subsurface::Plan;
 use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
@@ -35,8 +37,10 @@ pub struct Estimate {
     pub max_hardness: Pascal,
     /// The lower body's share of the plastic deformation, 0 to 1; none where it differs from cell to cell.
     pub lower_share: Option<f64>,
-    /// What is prescribed; the load of a static contact is a [`Control::StepLoad`].
+    /// What is prescribed in the normal direction.
     pub control: Control,
+    /// Where a load holds; that of a static contact at its one position.
+    pub load_control: LoadControl,
     /// Number of positions in a pass; 1 for a static contact.
     pub positions: usize,
     /// Number of passes; 1 for a static contact.
@@ -72,11 +76,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
     let column_area = |columns: usize| columns as f64 * column;
     let apparent_area = facing as f64 * column;
-    let control = match (case.motion(apparent_area), case.contact.prescribed.control(apparent_area)) {
-        (Some(motion), _) => motion.control,
-        (None, solver::Control::Load(load)) => Control::StepLoad(load),
-        (None, solver::Control::Approach(approach)) => Control::Approach(approach),
-    };
+    let control = case.contact.prescribed.control(apparent_area);
+    let load_control = case.motion(apparent_area).map_or(LoadControl::Step, |motion| motion.load_control);
     let [lower_hardness, upper_hardness] = [&bodies.lower.hardness, &bodies.upper.hardness];
     let hardness = lower_hardness.min().min(upper_hardness.min());
     let course = case.course(apparent_area);
@@ -105,8 +106,11 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
             CellValues::Field(hardness) => lower_grid.cell_area() * hardness.mapv(cap).sum(),
         })
         .collect();
-    let plastic_limit = control.plastic_limit(&bearable);
-    control.check_limit(plastic_limit)?;
+    let plastic_limit = match control {
+        Control::Load(_) => load_control.plastic_limit(&bearable),
+        Control::Approach(_) => bearable.iter().copied().fold(0.0, f64::max),
+    };
+    check_limit(control, plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
     if let (Some(law), Some(course)) = (law, &course) {
         holds(law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
@@ -120,6 +124,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         max_hardness: lower_hardness.max().min(upper_hardness.max()),
         lower_share: share_of_lower(lower_hardness, upper_hardness),
         control,
+        load_control,
         positions: overlaps.len(),
         passes: case.motion.map_or(1, |motion| motion.passes),
         apparent_area,
@@ -175,7 +180,7 @@ fn bears(
 ) -> Result<()> {
     let mut before = Some(0.0);
     for stage in stages {
-        let solver::Control::Load(load) = stage.loading.normal else {
+        let Control::Load(load) = stage.loading.normal else {
             before = None;
             continue;
         };
@@ -201,12 +206,7 @@ fn bears(
 }
 
 /// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
-fn holds(
-    friction: &Friction,
-    course: &Course,
-    control: solver::Control,
-    apparent_area: SquareMetre,
-) -> Result<()> {
+fn holds(friction: &Friction, course: &Course, control: Control, apparent_area: SquareMetre) -> Result<()> {
     let ends: Vec<_> = match course {
         Course::Stages(stages) => {
             stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
@@ -217,7 +217,7 @@ fn holds(
         }
     };
     for end in ends {
-        if let (solver::Control::Load(load), Tangential::Force([x, y])) = end {
+        if let (Control::Load(load), Tangential::Force([x, y])) = end {
             let limit = (friction.coefficient * load).min(friction.shear_strength * apparent_area);
             let force = x.hypot(y);
             if force > 0.0 && force >= limit {
@@ -229,7 +229,7 @@ fn holds(
 }
 
 /// What is prescribed of what rolls under a force.
-fn pushed(control: solver::Control, rolling: Rolling) -> Option<(solver::Control, Tangential)> {
+fn pushed(control: Control, rolling: Rolling) -> Option<(Control, Tangential)> {
     match rolling.creep {
         Creep::Force(force) => Some((control, Tangential::Force(force))),
         Creep::Creepage(_) => None,
@@ -279,7 +279,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
             units::format(estimate.hardness, Dimension::Pressure)
         ));
     }
-    if let Control::PassLoad(load) | Control::StepLoad(load) = estimate.control
+    if let Control::Load(load) = estimate.control
         && load > 0.5 * estimate.plastic_limit
     {
         warnings.push(format!(
@@ -334,12 +334,11 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
     let most = positions.iter().map(|position| position.columns).max().unwrap_or(0);
     let fullest: Vec<&Position> = positions.iter().filter(|position| position.columns == most).collect();
     let Some(position) = fullest.get(fullest.len() / 2) else { return };
-    let control = match estimate.control {
-        Control::PassLoad(load) => {
-            solver::Control::Load(load * estimate.apparent_area / estimate.mean_facing_area)
+    let control = match (estimate.control, estimate.load_control) {
+        (Control::Load(load), LoadControl::Pass) => {
+            Control::Load(load * estimate.apparent_area / estimate.mean_facing_area)
         }
-        Control::StepLoad(load) => solver::Control::Load(load),
-        Control::Approach(approach) => solver::Control::Approach(approach),
+        (control, _) => control,
     };
     let gap = initial_gap(surfaces, position);
     let pitch = bodies.lower.topography.grid().pitch;
@@ -403,8 +402,8 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
         );
     }
     let unloads = stages.windows(2).any(|pair| match (pair[0].loading.normal, pair[1].loading.normal) {
-        (solver::Control::Load(before), solver::Control::Load(after))
-        | (solver::Control::Approach(before), solver::Control::Approach(after)) => after < before,
+        (Control::Load(before), Control::Load(after))
+        | (Control::Approach(before), Control::Approach(after)) => after < before,
         _ => false,
     });
     if unloads && friction.shear_limit(1.0).is_infinite() {
@@ -443,10 +442,10 @@ fn rolling_pressure(case: &Case, estimate: &Estimate) -> Option<Pascal> {
     };
     let radius = 1.0 / (curvature(bodies[0])? + curvature(bodies[1])?);
     let plain = bodies.iter().all(|body| body.topography.plus.is_empty());
-    let hertz = match estimate.control {
-        Control::StepLoad(load) => HertzSphere { radius, modulus: estimate.modulus, load },
-        Control::Approach(approach) => HertzSphere::from_approach(radius, estimate.modulus, approach),
-        Control::PassLoad(_) => return None,
+    let hertz = match (estimate.control, estimate.load_control) {
+        (Control::Approach(approach), _) => HertzSphere::from_approach(radius, estimate.modulus, approach),
+        (Control::Load(load), LoadControl::Step) => HertzSphere { radius, modulus: estimate.modulus, load },
+        (Control::Load(_), LoadControl::Pass) => return None,
     };
     (plain && radius.is_finite()).then(|| hertz.peak_pressure())
 }
@@ -471,8 +470,8 @@ fn rolls_alike(body: &Body) -> bool {
 /// Whether one increment brings most of the load, or, of an approach, all of it.
 fn loads_at_once(stages: &[Stage]) -> bool {
     let load = |stage: &Stage| match stage.loading.normal {
-        solver::Control::Load(load) => Some(load),
-        solver::Control::Approach(_) => None,
+        Control::Load(load) => Some(load),
+        Control::Approach(_) => None,
     };
     match stages.iter().map(load).collect::<Option<Vec<_>>>() {
         Some(loads) => {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::material::Coating;
-use asperity::motion::{Control, PlasticUpdate, Point, Stage, Strategy};
+use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity::study;
 use asperity::study::bodies;
@@ -58,7 +58,7 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(upper.pitch, Some([0.5e-6; 2]));
     assert_eq!(case.contact.prescribed, Prescribed::Load(2.0));
     let motion = case.motion(1.0).unwrap();
-    assert_eq!(motion.control, Control::PassLoad(2.0));
+    assert_eq!((motion.control, motion.load_control), (solver::Control::Load(2.0), LoadControl::Pass));
     assert_eq!((motion.strategy, motion.passes, motion.stride), (Strategy::Overlap, 5, 1));
     assert_eq!((case.output.pressure_every, case.output.rim), (8, 0.25));
     assert_eq!(case.files().count(), 1);
@@ -113,7 +113,10 @@ fn the_boundary_is_one_word_or_one_for_each_axis() {
 fn a_mean_pressure_becomes_a_load_on_the_apparent_area() {
     let case = load("rolling");
     let motion = case.motion(4e-9).unwrap();
-    assert_eq!(motion.control, Control::StepLoad(10e6 * 4e-9));
+    assert_eq!(
+        (motion.control, motion.load_control),
+        (solver::Control::Load(10e6 * 4e-9), LoadControl::Step)
+    );
     assert_eq!(motion.strategy, Strategy::Shift { speed_lower: -0.01, speed_upper: 0.02 });
     assert_eq!(case.upper.mount, Some(Mount::AsIs));
 }

@@ -2,11 +2,11 @@
 
 use asperity::material::Material;
 use asperity::motion::{
-    Control, Law, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Simulation, State, Strategy,
-    Touching,
+    Law, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Simulation, State,
+    Strategy, Touching,
 };
 use asperity::operator::Boundary;
-use asperity::solver::Params;
+use asperity::solver::{Control, Params};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Field, Grid, Result};
 
@@ -78,7 +78,8 @@ fn run(hardness: f64, update: PlasticUpdate) -> Kept {
         strategy: Strategy::Overlap,
         passes: 3,
         stride: 1,
-        control: Control::PassLoad(0.2),
+        control: Control::Load(0.2),
+        load_control: LoadControl::Pass,
         plastic_update: update,
         load_tolerance: 1e-4,
         friction: None,
@@ -127,7 +128,8 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
         strategy: Strategy::Overlap,
         passes,
         stride: 1,
-        control: Control::PassLoad(0.2),
+        control: Control::Load(0.2),
+        load_control: LoadControl::Pass,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
         friction: None,

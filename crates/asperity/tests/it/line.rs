@@ -1,7 +1,7 @@
 //! Contacts that repeat themselves along one axis alone.
 
 use asperity::material::{Compliances, Material};
-use asperity::motion::{self, Motion, Pair, PlasticUpdate, Simulation, Strategy};
+use asperity::motion::{self, LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity::operator::{Boundary, Edge, Operator, Operators};
 use asperity::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
@@ -205,7 +205,8 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
         strategy: Strategy::Overlap,
         passes: 1,
         stride: 6,
-        control: motion::Control::PassLoad(0.02),
+        control: Control::Load(0.02),
+        load_control: LoadControl::Pass,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-6,
         friction: None,

@@ -7,15 +7,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use asperity::error::LoadLimit;
 use asperity::material::Material;
 use asperity::motion::{
-    Contact, Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Progress, Simulation,
+    Contact, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Progress, Simulation,
     StepRecord, Strategy, WarmStart, Watch,
 };
 use asperity::operator::Boundary;
-use asperity::solver::{Friction, Params};
+use asperity::solver::{Control, Friction, Params};
 use asperity::surface::{Amplitude, Generator, LowPass, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
 
-use crate::support::assert_close;
+use crate::support::{Held, assert_close, at_approach, pass_load, step_load};
 
 const STEEL: [f64; 2] = [210e9, 0.3];
 const HARDNESS: f64 = 4e9;
@@ -25,7 +25,7 @@ const LOAD: f64 = 20e-3;
 
 #[test]
 fn at_a_constant_approach_the_bodies_shake_down_at_once() {
-    let motion = motion(Control::Approach(approach_of(&rough_pair(32), LOAD)), 4);
+    let motion = motion(at_approach(approach_of(&rough_pair(32), LOAD)), 4);
     let volumes = plastic_volumes(&run(rough_pair(32), motion));
     assert!(volumes[0] > 0.0);
     for pair in volumes.windows(2) {
@@ -37,7 +37,7 @@ fn at_a_constant_approach_the_bodies_shake_down_at_once() {
 fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
     // Deformation at every position runs in faster than a pass of frozen geometry, which decays by about 0.3.
     for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
-        let load = Motion { plastic_update: update, ..motion(Control::PassLoad(10.0 * LOAD), 5) };
+        let load = Motion { plastic_update: update, ..motion(pass_load(10.0 * LOAD), 5) };
         let kept = run(rough_pair(32), load);
         let volumes = plastic_volumes(&kept);
         for pair in volumes.windows(2) {
@@ -57,7 +57,7 @@ fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together()
 
 #[test]
 fn elastic_bodies_repeat_their_pass_for_ever() {
-    let kept = run(elastic_pair(24), motion(Control::Approach(approach_of(&elastic_pair(24), LOAD)), 2));
+    let kept = run(elastic_pair(24), motion(at_approach(approach_of(&elastic_pair(24), LOAD)), 2));
     assert_eq!(plastic_volumes(&kept), [0.0, 0.0]);
     let [first, second] = [1, 2].map(|pass| kept.loads_of(pass));
     assert_close(&first, &second, 1e-5, "loads of the two passes");
@@ -71,11 +71,8 @@ fn elastic_bodies_repeat_their_pass_for_ever() {
 fn the_mean_load_of_every_pass_is_the_load_asked_for() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         for tolerance in [1e-2, 1e-4, 1e-7] {
-            let motion = Motion {
-                plastic_update: update,
-                load_tolerance: tolerance,
-                ..motion(Control::PassLoad(LOAD), 2)
-            };
+            let motion =
+                Motion { plastic_update: update, load_tolerance: tolerance, ..motion(pass_load(LOAD), 2) };
             let kept = run(rough_pair(24), motion);
             for pass in &kept.passes {
                 let mean = mean(&kept.loads_of(pass.pass));
@@ -93,7 +90,7 @@ fn the_mean_load_of_every_pass_is_the_load_asked_for() {
 fn the_mean_load_is_found_from_a_touch_to_nearly_the_plastic_limit() {
     let limit = pass_limit(24, 24, 1);
     for load in [1e-9 * limit, 1e-6 * limit, 1e-3 * limit, 0.3 * limit, 0.9 * limit, 0.99 * limit] {
-        let motion = Motion { stride: 4, ..motion(Control::PassLoad(load), 1) };
+        let motion = Motion { stride: 4, ..motion(pass_load(load), 1) };
         let kept = run(rough_pair(24), motion);
         assert!((kept.passes[0].mean_load / load - 1.0).abs() <= 1e-4, "{:e}", load / limit);
     }
@@ -102,7 +99,7 @@ fn the_mean_load_is_found_from_a_touch_to_nearly_the_plastic_limit() {
 #[test]
 fn a_load_held_at_every_position_is_met_to_the_last_digits() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-        let motion = Motion { plastic_update: update, ..motion(Control::StepLoad(0.5 * LOAD), 2) };
+        let motion = Motion { plastic_update: update, ..motion(step_load(0.5 * LOAD), 2) };
         let kept = run(rough_pair(24), motion);
         for step in &kept.steps {
             assert!((step.load / (0.5 * LOAD) - 1.0).abs() < 1e-10, "{step:?}");
@@ -112,7 +109,7 @@ fn a_load_held_at_every_position_is_met_to_the_last_digits() {
 
 #[test]
 fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them() {
-    for control in [Control::PassLoad(LOAD), Control::StepLoad(0.5 * LOAD)] {
+    for control in [pass_load(LOAD), step_load(0.5 * LOAD)] {
         let motion = Motion { plastic_update: PlasticUpdate::Step, ..motion(control, 2) };
         let kept = run(rough_pair(24), motion);
         let lost = |pass: &PassRecord| pass.lost("plastic")[0] + pass.lost("plastic")[1];
@@ -129,7 +126,7 @@ fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them()
 
 #[test]
 fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
-    let kept = run(rough_pair(24), motion(Control::PassLoad(LOAD), 3));
+    let kept = run(rough_pair(24), motion(pass_load(LOAD), 3));
     assert_each_body_lost_what_it_fell(&rough_pair(24), &kept);
     for pass in &kept.passes {
         // A cell keeps the deepest of its interferences, not their sum.
@@ -148,7 +145,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         (slide, Boundary::FREE, PlasticUpdate::Pass),
         (slide, Boundary::PERIODIC, PlasticUpdate::Step),
     ] {
-        let motion = Motion { strategy, plastic_update: update, ..motion(Control::PassLoad(20.0 * LOAD), 2) };
+        let motion = Motion { strategy, plastic_update: update, ..motion(pass_load(20.0 * LOAD), 2) };
         let [kept, whole] = [0.2, 0.0].map(|rim| {
             let simulation = Simulation::new(rough_pair(24), boundary, motion, Params::default()).unwrap();
             continued(simulation.with_rim(rim).unwrap())
@@ -200,12 +197,8 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         assert!(whole.steps.iter().all(|s| s.plastic_volume_interior == s.plastic_volume));
     }
     for rim in [0.5, -0.1, f64::NAN] {
-        let simulation = Simulation::new(
-            rough_pair(24),
-            Boundary::FREE,
-            motion(Control::PassLoad(LOAD), 1),
-            Params::default(),
-        );
+        let simulation =
+            Simulation::new(rough_pair(24), Boundary::FREE, motion(pass_load(LOAD), 1), Params::default());
         let Err(error) = simulation.unwrap().with_rim(rim) else { panic!("a rim of {rim}") };
         assert!(error.to_string().starts_with("rim is"), "{error}");
     }
@@ -213,7 +206,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
 
 #[test]
 fn the_mean_pressure_is_the_mean_load_over_the_mean_area_that_faces() {
-    let pass = &run(rough_pair(24), motion(Control::PassLoad(LOAD), 1)).passes[0];
+    let pass = &run(rough_pair(24), motion(pass_load(LOAD), 1)).passes[0];
     // Of 47 positions of 24 columns: 24²/47 face on the average.
     let area = 24.0 * 24.0 / 47.0 * rough_pair(24).grid(1).area();
     assert_close(&[pass.mean_pressure], &[pass.mean_load / area], 1e-12, "mean pressure");
@@ -224,7 +217,7 @@ fn the_harder_body_loses_nothing() {
     let [soft, hard] = [2e9, 7e9].map(|hardness| Material::new(STEEL[0], STEEL[1], hardness).unwrap());
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         for (materials, harder) in [([&soft, &hard], 1), ([&hard, &soft], 0)] {
-            let motion = Motion { plastic_update: update, ..motion(Control::PassLoad(LOAD), 2) };
+            let motion = Motion { plastic_update: update, ..motion(pass_load(LOAD), 2) };
             let initial = Pair::new(surface([24, 24], 1), surface([24, 24], 2), materials).unwrap();
             let kept = run(initial.clone(), motion);
             for pass in &kept.passes {
@@ -243,7 +236,7 @@ fn the_harder_body_loses_nothing() {
 fn the_mean_pressures_of_both_bodies_carry_the_loads() {
     let shift = Strategy::Shift { speed_lower: 1.0, speed_upper: -0.5 };
     for strategy in [Strategy::Overlap, shift] {
-        let motion = Motion { strategy, ..motion(Control::PassLoad(LOAD), 2) };
+        let motion = Motion { strategy, ..motion(pass_load(LOAD), 2) };
         let initial = rough_pair(24);
         let kept = run(initial.clone(), motion);
         for (pass, means) in kept.passes.iter().zip(&kept.mean_pressure) {
@@ -261,7 +254,7 @@ fn the_mean_pressures_of_both_bodies_carry_the_loads() {
 
 #[test]
 fn no_pressure_exceeds_the_hardness_and_every_position_is_in_equilibrium() {
-    let kept = run(rough_pair(32), motion(Control::PassLoad(LOAD), 3));
+    let kept = run(rough_pair(32), motion(pass_load(LOAD), 3));
     for step in &kept.steps {
         assert!(step.max_pressure <= HARDNESS && step.residual < 1e-6, "{step:?}");
         assert_eq!(step.plastic_cells > 0, step.max_pressure == HARDNESS);
@@ -273,7 +266,7 @@ fn no_pressure_exceeds_the_hardness_and_every_position_is_in_equilibrium() {
 
 #[test]
 fn overlap_and_shift_are_one_where_all_faces_all() {
-    let approach = Control::Approach(approach_of(&rough_pair(24), LOAD));
+    let approach = at_approach(approach_of(&rough_pair(24), LOAD));
     let overlap = run(rough_pair(24), motion(approach, 1));
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let shift = run(rough_pair(24), Motion { strategy: sliding, ..motion(approach, 1) });
@@ -310,7 +303,7 @@ fn a_mirrored_pair_meets_the_same_loads_in_reverse() {
     let mut back = forth.clone();
     (back.lower.heights, back.upper.heights) =
         (mirrored(&forth.lower.heights), mirrored(&forth.upper.heights));
-    let control = Control::PassLoad(LOAD);
+    let control = pass_load(LOAD);
     let (forth, back) = (run(forth, motion(control, 2)), run(back, motion(control, 2)));
     for pass in [1, 2] {
         let reversed: Vec<f64> = back.loads_of(pass).into_iter().rev().collect();
@@ -329,7 +322,7 @@ fn exchanging_the_bodies_exchanges_their_losses() {
     let forth = rough_pair(24);
     let mut over = forth.clone();
     (over.lower.heights, over.upper.heights) = (-&forth.upper.heights, -&forth.lower.heights);
-    let control = Control::PassLoad(LOAD);
+    let control = pass_load(LOAD);
     let (forth, over) = (run(forth, motion(control, 2)), run(over, motion(control, 2)));
     for pass in [1, 2] {
         let reversed: Vec<f64> = over.loads_of(pass).into_iter().rev().collect();
@@ -349,7 +342,7 @@ fn bodies_of_different_lengths_pass_in_strides_that_do_not_divide_them() {
         let pair = steel_pair(surface([lower, 16], 1), surface([upper, 16], 2));
         let load = 5e-2 * HARDNESS * PITCH * PITCH * 16.0 * lower.min(upper) as f64;
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-            let motion = Motion { stride, plastic_update: update, ..motion(Control::PassLoad(load), 2) };
+            let motion = Motion { stride, plastic_update: update, ..motion(pass_load(load), 2) };
             let kept = run(pair.clone(), motion);
             let offsets: Vec<isize> = kept.steps_of(1).map(|s| (s.offset / PITCH).round() as isize).collect();
             let expected: Vec<isize> =
@@ -368,7 +361,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         let [one, two] = [1, 2].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let motion = Motion { plastic_update: update, ..motion(Control::PassLoad(LOAD), 2) };
+            let motion = Motion { plastic_update: update, ..motion(pass_load(LOAD), 2) };
             pool.install(|| run(rough_pair(24), motion))
         });
         assert_eq!(one.steps, two.steps);
@@ -390,9 +383,7 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     for (strategy, boundary) in
         [(Strategy::Overlap, Boundary::FREE), (shift, Boundary::FREE), (shift, Boundary::PERIODIC)]
     {
-        for control in
-            [Control::PassLoad(5.0 * LOAD), Control::StepLoad(0.8 * LOAD), Control::Approach(40e-9)]
-        {
+        for control in [pass_load(5.0 * LOAD), step_load(0.8 * LOAD), at_approach(40e-9)] {
             for plastic_update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
                 for friction in [None, Some(slides), Some(grows)] {
                     let kind = Motion { strategy, plastic_update, friction, stride: 3, ..motion(control, 3) };
@@ -444,7 +435,7 @@ fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bit
             self.left.load(Ordering::Relaxed) == 0
         }
     }
-    for (control, positions) in [(Control::StepLoad(0.5 * LOAD), 60), (Control::PassLoad(LOAD), 200)] {
+    for (control, positions) in [(step_load(0.5 * LOAD), 60), (pass_load(LOAD), 200)] {
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
             let motion = Motion { plastic_update: update, ..motion(control, 3) };
             let whole = run(rough_pair(24), motion);
@@ -477,7 +468,7 @@ fn an_output_that_fails_ends_the_motion() {
             Err(Error::Unsupported("no space left"))
         }
     }
-    let motion = Motion { stride: 8, ..motion(Control::StepLoad(0.2 * LOAD), 3) };
+    let motion = Motion { stride: 8, ..motion(step_load(0.2 * LOAD), 3) };
     let mut simulation = Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default()).unwrap();
     assert!(matches!(simulation.run(&(), &mut [&mut Full]), Err(Error::Unsupported("no space left"))));
 }
@@ -486,13 +477,13 @@ fn an_output_that_fails_ends_the_motion() {
 
 #[test]
 fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
-    let step = Motion { plastic_update: PlasticUpdate::Step, ..motion(Control::PassLoad(1.0), 1) };
+    let step = Motion { plastic_update: PlasticUpdate::Step, ..motion(pass_load(1.0), 1) };
     // The lower body takes all of the plastic deformation.
     let [soft, hard] = [1.0, 2.0].map(|times| Material::new(STEEL[0], STEEL[1], times * HARDNESS).unwrap());
     let pair = || Pair::new(surface([24, 24], 1), surface([24, 24], 2), [&soft, &hard]).unwrap();
     let limit = pass_limit(24, 24, 1);
     let tried = |load: f64| {
-        let motion = Motion { control: Control::PassLoad(load), ..step };
+        let motion = Motion { control: Control::Load(load), load_control: LoadControl::Pass, ..step };
         let mut kept = Kept::default();
         let mut simulation = Simulation::new(pair(), Boundary::FREE, motion, Params::default()).unwrap();
         simulation.run(&(), &mut [&mut kept]).map(|()| kept)
@@ -513,8 +504,12 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
         assert!(kept.passes[0].approach < approach);
     }
     // Bodies that yield after the pass bear it.
-    let after =
-        Motion { plastic_update: PlasticUpdate::Pass, control: Control::PassLoad(0.9 * limit), ..step };
+    let after = Motion {
+        plastic_update: PlasticUpdate::Pass,
+        control: Control::Load(0.9 * limit),
+        load_control: LoadControl::Pass,
+        ..step
+    };
     assert!((run(pair(), after).passes[0].mean_load / (0.9 * limit) - 1.0).abs() <= 1e-4);
 }
 
@@ -522,7 +517,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
 fn periodic_bodies_share_a_load_up_to_full_contact() {
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let tried = |load: f64| {
-        let motion = Motion { strategy: sliding, stride: 4, ..motion(Control::PassLoad(load), 1) };
+        let motion = Motion { strategy: sliding, stride: 4, ..motion(pass_load(load), 1) };
         let mut kept = Kept::default();
         let mut simulation =
             Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
@@ -551,10 +546,10 @@ fn periodic_bodies_share_a_load_up_to_full_contact() {
 fn a_load_beyond_the_plastic_limit_is_refused_with_the_limit() {
     // 24² cells over 47 positions are 12.26 columns in the mean; the shortest overlap has one.
     let limits = [
-        (Strategy::Overlap, Control::PassLoad as fn(f64) -> Control, 576.0 / 47.0),
-        (Strategy::Overlap, Control::StepLoad, 1.0),
-        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::PassLoad, 24.0),
-        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::StepLoad, 24.0),
+        (Strategy::Overlap, pass_load as fn(f64) -> Held, 576.0 / 47.0),
+        (Strategy::Overlap, step_load, 1.0),
+        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, pass_load, 24.0),
+        (Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, step_load, 24.0),
     ];
     for (strategy, control, columns) in limits {
         let expected = HARDNESS * PITCH * PITCH * 24.0 * columns;
@@ -574,7 +569,7 @@ fn a_load_beyond_the_plastic_limit_is_refused_with_the_limit() {
 
 #[test]
 fn a_motion_without_meaning_is_refused() {
-    let good = motion(Control::PassLoad(LOAD), 1);
+    let good = motion(pass_load(LOAD), 1);
     let refused = |motion: Motion, boundary: Boundary, pair: Pair| {
         Simulation::new(pair, boundary, motion, Params::default()).map(|_| ()).unwrap_err().to_string()
     };
@@ -583,8 +578,16 @@ fn a_motion_without_meaning_is_refused() {
     assert!(free(Motion { stride: 0, ..good }).starts_with("stride is 0"));
     assert!(free(Motion { load_tolerance: 0.0, ..good }).starts_with("load_tolerance is 0"));
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(free(Motion { control: Control::PassLoad(load), ..good }).starts_with("load is "), "{load}");
-        assert!(free(Motion { control: Control::StepLoad(load), ..good }).starts_with("load is "), "{load}");
+        assert!(
+            free(Motion { control: Control::Load(load), load_control: LoadControl::Pass, ..good })
+                .starts_with("load is "),
+            "{load}"
+        );
+        assert!(
+            free(Motion { control: Control::Load(load), load_control: LoadControl::Step, ..good })
+                .starts_with("load is "),
+            "{load}"
+        );
     }
     assert!(free(Motion { control: Control::Approach(f64::NAN), ..good }).starts_with("approach is NaN"));
     let still = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.0 };
@@ -600,7 +603,7 @@ fn a_motion_without_meaning_is_refused() {
 #[test]
 fn an_approach_that_closes_a_periodic_gap_is_refused_during_the_pass() {
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
-    let motion = Motion { strategy: sliding, ..motion(Control::Approach(1e-6), 1) };
+    let motion = Motion { strategy: sliding, ..motion(at_approach(1e-6), 1) };
     let mut simulation =
         Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
     let ended = simulation.run(&(), &mut []);
@@ -654,7 +657,7 @@ fn periodic_pair() -> Pair {
 
 /// Loads over a pass of the periodic pair at an approach that presses about a tenth of it together.
 fn periodic_loads(strategy: Strategy) -> Vec<f64> {
-    let motion = Motion { strategy, ..motion(Control::Approach(-70e-9), 1) };
+    let motion = Motion { strategy, ..motion(at_approach(-70e-9), 1) };
     let params = Params { tolerance: 1e-8, ..Params::default() };
     let simulation = Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, params).unwrap();
     let loads = continued(simulation).loads_of(1);
@@ -662,12 +665,13 @@ fn periodic_loads(strategy: Strategy) -> Vec<f64> {
     loads
 }
 
-fn motion(control: Control, passes: usize) -> Motion {
+fn motion((control, load_control): Held, passes: usize) -> Motion {
     Motion {
         strategy: Strategy::Overlap,
         passes,
         stride: 1,
         control,
+        load_control,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
         friction: None,
@@ -676,7 +680,7 @@ fn motion(control: Control, passes: usize) -> Motion {
 
 /// The approach of a first pass whose mean load is `load`.
 fn approach_of(pair: &Pair, load: f64) -> f64 {
-    run(pair.clone(), motion(Control::PassLoad(load), 1)).passes[0].approach
+    run(pair.clone(), motion(pass_load(load), 1)).passes[0].approach
 }
 
 /// The plastic limit of the mean load of a pass over two bodies of so many columns.

@@ -4,16 +4,14 @@
 //! 1e-12.
 
 use asperity::material::Material;
-use asperity::motion::{
-    Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
-};
+use asperity::motion::{Contact, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy};
 use asperity::operator::{Boundary, DirectSum, Operator};
 use asperity::solver::{Method, Params};
 use asperity::surface::Topography;
 use asperity::{Field, Grid};
 use serde_json::Value;
 
-use crate::support::assert_close;
+use crate::support::{Held, assert_close, at_approach, pass_load};
 
 /// How close each method must come, relative to the largest value of its kind.
 const METHODS: [(Method, f64); 2] = [(Method::Direct, 1e-8), (Method::ActiveSet, 1e-5)];
@@ -43,12 +41,13 @@ fn pair(case: &Value, hardness: f64, share: f64) -> Pair {
     pair.with_plastic_share(share)
 }
 
-fn motion(control: Control, plastic_update: PlasticUpdate) -> Motion {
+fn motion((control, load_control): Held, plastic_update: PlasticUpdate) -> Motion {
     Motion {
         strategy: Strategy::Overlap,
         passes: 1,
         stride: 1,
         control,
+        load_control,
         plastic_update,
         load_tolerance: 1e-12,
         friction: None,
@@ -114,7 +113,7 @@ fn a_pass_at_a_fixed_approach_has_the_references_loads_pressures_energies_and_pl
         for (method, tolerance) in METHODS {
             let what = format!("{tag} at {approach:e} by {method:?}");
             let initial = pair(&case, hardness, 0.5);
-            let motion = motion(Control::Approach(approach), PlasticUpdate::Pass);
+            let motion = motion(at_approach(approach), PlasticUpdate::Pass);
             let (kept, _) = run(initial.clone(), motion, method);
             let contacts = &kept.contacts[0];
             assert_counts(contacts, expected, &what);
@@ -164,7 +163,7 @@ fn pass_mean_load_with_and_without_plasticity_is_the_references_over_three_passe
         for (method, tolerance) in METHODS {
             let what = format!("H {hardness:e}, update {update} {rule}, share {share}, {method:?}");
             let plastic_update = if update == "position" { PlasticUpdate::Step } else { PlasticUpdate::Pass };
-            let motion = motion(Control::PassLoad(load), plastic_update);
+            let motion = motion(pass_load(load), plastic_update);
             let mut bodies = pair(&case, hardness, share);
             for expected in passes {
                 let before = bodies.clone();
@@ -221,7 +220,7 @@ fn circular_shift_has_the_references_loads() {
     for (method, tolerance) in METHODS {
         let motion = Motion {
             strategy: Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
-            ..motion(Control::Approach(0.0), PlasticUpdate::Pass)
+            ..motion(at_approach(0.0), PlasticUpdate::Pass)
         };
         let (kept, _) = run(pair(&case, case["H"].as_f64().unwrap(), 0.5), motion, method);
         assert_close(&loads(&kept.contacts[0]), &numbers(&expected["F"]), tolerance, "shift");

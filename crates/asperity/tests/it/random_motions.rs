@@ -5,12 +5,12 @@
 use asperity::error::LoadLimit;
 use asperity::material::{Coating, Material};
 use asperity::motion::{
-    Control, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation, StepRecord,
-    Strategy,
+    LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation,
+    StepRecord, Strategy,
 };
 use asperity::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity::solver::{
-    self, Bounds, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
+    Bounds, Control, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
 };
 use asperity::surface::{Amplitude, SelfAffine, Topography};
 use asperity::{Error, Field, Grid};
@@ -91,6 +91,7 @@ impl Case {
             passes: 2,
             stride,
             control: Control::Approach(0.0),
+            load_control: LoadControl::Pass,
             plastic_update,
             load_tolerance: [1e-4, 1e-2, 1e-6][pick(rng, 3)],
             friction,
@@ -103,10 +104,13 @@ impl Case {
         let bearable: Vec<f64> = positions.iter().map(|p| column * p.columns as f64).collect();
         // From light to 95 % of the plastic limit, evenly in the logarithm.
         let share = 0.95 * 10f64.powf(-6.0 * rng.random_range(0.0f64..1.0).powi(2));
-        let load = |control: Control| share * control.plastic_limit(&bearable);
+        let mut load = |holds: LoadControl| {
+            motion.load_control = holds;
+            Control::Load(share * holds.plastic_limit(&bearable))
+        };
         motion.control = match pick(rng, 4) {
-            0 | 1 => Control::PassLoad(load(Control::PassLoad(0.0))),
-            2 => Control::StepLoad(load(Control::StepLoad(0.0))),
+            0 | 1 => load(LoadControl::Pass),
+            2 => load(LoadControl::Step),
             _ => Control::Approach(sq * rng.random_range(-2.0..1.0)),
         };
         let method = [Method::Auto, Method::ActiveSet, Method::Direct, Method::PolonskyKeer][pick(rng, 4)];
@@ -255,7 +259,7 @@ fn hold(
     tally: &mut Tally,
 ) -> Pair {
     let what = || format!("case {index}, pass {}: {case:?}", pass.pass);
-    if let Control::PassLoad(load) = case.motion.control {
+    if let (Control::Load(load), LoadControl::Pass) = (case.motion.control, case.motion.load_control) {
         let missed = (pass.mean_load / load - 1.0).abs();
         assert!(missed <= case.motion.load_tolerance.max(100.0 * case.tolerance), "{missed:e}, {}", what());
         assert!(steps.iter().all(|step| step.approach == steps[0].approach), "{}", what());
@@ -280,7 +284,7 @@ fn hold(
         let error = (load - step.load).abs() / scale / case.tolerance;
         tally.largest_error = tally.largest_error.max(error);
         assert!(error < 300.0, "load {:e} N, independently {load:e} N: {step:?} {}", step.load, what());
-        if let Control::StepLoad(wanted) = case.motion.control {
+        if let (Control::Load(wanted), LoadControl::Step) = (case.motion.control, case.motion.load_control) {
             assert!((step.load / wanted - 1.0).abs() < 1e-9, "{step:?} {}", what());
         }
         let volume = area * interference.sum();
@@ -336,9 +340,9 @@ fn again(
     // In full contact between bodies that continue over all their edges the approach says nothing of the load.
     let full = step.contact_area > PITCH * PITCH * (gap.len() as f64 - 0.5);
     let normal = if case.boundary.leaves_mean_free() && full {
-        solver::Control::Load(step.load)
+        Control::Load(step.load)
     } else {
-        solver::Control::Approach(step.approach)
+        Control::Approach(step.approach)
     };
     let exact = Params { method: Method::Direct, tolerance: 1e-9, ..Params::default() };
     let caps = Field::from_shape_fn(shape, |(j, iy)| {

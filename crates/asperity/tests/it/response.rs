@@ -4,11 +4,11 @@ use asperity::error::Error;
 use asperity::kernel::{HalfSpaces, Influence, Layering, Response};
 use asperity::material::{Coating, Material};
 use asperity::motion::{
-    Control, Motion, Pair, PlasticUpdate, Simulation, Stage, Strategy, load_in_stages, press, roll,
+    LoadControl, Motion, Pair, PlasticUpdate, Simulation, Stage, Strategy, load_in_stages, press, roll,
 };
 use asperity::operator::{Boundary, DirectSum, Edge, FreeFft, Operator, Operators, PeriodicFft};
 use asperity::solver::{
-    self, Bounds, Coupling, Creep, Friction, Loading, Method, Params, Rolling, Tangential, solve_normal,
+    Bounds, Control, Coupling, Creep, Friction, Loading, Method, Params, Rolling, Tangential, solve_normal,
 };
 use asperity::surface::LowPass;
 use asperity::{Field, Grid};
@@ -73,7 +73,7 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let (modulus, compliance) = (115e9, 2e-17);
     let pair = rough_pair([&steel(), &steel()]).with_response(Sprung { modulus, compliance });
     let params = Params { tolerance: 1e-10, method: Method::ActiveSet, ..Params::default() };
-    let found = press(&pair, Boundary::FREE, solver::Control::Load(0.3), &params).unwrap();
+    let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params).unwrap();
     let (record, solution) = (found.record, found.solution);
     // u = Cp by the coefficients of half-spaces, cell by cell, and by the springs; the gap is never below 0, and 0 under
     // pressure below the hardness.
@@ -88,9 +88,8 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     }
     assert!((record.load / 0.3 - 1.0).abs() < 1e-9 && record.contact_area > 0.0);
     // It is another contact than that without springs.
-    let plain = press(&rough_pair([&steel(), &steel()]), Boundary::FREE, solver::Control::Load(0.3), &params)
-        .unwrap()
-        .record;
+    let plain =
+        press(&rough_pair([&steel(), &steel()]), Boundary::FREE, Control::Load(0.3), &params).unwrap().record;
     assert!(record.approach > plain.approach + 1e-3 * size);
 }
 
@@ -110,7 +109,7 @@ fn all_methods_find_the_same_contact_of_ones_own_bodies() {
         let [direct, active_set, polonsky_keer] = [Method::Direct, Method::ActiveSet, Method::PolonskyKeer]
             .map(|method| {
                 let params = Params { tolerance: 1e-9, method, ..Params::default() };
-                let control = solver::Control::Load(0.004 * GRID.area());
+                let control = Control::Load(0.004 * GRID.area());
                 solve_normal(operator().as_mut(), &gap, &Bounds::up_to(0.05), control, None, &params).unwrap()
             });
         let largest = direct.max_pressure();
@@ -138,7 +137,7 @@ fn transforms_of_ones_own_bodies_are_the_direct_sum_on_fine_and_coarse_grids() {
 fn what_is_not_known_of_a_response_is_refused() {
     let pair = || rough_pair([&steel(), &steel()]).with_response(Graded);
     let params = Params::default();
-    let load = solver::Control::Load(0.1);
+    let load = Control::Load(0.1);
     let unsupported = |error: Error, word: &str| {
         assert!(matches!(error, Error::Unsupported(_)), "{error}");
         assert!(error.to_string().contains(word), "{error}");
@@ -159,7 +158,8 @@ fn what_is_not_known_of_a_response_is_refused() {
             strategy: Strategy::Overlap,
             passes: 1,
             stride: 4,
-            control: Control::PassLoad(0.05),
+            control: Control::Load(0.05),
+            load_control: LoadControl::Pass,
             plastic_update: PlasticUpdate::Pass,
             friction: Some(Friction { coupling, ..friction }),
             load_tolerance: 1e-3,

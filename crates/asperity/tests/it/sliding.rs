@@ -1,16 +1,16 @@
 //! Bodies that slide over each other: each position against the same contact solved alone, and what symmetry asks for.
 
 use asperity::material::Material;
-use asperity::motion::{
-    Contact, Control, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
-};
+use asperity::motion::{Contact, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy};
 use asperity::operator::{Boundary, Operators};
-use asperity::solver::{self, Bounds, Friction, Loading, Params, Tangential, solve_frictional};
+use asperity::solver::{Bounds, Control, Friction, Loading, Method, Params, Tangential, solve_frictional};
 use asperity::surface::{Amplitude, Generator, SelfAffine, Topography};
 use asperity::{Field, Grid};
 
+use crate::support::{Held, pass_load, step_load};
+
 const GRID: Grid = Grid { shape: [20, 16], pitch: [1e-6, 1.5e-6] };
-const PARAMS: Params = Params { method: solver::Method::Auto, tolerance: 1e-9, max_convolutions: 10_000 };
+const PARAMS: Params = Params { method: Method::Auto, tolerance: 1e-9, max_convolutions: 10_000 };
 const LOAD: f64 = 10e-3;
 
 #[test]
@@ -18,14 +18,14 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
     let pair = pair([20e9, 210e9], |z| z);
     let friction = Friction { shear_strength: 400e6, ..Friction::coulomb(0.3).unwrap() };
     let operators = Operators::new(pair.lower_grid(), *pair.compliances(), Boundary::FREE);
-    for control in [Control::PassLoad(LOAD), Control::StepLoad(LOAD)] {
+    for control in [pass_load(LOAD), step_load(LOAD)] {
         let kept = slide(pair.clone(), Strategy::Overlap, control, Some(friction));
         assert_eq!(kept.len(), 13, "offsets of −18, −15, … 18 columns");
         for contact in &kept {
             let gap = pair.initial_gap(&contact.position);
             let mut operator = operators.coupled_on([contact.position.columns, GRID.shape[1]]);
             let loading = Loading {
-                normal: solver::Control::Approach(contact.approach),
+                normal: Control::Approach(contact.approach),
                 tangential: Tangential::Sliding([1.0, 0.0]),
             };
             let alone = solve_frictional(
@@ -58,7 +58,7 @@ fn sliding_to_the_other_side_is_the_mirror_image() {
     let mirrored = |z: Field| z.slice(ndarray::s![..;-1, ..]).to_owned();
     let friction = Some(Friction::coulomb(0.4).unwrap());
     let shift = |speed_upper| Strategy::Shift { speed_lower: 0.0, speed_upper };
-    let control = Control::StepLoad(LOAD);
+    let control = step_load(LOAD);
     let right = slide(pair([20e9, 210e9], |z| z), shift(1.0), control, friction);
     let left = slide(pair([20e9, 210e9], mirrored), shift(-1.0), control, friction);
     let alone = slide(pair([20e9, 210e9], |z| z), shift(1.0), control, None);
@@ -77,7 +77,7 @@ fn sliding_to_the_other_side_is_the_mirror_image() {
 
 #[test]
 fn identical_bodies_slide_under_the_pressures_of_no_friction() {
-    let control = Control::PassLoad(LOAD);
+    let control = pass_load(LOAD);
     let run = |friction| slide(pair([210e9, 210e9], |z| z), Strategy::Overlap, control, friction);
     let (sliding, free) = (run(Some(Friction::coulomb(0.3).unwrap())), run(None));
     for (one, other) in sliding.iter().zip(&free) {
@@ -100,7 +100,12 @@ fn pair(young: [f64; 2], arranged: impl Fn(Field) -> Field) -> Pair {
 }
 
 /// The contacts of one pass in strides of three columns.
-fn slide(pair: Pair, strategy: Strategy, control: Control, friction: Option<Friction>) -> Vec<Contact> {
+fn slide(
+    pair: Pair,
+    strategy: Strategy,
+    (control, load_control): Held,
+    friction: Option<Friction>,
+) -> Vec<Contact> {
     struct Kept(Vec<Contact>);
     impl Output for Kept {
         fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
@@ -113,6 +118,7 @@ fn slide(pair: Pair, strategy: Strategy, control: Control, friction: Option<Fric
         passes: 1,
         stride: 3,
         control,
+        load_control,
         plastic_update: PlasticUpdate::Pass,
         load_tolerance: 1e-4,
         friction,

@@ -30,9 +30,8 @@ use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::material::{Coating, Material};
-use crate::motion::{Control, Motion, PlasticUpdate, Strategy};
+use crate::motion::{LoadControl, Motion, PlasticUpdate, Strategy};
 pub use crate::operator::{Boundary, Edge};
-use crate::solver;
 pub use crate::solver::Method;
 use crate::units::SquareMetre;
 
@@ -159,6 +158,16 @@ pub enum ControlKind {
     Approach,
 }
 
+impl ControlKind {
+    /// Where a load holds; of an approach it does not matter.
+    fn load_control(self) -> LoadControl {
+        match self {
+            Self::StepLoad => LoadControl::Step,
+            Self::PassLoad | Self::Approach => LoadControl::Pass,
+        }
+    }
+}
+
 choice!(ControlKind: "pass-load" => PassLoad, "step-load" => StepLoad, "approach" => Approach);
 
 /// A [`Strategy`] without its speeds.
@@ -237,16 +246,12 @@ impl Case {
     /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         let spec = self.motion?;
-        let control = match (self.contact.prescribed.control(apparent_area), spec.control) {
-            (solver::Control::Load(load), ControlKind::StepLoad) => Control::StepLoad(load),
-            (solver::Control::Load(load), _) => Control::PassLoad(load),
-            (solver::Control::Approach(approach), _) => Control::Approach(approach),
-        };
         Some(Motion {
             strategy: spec.strategy,
             passes: spec.passes,
             stride: spec.stride,
-            control,
+            control: self.contact.prescribed.control(apparent_area),
+            load_control: spec.control.load_control(),
             plastic_update: spec.plastic_update,
             load_tolerance: spec.load_tolerance,
             friction: self.friction.as_ref().map(|friction| friction.law),

@@ -5,10 +5,10 @@ use web_time::Instant;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::material::Compliances;
-use crate::motion::{Control, PlasticUpdate, Point, memory_together};
+use crate::motion::{PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Coupling, Friction, Method, Sliding};
-use crate::study::case::{Body, Case, Course, Layer, Source};
+use crate::study::case::{Body, Case, ControlKind, Course, Layer, Source};
 use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
 use crate::units::Second;
@@ -205,9 +205,9 @@ impl Sizes<'_> {
         let all: f64 = self.overlaps.iter().map(|columns| work(*columns as f64)).sum();
         let mut effort = match (case.motion, &case.friction) {
             (Some(motion), _) => {
-                let searches = match case.motion(1.0).map(|motion| motion.control) {
-                    Some(Control::PassLoad(_)) if motion.plastic_update == PlasticUpdate::Step => 5.0,
-                    Some(Control::PassLoad(_)) => 1.3,
+                let searches = match (motion.control, motion.plastic_update) {
+                    (ControlKind::PassLoad, PlasticUpdate::Step) => 5.0,
+                    (ControlKind::PassLoad, PlasticUpdate::Pass) => 1.3,
                     _ => 1.0,
                 };
                 let sliding = if self.is_coupled() { 8.0 } else { 1.0 };

@@ -11,3 +11,21 @@ pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: 
         assert!((a - b).abs() <= tolerance * scale, "{what} at {k}: {a:e}, expected {b:e}");
     }
 }
+
+use asperity::motion::LoadControl;
+use asperity::solver::Control;
+
+/// What is prescribed in the normal direction of a motion, and where a load holds.
+pub type Held = (Control, LoadControl);
+
+pub fn pass_load(load: f64) -> Held {
+    (Control::Load(load), LoadControl::Pass)
+}
+
+pub fn step_load(load: f64) -> Held {
+    (Control::Load(load), LoadControl::Step)
+}
+
+pub fn at_approach(approach: f64) -> Held {
+    (Control::Approach(approach), LoadControl::Pass)
+}
