@@ -65,7 +65,7 @@ fn main() -> asperity::Result<()> {
     println!("  p̄ (MPa)     A/A₀      κ   convolutions");
     for mean_pressure in [5e6, 10e6, 20e6, 50e6, 100e6, 200e6, 500e6, 1e9, 2e9] {
         let load = Control::Load(mean_pressure * grid.area());
-        let contact = press(&pair, Boundary::PERIODIC, load, &Params::default())?.record;
+        let contact = press(&pair, Boundary::PERIODIC, load, &Params::default(), &())?.record;
         let area = contact.contact_area / contact.apparent_area;
         let kappa = area * pair.modulus() * slope / mean_pressure;
         println!("{:9.0} {area:8.4} {kappa:6.2} {:14.1}", mean_pressure / 1e6, contact.convolutions);

@@ -44,7 +44,7 @@
 //! let pair = Pair::new(lower, upper, [&steel, &steel])?;
 //!
 //! let load = solver::Control::Load(0.3);
-//! let contact = press(&pair, Boundary::FREE, load, &solver::Params::default())?;
+//! let contact = press(&pair, Boundary::FREE, load, &solver::Params::default(), &())?;
 //! assert!(contact.record.residual < 1e-6 && contact.record.max_pressure <= 2.8e9);
 //! assert_eq!(contact.solution.load(), contact.record.load);
 //! # Ok::<(), asperity::Error>(())

@@ -71,6 +71,13 @@ impl Display {
         Some(each.mul_f64(steps.saturating_sub(done) as f64).saturating_sub(last.elapsed()))
     }
 
+    /// Moves the bar to a part of a whole.
+    fn show(&self, [part, whole]: [f64; 2]) {
+        const FINE: f64 = 1000.0;
+        self.bar.set_length((whole * FINE) as u64);
+        self.bar.set_position((part * FINE) as u64);
+    }
+
     /// One more of the steps has been finished.
     fn finish(&self) {
         let mut table = self.table();
@@ -94,13 +101,24 @@ impl Watch for Display {
             self.finish();
             (format!("{} {solved}/{positions}", self.step), solved as f64, (solved, positions))
         };
-        const FINE: f64 = 1000.0;
-        self.bar.set_length((steps.1 as f64 * FINE) as u64);
-        self.bar.set_position((part * FINE) as u64);
+        self.show([part, steps.1 as f64]);
         let left = self.time_left(steps.0, steps.1).map(|left| left.as_secs());
         let left =
             left.map_or(String::new(), |seconds| format!(", {}:{:02} left", seconds / 60, seconds % 60));
         self.bar.set_message(format!("{place}, load {}{left}", format(load, Dimension::Force)));
+    }
+
+    fn solving(&self, progress: &Progress) {
+        let Progress { solved, positions, load, together, .. } = *progress;
+        let way = together.unwrap_or(0.0);
+        let place = match positions {
+            1 => "contact".to_owned(),
+            _ => format!("{} {}/{positions}", self.step, solved + 1),
+        };
+        self.show([solved as f64 + 0.99 * way, positions as f64]);
+        let load =
+            if load > 0.0 { format!(", load {}", format(load, Dimension::Force)) } else { String::new() };
+        self.bar.set_message(format!("{place}, {:.0} %{load}", 100.0 * way));
     }
 
     fn pass(&self, record: &PassRecord) {

@@ -7,8 +7,9 @@ use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
+use crate::motion::watch::{AtRest, OneOfMany, Watch};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal, solve_sliding};
+use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal_watched, solve_sliding};
 use crate::units::{CubicMetre, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -35,6 +36,7 @@ pub struct Contact {
 impl Contact {
     /// Solves the contact of `pair` at `position`, sliding where there is friction, from the pressure `start` where there is
     /// one.
+    #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
         operators: &Operators,
@@ -43,18 +45,21 @@ impl Contact {
         control: Control,
         start: Option<&Field>,
         params: &Params,
+        watch: &dyn Watch,
     ) -> Result<Self> {
+        let watch = &OneOfMany(watch);
         let gap = pair.initial_gap(&position);
         let shape = [position.columns, gap.ncols()];
         let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
         let solution = match sliding {
             Some(sliding) if sliding.lifts(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
-                solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params)?.normal
+                solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params, watch)?
+                    .normal
             }
             _ => {
                 let mut operator = operators.on(shape);
-                solve_normal(operator.as_mut(), &gap, &bounds, control, start, params)?
+                solve_normal_watched(operator.as_mut(), &gap, &bounds, control, start, params, watch)?
             }
         };
         Ok(Self::new(position, sliding, &solution))
@@ -182,16 +187,23 @@ pub struct StaticContact {
 /// Presses a pair whose bodies face each other with all their columns.
 ///
 /// # Errors
-/// Those of [`solve_normal`].
+/// Those of [`crate::solver::solve_normal`]; [`crate::Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
-pub fn press(pair: &Pair, boundary: Boundary, control: Control, params: &Params) -> Result<StaticContact> {
+pub fn press(
+    pair: &Pair,
+    boundary: Boundary,
+    control: Control,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<StaticContact> {
     let position = pair.at_rest();
     let (operators, gap) = facing(pair, boundary)?;
     let mut operator = operators.on(pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
-    let solution = solve_normal(operator.as_mut(), &gap, &bounds, control, None, params)?;
+    let watch = AtRest::new(watch, 0, 1, control);
+    let solution = solve_normal_watched(operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;
     Ok(StaticContact { record: StaticRecord::new(&solution), solution })
 }
 

@@ -7,11 +7,11 @@ use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
-use crate::motion::watch::{Progress, Watch};
+use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    Bounds, Control, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution, Solution,
-    Tangential, solve_frictional, solve_normal, solve_rolling,
+    self, Bounds, Control, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution, Solution,
+    Tangential, solve_frictional_watched, solve_normal_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Metre, Newton, SquareMetre};
 
@@ -107,7 +107,7 @@ impl LoadingOutput for () {
 /// increment w grows where p is at its cap, and nowhere shrinks.
 ///
 /// # Errors
-/// Those of [`solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the output.
+/// Those of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the output.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -140,7 +140,9 @@ pub fn load_in_stages(
             None => Origin::apart(&bodies.gap),
         };
         let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
-        let next = bodies.load(index + 1, loading, origin, state)?;
+        let done = state.as_ref().map_or(0, |state| state.increments.len());
+        let at_rest = AtRest::new(watch, done, positions, loading.normal);
+        let next = bodies.load(index + 1, loading, origin, state, &at_rest)?;
         let record = next.increments.last().expect("the increment just done");
         let (solved, load) = (record.increment, record.load);
         output.increment(&next)?;
@@ -151,10 +153,10 @@ pub fn load_in_stages(
     Ok(bodies.finish(state))
 }
 
-/// The steady state of a pair that rolls along x, see [`solve_rolling`].
+/// The steady state of a pair that rolls along x, see [`solver::solve_rolling`].
 ///
 /// # Errors
-/// Those of [`solve_rolling`].
+/// Those of [`solver::solve_rolling`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -165,11 +167,13 @@ pub fn roll(
     control: Control,
     rolling: Rolling,
     params: &Params,
+    watch: &dyn Watch,
 ) -> Result<LoadedContact> {
     let (operators, gap) = facing(pair, boundary)?;
     pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
-    LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params)
+    let watch = AtRest::new(watch, 0, 1, control);
+    LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params, &watch)
 }
 
 impl LoadedContact {
@@ -180,9 +184,10 @@ impl LoadedContact {
         gap: &Field,
         control: Control,
         params: &Params,
+        watch: &dyn solver::Watch,
     ) -> Result<Self> {
         let bounds = pair.bounds(&pair.at_rest(), None);
-        let solution = solve_normal(operator, gap, &bounds, control, None, params)?;
+        let solution = solve_normal_watched(operator, gap, &bounds, control, None, params, watch)?;
         let plastic = solution.plastic_interference();
         let record = StaticRecord::new(&solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
@@ -190,6 +195,7 @@ impl LoadedContact {
     }
 
     /// The contact in steady rolling along x, over the initial `gap`.
+    #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
     pub(super) fn rolling(
         pair: &Pair,
         operator: &mut dyn CoupledOperator,
@@ -198,11 +204,12 @@ impl LoadedContact {
         control: Control,
         rolling: Rolling,
         params: &Params,
+        watch: &dyn solver::Watch,
     ) -> Result<Self> {
         let area = pair.cell_area();
         let bounds = pair.bounds(&pair.at_rest(), None);
         let RollingSolution { contact: solution, creepage } =
-            solve_rolling(operator, gap, &bounds, friction, control, rolling, params)?;
+            solve_rolling_watched(operator, gap, &bounds, friction, control, rolling, params, watch)?;
         let plastic = solution.normal.plastic_interference();
         let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
         let shear = ShearRecord {
@@ -289,6 +296,7 @@ impl<'a> Bodies<'a> {
         loading: Loading,
         origin: Origin,
         before: Option<LoadingState>,
+        watch: &dyn solver::Watch,
     ) -> Result<LoadingState> {
         let (last, mut flattening, mut increments, slip, error) = match before {
             Some(LoadingState { contact, flattening, increments, slip, dissipation_error, .. }) => {
@@ -301,14 +309,20 @@ impl<'a> Bodies<'a> {
         };
         let (bounds, params) = (&self.bounds, self.params);
         let mut contact =
-            self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params)?;
+            self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params, watch)?;
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
         let allowed = GONE_BACK * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
-            contact =
-                self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params)?;
+            contact = self.solver.solve(
+                &flattening.open(&self.gap),
+                bounds,
+                loading,
+                last.as_ref(),
+                params,
+                watch,
+            )?;
             stats = stats.and(&contact.normal().stats);
             plastic = contact.normal().plastic_interference();
         }
@@ -380,17 +394,27 @@ impl Solver<'_> {
         loading: Loading,
         last: Option<&Equilibrium>,
         params: &Params,
+        watch: &dyn solver::Watch,
     ) -> Result<Equilibrium> {
         match self {
             Self::Frictionless(operator) => {
                 let start = last.map(|last| &last.normal().pressure);
-                solve_normal(operator.as_mut(), gap, bounds, loading.normal, start, params)
+                solve_normal_watched(operator.as_mut(), gap, bounds, loading.normal, start, params, watch)
                     .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
             }
             Self::Frictional(operator, friction) => {
                 let last = last.and_then(Equilibrium::frictional);
-                solve_frictional(operator.as_mut(), gap, bounds, friction, loading, last, params)
-                    .map(|solution| Equilibrium::Frictional(Box::new(solution)))
+                solve_frictional_watched(
+                    operator.as_mut(),
+                    gap,
+                    bounds,
+                    friction,
+                    loading,
+                    last,
+                    params,
+                    watch,
+                )
+                .map(|solution| Equilibrium::Frictional(Box::new(solution)))
             }
         }
     }

@@ -85,8 +85,16 @@ impl Solver<'_> {
             }
             let position = self.positions[index];
             let start = first_guess(earlier, index, control, pair.lower.width());
-            let contact =
-                Contact::solve(pair, self.operators, position, sliding, control, start.as_ref(), params);
+            let contact = Contact::solve(
+                pair,
+                self.operators,
+                position,
+                sliding,
+                control,
+                start.as_ref(),
+                params,
+                self.watch,
+            );
             let mut contact = contact.map_err(|source| Error::AtPosition {
                 pass: self.progress.pass,
                 position: index + 1,

@@ -200,7 +200,7 @@ impl Simulation {
         }
         let guess = match guess {
             Some(guess) => guess,
-            None => self.first_guess(load)?,
+            None => self.first_guess(load, watch)?,
         };
         let search = Search {
             load,
@@ -231,7 +231,7 @@ impl Simulation {
     }
 
     /// The position with the most columns, at two loads near its share of the pass-mean load.
-    fn first_guess(&self, load: Newton) -> Result<Guess> {
+    fn first_guess(&self, load: Newton, watch: &dyn Watch) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
         let limit = bearable(&self.pair, &self.motion, fullest);
@@ -239,7 +239,16 @@ impl Simulation {
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(self.pair.lower.width()));
             let control = Control::Load(load);
-            Contact::solve(&self.pair, &self.operators, *fullest, None, control, start.as_ref(), &params)
+            Contact::solve(
+                &self.pair,
+                &self.operators,
+                *fullest,
+                None,
+                control,
+                start.as_ref(),
+                &params,
+                watch,
+            )
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
         let scale = self.height_scale();

@@ -6,7 +6,7 @@ use crate::motion::loading::LoadedContact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
-use crate::motion::watch::{Progress, Watch};
+use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::{Boundary, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
@@ -76,14 +76,24 @@ pub fn sweep(
             return Err(Error::Interrupted);
         }
         let index = records.len() + 1;
+        let at_rest = AtRest::new(watch, records.len(), points.len(), point.control);
         let mut solve = || {
             let contact = match (point.rolling, &mut coupled) {
                 (Some(rolling), Some(operator)) => {
                     let friction = friction.expect("what rolls has friction");
                     let operator = operator.as_mut();
-                    LoadedContact::rolling(pair, operator, &gap, friction, point.control, rolling, params)?
+                    LoadedContact::rolling(
+                        pair,
+                        operator,
+                        &gap,
+                        friction,
+                        point.control,
+                        rolling,
+                        params,
+                        &at_rest,
+                    )?
                 }
-                _ => LoadedContact::pressed(pair, normal.as_mut(), &gap, point.control, params)?,
+                _ => LoadedContact::pressed(pair, normal.as_mut(), &gap, point.control, params, &at_rest)?,
             };
             Ok((record(boundary, normal.as_mut(), index, &contact, params)?, contact))
         };

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
-use crate::motion::watch::Progress;
+use crate::motion::watch::{OneOfMany, Progress};
 use crate::motion::{LoadControl, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
 use crate::solver::Control;
@@ -79,13 +79,10 @@ impl Solver<'_> {
             let way = (first / state.eta).ln() / (first / wanted).ln();
             let way = if way.is_finite() { way.clamp(0.0, 1.0) } else { 0.0 };
             self.watch.at(&Progress { load, together: Some(way), ..self.progress });
-            // Whoever wants to stop takes anything.
-            if self.watch.stop() { f64::INFINITY } else { wanted }
+            wanted
         };
-        let found = solve_together(&sites, total, start, &tolerance, params.max_convolutions)?;
-        if self.watch.stop() {
-            return Err(Error::Interrupted);
-        }
+        let watch = OneOfMany(self.watch);
+        let found = solve_together(&sites, total, start, &tolerance, params.max_convolutions, &watch)?;
         let contact = |(position, pressure): (&Position, _)| {
             Contact::from_pressure(pair, *position, found.approach, pressure, found.stats)
         };

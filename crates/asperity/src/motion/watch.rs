@@ -1,12 +1,14 @@
 //! Who looks on while a motion is computed.
 
+use std::sync::OnceLock;
+
 use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord, SweepRecord};
 use crate::motion::warm_start::{Guess, WarmStart};
-use crate::solver::Sliding;
+use crate::solver::{self, Control, Sliding};
 use crate::units::Newton;
 
 /// How far a motion has come.
@@ -24,7 +26,8 @@ pub struct Progress {
     pub positions: usize,
     /// Load at the position solved last.
     pub load: Newton,
-    /// Where all positions are solved together: the part of the way, 0 to 1, in the logarithm of their residual.
+    /// Where all positions are solved together, or a contact at rest is being solved: the part of the way, 0 to 1, in the
+    /// logarithm of the residual.
     pub together: Option<f64>,
 }
 
@@ -33,13 +36,16 @@ pub trait Watch: Sync {
     /// A position has been solved.
     fn at(&self, progress: &Progress);
 
+    /// A contact at rest is being solved: [`Progress::together`] says how far it has come.
+    fn solving(&self, _: &Progress) {}
+
     /// A pass has been finished: each in its turn, those too from which an interrupted motion goes on.
     fn pass(&self, _: &PassRecord) {}
 
     /// A point of a sweep has been solved: each in its turn, those too from which an interrupted sweep goes on.
     fn point(&self, _: &SweepRecord) {}
 
-    /// Whether to stop: the motion then ends with [`crate::Error::Interrupted`] at the next position.
+    /// Whether to stop: what is computed then ends with [`crate::Error::Interrupted`] at the next convolution.
     fn stop(&self) -> bool;
 }
 
@@ -49,6 +55,49 @@ impl Watch for () {
 
     fn stop(&self) -> bool {
         false
+    }
+}
+
+/// Looks on at a contact that is one of many: it stops when the whole does.
+pub(super) struct OneOfMany<'a>(pub(super) &'a dyn Watch);
+
+impl solver::Watch for OneOfMany<'_> {
+    fn iteration(&self, _: f64, _: f64) {}
+
+    fn stop(&self) -> bool {
+        self.0.stop()
+    }
+}
+
+/// Looks on at a contact at rest, after so many increments or points of all.
+pub(super) struct AtRest<'a> {
+    watch: &'a dyn Watch,
+    progress: Progress,
+    /// The residual at the beginning.
+    first: OnceLock<f64>,
+}
+
+impl<'a> AtRest<'a> {
+    pub(super) fn new(watch: &'a dyn Watch, solved: usize, positions: usize, control: Control) -> Self {
+        let load = match control {
+            Control::Load(load) => load,
+            Control::Approach(_) => 0.0,
+        };
+        let progress = Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None };
+        Self { watch, progress, first: OnceLock::new() }
+    }
+}
+
+impl solver::Watch for AtRest<'_> {
+    fn iteration(&self, residual: f64, tolerance: f64) {
+        let first = self.first.get_or_init(|| residual);
+        let way = (first / residual).ln() / (first / tolerance).ln();
+        let way = if way.is_finite() { way.clamp(0.0, 1.0) } else { 0.0 };
+        self.watch.solving(&Progress { together: Some(way), ..self.progress });
+    }
+
+    fn stop(&self) -> bool {
+        self.watch.stop()
     }
 }
 

@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::solver::active_set::{self, Equilibrium};
 use crate::solver::site::Site;
+use crate::solver::watch::Within;
 use crate::solver::{Residual, Terms, attraction};
 
 /// Residual to which the coarse grids are solved: of std(u), or of what the largest upper bound does to a cell where that
@@ -51,7 +52,8 @@ fn first_guess(
     let coarse: Vec<&dyn Site> = kept.iter().map(Box::as_ref).collect();
     let cells = |sites: &[&dyn Site]| sites.iter().map(|site| site.grid().cells()).sum::<usize>() as f64;
     let share = cells(&coarse) / cells(sites);
-    let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), ..*terms };
+    let within = Within(terms.watch);
+    let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*terms };
     coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
     let bearable: f64 = coarse.iter().map(|site| site.bounds().upper().sum(site.grid().cells())).sum();
     if coarse_terms.pressure_sum().is_some_and(|wanted| bearable <= wanted) {

@@ -8,6 +8,7 @@ use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
+use crate::solver::watch::go_on;
 use crate::solver::{Answer, Control, Params, Problem, Stats, Terms};
 use crate::units::Metre;
 
@@ -123,6 +124,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let mut displacement = Field::zeros(sets.raw_dim());
         let mut pivots = 0;
         loop {
+            go_on(self.problem.terms.watch)?;
             self.anchor(approach, &mut sets)?;
             let (pressure, slope) = self.between_bounds(approach, &sets)?;
             self.respond(&pressure, &mut displacement);

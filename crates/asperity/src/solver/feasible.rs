@@ -67,7 +67,7 @@ pub(super) fn map_within(
     });
 }
 
-impl Terms {
+impl Terms<'_> {
     /// Whether pressures of this sum bear the load, if one is prescribed.
     pub(super) fn bears_the_load(&self, sum: f64) -> bool {
         self.pressure_sum()
@@ -211,8 +211,8 @@ mod tests {
     use super::*;
     use crate::solver::Control;
 
-    fn terms(sum: f64, attraction: f64) -> Terms {
-        Terms { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction }
+    fn terms(sum: f64, attraction: f64) -> Terms<'static> {
+        Terms { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
     }
 
     #[test]

@@ -15,17 +15,19 @@ mod site;
 mod sparse_inverse;
 mod stiffness;
 mod together;
+mod watch;
 
 pub use bounds::Bounds;
-pub(crate) use friction::solve_sliding;
 pub use friction::{
     Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,
     solve_frictional, solve_rolling,
 };
+pub(crate) use friction::{solve_frictional_watched, solve_rolling_watched, solve_sliding};
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
 pub(crate) use together::solve_together;
+pub use watch::Watch;
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -196,7 +198,7 @@ impl Solution {
 struct Problem<'a> {
     initial_gap: &'a Field,
     bounds: &'a Bounds,
-    terms: Terms,
+    terms: Terms<'a>,
 }
 
 /// What a method finds for a [`Problem`].
@@ -208,18 +210,19 @@ struct Answer {
     stats: Stats,
 }
 
-/// What is asked of a contact, or of several together.
+/// What is asked of a contact, or of several together, and who looks on.
 #[derive(Clone, Copy)]
-struct Terms {
+struct Terms<'a> {
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
     self_influence: f64,
     cell_area: SquareMetre,
     /// Σ |p| of all cells at their lower bounds, where these are below 0.
     attraction: Pascal,
+    watch: &'a dyn Watch,
 }
 
-impl Terms {
+impl Terms<'_> {
     /// Σ p under load control.
     fn pressure_sum(&self) -> Option<f64> {
         match self.control {
@@ -273,6 +276,19 @@ pub fn solve_normal(
     start: Option<&Field>,
     params: &Params,
 ) -> Result<Solution> {
+    solve_normal_watched(operator, initial_gap, bounds, control, start, params, &())
+}
+
+/// As [`solve_normal`], while somebody looks on.
+pub(crate) fn solve_normal_watched(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    bounds: &Bounds,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<Solution> {
     let grid = *operator.grid();
     let shape = (grid.shape[0], grid.shape[1]);
     assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
@@ -280,7 +296,7 @@ pub fn solve_normal(
     validate(operator, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
     let attraction = attraction(bounds, grid.cells());
-    let terms = Terms { control, self_influence, cell_area: grid.cell_area(), attraction };
+    let terms = Terms { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
     let problem = Problem { initial_gap, bounds, terms };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,

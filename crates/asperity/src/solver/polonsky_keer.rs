@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
+use crate::solver::watch::go_on;
 use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
 
 /// Share of an upper bound that rounding takes.
@@ -41,6 +42,8 @@ pub(super) fn solve(
         operator.apply(&pressure, &mut displacement);
         stats.convolutions += 1.0;
         let state = problem.residual(&pressure, &displacement);
+        terms.watch.iteration(state.eta, params.tolerance);
+        go_on(terms.watch)?;
         if state.eta < params.tolerance {
             // A cell that only rounding has taken off its upper bound is at it.
             for (cell, p) in pressure.iter_mut().enumerate() {

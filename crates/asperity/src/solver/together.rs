@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::solver::bounds::Bounds;
 use crate::solver::site::Site;
-use crate::solver::{Control, Residual, Stats, Terms, attraction, cascade};
+use crate::solver::{Control, Residual, Stats, Terms, Watch, attraction, cascade};
 use crate::units::{Metre, Newton, Pascal};
 
 /// Contacts in equilibrium under one approach.
@@ -25,19 +25,21 @@ pub(crate) struct Together {
 /// all cells together.
 ///
 /// # Errors
-/// [`crate::Error::NotConverged`].
+/// [`crate::Error::NotConverged`], [`crate::Error::Interrupted`].
 pub(crate) fn solve_together(
     sites: &[&dyn Site],
     load: Newton,
     start: Option<Vec<Field>>,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
+    watch: &dyn Watch,
 ) -> Result<Together> {
     let mut terms = Terms {
         control: Control::Load(load),
         self_influence: 0.0,
         cell_area: sites[0].grid().cell_area(),
         attraction: sites.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum(),
+        watch,
     };
     sites[0].with_operator(&mut |operator| terms.self_influence = super::self_influence(operator));
     let found = cascade::solve(sites, &terms, start, tolerance, max_convolutions)?;

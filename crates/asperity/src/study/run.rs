@@ -148,7 +148,7 @@ fn rest(
             (contact, Some(points), None)
         }
         (Some(Course::Rolling(rolling)), Some(law)) => {
-            let contact = roll(pair, boundary, law, control, rolling, params)?;
+            let contact = roll(pair, boundary, law, control, rolling, params, watch)?;
             writer.begin()?;
             (contact, None, None)
         }
@@ -160,7 +160,7 @@ fn rest(
             (contact, None, Some(loading))
         }
         _ => {
-            let StaticContact { record, solution } = press(pair, boundary, control, params)?;
+            let StaticContact { record, solution } = press(pair, boundary, control, params, watch)?;
             writer.begin()?;
             writer.write_static(pair, &solution)?;
             let tractions = Tractions::frictionless(solution.pressure);

@@ -85,7 +85,7 @@ fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
     let pair = ball(48, 0.6e-6, 0.7e9);
     let whole = load(&pair, None, &[to(0.25, 0.0, 1)], &Params::default(), &mut ()).unwrap();
     let asperity::motion::StaticContact { record, solution } =
-        asperity::motion::press(&pair, Boundary::FREE, Control::Load(0.25), &Params::default()).unwrap();
+        asperity::motion::press(&pair, Boundary::FREE, Control::Load(0.25), &Params::default(), &()).unwrap();
     assert_eq!(whole.record, record);
     assert_eq!(whole.solution.normal().pressure, solution.pressure);
     let mut states = Kept::default();

@@ -25,4 +25,5 @@ mod subsurface;
 mod sweep;
 mod topography_corpus;
 mod warnings;
+mod watch;
 mod support;

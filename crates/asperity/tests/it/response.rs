@@ -73,7 +73,7 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let (modulus, compliance) = (115e9, 2e-17);
     let pair = rough_pair([&steel(), &steel()]).with_response(Sprung { modulus, compliance });
     let params = Params { tolerance: 1e-10, method: Method::ActiveSet, ..Params::default() };
-    let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params).unwrap();
+    let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params, &()).unwrap();
     let (record, solution) = (found.record, found.solution);
     // u = Cp by the coefficients of half-spaces, cell by cell, and by the springs; the gap is never below 0, and 0 under
     // pressure below the hardness.
@@ -88,8 +88,9 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     }
     assert!((record.load / 0.3 - 1.0).abs() < 1e-9 && record.contact_area > 0.0);
     // It is another contact than that without springs.
-    let plain =
-        press(&rough_pair([&steel(), &steel()]), Boundary::FREE, Control::Load(0.3), &params).unwrap().record;
+    let plain = press(&rough_pair([&steel(), &steel()]), Boundary::FREE, Control::Load(0.3), &params, &())
+        .unwrap()
+        .record;
     assert!(record.approach > plain.approach + 1e-3 * size);
 }
 
@@ -143,7 +144,7 @@ fn what_is_not_known_of_a_response_is_refused() {
         assert!(error.to_string().contains(word), "{error}");
     };
     let line = Boundary([Edge::Free, Edge::Periodic]);
-    unsupported(press(&pair(), line, load, &params).unwrap_err(), "periodic along one axis");
+    unsupported(press(&pair(), line, load, &params, &()).unwrap_err(), "periodic along one axis");
     let friction = Friction::coulomb(0.2).unwrap();
     let loading = Loading { normal: load, tangential: Tangential::Force([0.01, 0.0]) };
     let stages = [Stage { loading, increments: 1 }];
@@ -151,7 +152,7 @@ fn what_is_not_known_of_a_response_is_refused() {
         load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut ());
     unsupported(loaded.map(|_| ()).unwrap_err(), "shear");
     let rolling = Rolling { creep: Creep::Creepage([0.001, 0.0]), spin: 0.0 };
-    let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params);
+    let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params, &());
     unsupported(rolled.map(|_| ()).unwrap_err(), "shear");
     for (coupling, slides) in [(Coupling::Full, false), (Coupling::None, true)] {
         let motion = Motion {

@@ -80,7 +80,7 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
         let (records, last) = swept(&pair, boundary, &points, &Params::default());
         for (record, control) in records.iter().zip(&controls) {
             let StaticContact { record: alone, solution } =
-                press(&pair, boundary, *control, &Params::default()).unwrap();
+                press(&pair, boundary, *control, &Params::default(), &()).unwrap();
             let area = alone.apparent_area;
             assert_eq!(
                 (record.load, record.approach, record.mean_gap, record.contact_area, record.max_pressure),
@@ -171,7 +171,8 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let (records, _) =
         sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut ()).unwrap();
     for (record, point) in records.iter().zip(&points) {
-        let alone = roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params).unwrap().record;
+        let alone =
+            roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params, &()).unwrap().record;
         let shear = alone.shear.unwrap();
         assert_eq!([record.tangential_force_x, record.tangential_force_y], shear.tangential_force);
         assert_eq!((record.stick_area, record.max_shear), (shear.stick_area, shear.max_shear));

@@ -14,6 +14,7 @@ use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::{Multiplier, Residual, ResidualSums};
 use crate::solver::site::Site;
+use crate::solver::watch::go_on;
 use crate::solver::{Control, Stats, Terms, finite};
 use crate::units::{Metre, Pascal};
 
@@ -88,6 +89,8 @@ pub(super) fn solve(
     }
     loop {
         let mut wanted = tolerance(&state);
+        terms.watch.iteration(state.eta, wanted);
+        go_on(terms.watch)?;
         // Nothing is left to sharpen where the answer is as it will be handed out.
         let exact = state.eta < wanted && iteration.rounding() == 0.0 && iteration.is_feasible();
         if exact || state.eta < sharpen * wanted {
@@ -120,7 +123,7 @@ pub(super) fn solve(
 }
 
 struct Iteration<'a> {
-    terms: Terms,
+    terms: Terms<'a>,
     blocks: Vec<Block<'a>>,
     /// Ratio of the residual to the violation of the bounds at which conjugate gradients end.
     cg_exit: f64,
@@ -139,7 +142,7 @@ struct Iteration<'a> {
 }
 
 impl<'a> Iteration<'a> {
-    fn new(sites: &[&'a dyn Site], terms: &Terms, start: Option<Vec<Field>>, caution: f64) -> Self {
+    fn new(sites: &[&'a dyn Site], terms: &Terms<'a>, start: Option<Vec<Field>>, caution: f64) -> Self {
         let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
         let far = start.is_none();
         let pressures = start.unwrap_or_else(|| {
@@ -377,6 +380,9 @@ impl<'a> Iteration<'a> {
         let mut left = self.step_along_direction(0.0, datum);
         let mut product_before = f64::INFINITY;
         for _ in 0..MAX_CG_STEPS {
+            if self.terms.watch.stop() {
+                break;
+            }
             let [sum, drift, product] = self.sum_blocks(Block::precondition);
             let mean = self.mean(sum);
             let product = product - mean * drift;

@@ -10,7 +10,8 @@ use crate::solver::friction::shear::{Answer, Rigid, ShearSolver, Task};
 use crate::solver::friction::yielding::{bounds_beside, carried, shear_limits};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
 use crate::solver::residual::{Residual, residual, scale};
-use crate::solver::{Bounds, Params, Solution, Stats, solve_normal};
+use crate::solver::watch::Within;
+use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
 use crate::units::Metre;
 
 /// Residual of the first round where pressure and shear influence each other.
@@ -38,6 +39,7 @@ pub(super) struct Start {
 }
 
 /// Solves one increment. The `virgin` bounds are those of cells without shear, in sliding those beside the shear.
+#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
@@ -46,6 +48,7 @@ pub(super) fn alternate(
     loading: Loading,
     start: Start,
     params: &Params,
+    watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
     let shape = initial_gap.raw_dim();
     let slides = matches!(loading.tangential, Tangential::Sliding(_));
@@ -58,6 +61,7 @@ pub(super) fn alternate(
         loading,
         slip_before: start.slip,
         params,
+        watch: &Within(watch),
         virgin: &virgin,
         solver: None,
         stats: Stats::default(),
@@ -87,6 +91,7 @@ pub(super) fn alternate(
             (normal.residual, normal.approach) = (state.eta, state.approach);
         }
         normal.residual = normal.residual.max(answer.residual);
+        watch.iteration(normal.residual, params.tolerance);
         if normal.residual <= params.tolerance {
             return Ok(increment.finish(normal, bounds, limit, shear, answer.rigid));
         }
@@ -120,6 +125,7 @@ struct Increment<'a> {
     /// s₀.
     slip_before: Option<[Field; 2]>,
     params: &'a Params,
+    watch: &'a dyn Watch,
     solver: Option<ShearSolver>,
     stats: Stats,
 }
@@ -154,7 +160,15 @@ impl Increment<'_> {
             }
         };
         let operator = self.bodies.operator.normal();
-        let solution = solve_normal(operator, gap, bounds, self.loading.normal, start.as_deref(), &params)?;
+        let solution = solve_normal_watched(
+            operator,
+            gap,
+            bounds,
+            self.loading.normal,
+            start.as_deref(),
+            &params,
+            self.watch,
+        )?;
         self.stats = self.stats.and(&solution.stats);
         Ok(solution)
     }
@@ -179,7 +193,7 @@ impl Increment<'_> {
         let scale = shear_scale(normal, limit, self.bodies.operator);
         let solver = self.solver.get_or_insert_with(|| ShearSolver::new(self.bodies.operator));
         let task = Task { limit, free_slip: &free_slip, control, scale, tolerance };
-        solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions)
+        solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.watch)
     }
 
     /// How far the pressure is from equilibrium beside the shear that it has led to.

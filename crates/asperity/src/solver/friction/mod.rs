@@ -9,12 +9,13 @@ mod shear;
 mod yielding;
 
 pub use law::{Coupling, Friction};
+pub(crate) use rolling::solve_rolling_watched;
 pub use rolling::{Creep, Rolling, RollingSolution, solve_rolling};
 
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
-use crate::solver::{Bounds, Control, Params, Solution};
+use crate::solver::{Bounds, Control, Params, Solution, Watch};
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
 use alternate::{Start, alternate};
@@ -159,6 +160,21 @@ pub fn solve_frictional(
     before: Option<&FrictionalSolution>,
     params: &Params,
 ) -> Result<FrictionalSolution> {
+    solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, params, &())
+}
+
+/// As [`solve_frictional`], while somebody looks on.
+#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
+pub(crate) fn solve_frictional_watched(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    bounds: &Bounds,
+    friction: &Friction,
+    loading: Loading,
+    before: Option<&FrictionalSolution>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<FrictionalSolution> {
     let friction = friction.checked()?;
     validate(&loading.tangential)?;
     let start = match before {
@@ -176,11 +192,12 @@ pub fn solve_frictional(
         Tangential::Sliding(_) => friction.sliding_bounds(bounds),
         _ => bounds.clone(),
     };
-    alternate(operator, initial_gap, bounds, friction, loading, start, params)
+    alternate(operator, initial_gap, bounds, friction, loading, start, params, watch)
 }
 
 /// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
 /// near the answer; the `bounds` are what the shear leaves of them, [`Friction::sliding_bounds`].
+#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(crate) fn solve_sliding(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
@@ -189,10 +206,11 @@ pub(crate) fn solve_sliding(
     normal: Control,
     pressure: Option<&Field>,
     params: &Params,
+    watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
-    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params)
+    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch)
 }
 
 fn validate(tangential: &Tangential) -> Result<()> {

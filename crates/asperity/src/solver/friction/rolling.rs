@@ -3,8 +3,9 @@
 use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, CoupledOperator};
-use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional};
-use crate::solver::{Bounds, Control, Params};
+use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional_watched};
+use crate::solver::watch::Within;
+use crate::solver::{Bounds, Control, Params, Watch};
 use crate::units::Newton;
 
 /// What is prescribed of steady rolling. The contact moves towards +x over both bodies.
@@ -67,6 +68,21 @@ pub fn solve_rolling(
     rolling: Rolling,
     params: &Params,
 ) -> Result<RollingSolution> {
+    solve_rolling_watched(operator, initial_gap, bounds, friction, normal, rolling, params, &())
+}
+
+/// As [`solve_rolling`], while somebody looks on.
+#[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
+pub(crate) fn solve_rolling_watched(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    bounds: &Bounds,
+    friction: &Friction,
+    normal: Control,
+    rolling: Rolling,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<RollingSolution> {
     let grid = *operator.grid();
     let pitch = grid.pitch[0];
     let boundary = operator.normal().boundary();
@@ -88,7 +104,8 @@ pub fn solve_rolling(
     let mut solve = |tangential, before: Option<&FrictionalSolution>, tolerance| {
         let loading = Loading { normal, tangential };
         let params = Params { tolerance, ..*params };
-        solve_frictional(operator, initial_gap, bounds, friction, loading, before, &params)
+        let within = Within(watch);
+        solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, &params, &within)
     };
     let mut tolerance = FIRST.max(params.tolerance);
     let mut state = solve(Tangential::Force([0.0; 2]), None, tolerance)?;
@@ -103,6 +120,7 @@ pub fn solve_rolling(
         let next = solve(tangential, Some(&arrived), tolerance)?;
         stats = stats.and(&next.normal.stats);
         let change = change(&next, &state);
+        watch.iteration(change, params.tolerance);
         let steady = change < params.tolerance && tolerance <= params.tolerance;
         tolerance = (SHARPER * change).clamp(params.tolerance, FIRST.max(params.tolerance));
         state = next;

@@ -2,6 +2,9 @@
 
 pub(crate) mod cell_by_cell;
 
+use asperity::motion::LoadControl;
+use asperity::solver::Control;
+
 /// Numbers that agree to `tolerance` of the largest expected.
 #[track_caller]
 pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
@@ -12,20 +15,17 @@ pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: 
     }
 }
 
-use asperity::motion::LoadControl;
-use asperity::solver::Control;
-
 /// What is prescribed in the normal direction of a motion, and where a load holds.
-pub type Held = (Control, LoadControl);
+pub(crate) type Held = (Control, LoadControl);
 
-pub fn pass_load(load: f64) -> Held {
+pub(crate) fn pass_load(load: f64) -> Held {
     (Control::Load(load), LoadControl::Pass)
 }
 
-pub fn step_load(load: f64) -> Held {
+pub(crate) fn step_load(load: f64) -> Held {
     (Control::Load(load), LoadControl::Step)
 }
 
-pub fn at_approach(approach: f64) -> Held {
+pub(crate) fn at_approach(approach: f64) -> Held {
     (Control::Approach(approach), LoadControl::Pass)
 }

@@ -5,11 +5,12 @@ mod state;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
-use crate::solver::Stats;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::self_compliance;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
+use crate::solver::watch::go_on;
+use crate::solver::{Stats, Watch};
 use crate::units::{Metre, SquareMetre};
 
 use state::{Freedom, State};
@@ -95,13 +96,14 @@ impl ShearSolver {
     /// Solves from the tractions `start`.
     ///
     /// # Errors
-    /// [`Error::BeyondFriction`], [`Error::NotConverged`].
+    /// [`Error::BeyondFriction`], [`Error::NotConverged`], [`Error::Interrupted`].
     pub(super) fn solve(
         &mut self,
         operator: &mut dyn CoupledOperator,
         task: &Task,
         start: &[Field; 2],
         max_convolutions: usize,
+        watch: &dyn Watch,
     ) -> Result<Answer> {
         let cells: Vec<usize> =
             task.limit.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
@@ -111,6 +113,7 @@ impl ShearSolver {
         let (mut best, mut strikes, mut caution, mut sharpen): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, CAUTION, 1.0);
         loop {
+            go_on(watch)?;
             state.find_rigid_displacement(self.compliance);
             let mut residual = state.residual(self.compliance) / task.scale;
             if residual < sharpen * task.tolerance {
