@@ -4,8 +4,9 @@ use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
+use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
-use crate::units::{CubicMetre, Metre, Pascal};
+use crate::units::{Metre, Pascal};
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
 ///
@@ -52,22 +53,9 @@ pub struct Touching<'a> {
     pub sliding_distance: Metre,
 }
 
-/// The volumes that a law took from the bodies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LostVolume {
-    /// Name of the law.
-    pub law: String,
-    /// Volumes that the lower and the upper body lost, m³.
-    pub whole: [CubicMetre; 2],
-    /// Volumes that the interiors of the lower and of the upper body lost, m³.
-    pub interior: [CubicMetre; 2],
-}
-
-impl LostVolume {
-    /// No volume.
-    pub(super) fn none(law: &dyn Law) -> Self {
-        Self { law: law.name().to_owned(), whole: [0.0; 2], interior: [0.0; 2] }
-    }
+/// No volume lost to a law.
+pub(super) fn nothing_lost(law: &dyn Law) -> LostVolume {
+    LostVolume { law: law.name().to_owned(), whole: [0.0; 2], interior: [0.0; 2] }
 }
 
 /// Applies `laws` to a `pair` after contacts on frozen bodies, which slide over a distance from each to the next. Returns what

@@ -10,6 +10,7 @@ mod pass;
 mod path;
 mod plastic;
 mod record;
+mod report;
 mod rim;
 mod simulation;
 mod spot;
@@ -20,7 +21,7 @@ mod watch;
 
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
-pub use law::{Law, LostVolume, Touching};
+pub use law::{Law, Touching};
 pub use loading::{
     Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
@@ -29,7 +30,10 @@ pub use pair::Pair;
 pub(crate) use pair::{facing_values, initial_gap};
 pub use path::{Position, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
-pub use record::{IncrementRecord, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord};
+pub use record::{
+    IncrementRecord, LostVolume, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+};
+pub use report::{Output, PassReport};
 pub use rim::Interior;
 pub use simulation::Simulation;
 #[cfg(feature = "study")]
@@ -38,7 +42,7 @@ pub use sweep::{Point, SweepOutput, sweep};
 #[cfg(feature = "study")]
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
-pub use watch::{Output, PassReport, Progress, Watch};
+pub use watch::{Progress, Watch};
 
 use crate::choice::choice;
 use crate::error::{Error, Result};

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::law::{self, Law, LostVolume};
+use crate::motion::law::{self, Law};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
+use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::{Motion, PlasticUpdate};
@@ -109,7 +110,7 @@ impl Solver<'_> {
             Ok(contact)
         };
         let mut after = pair.clone();
-        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::none(law.as_ref())).collect();
+        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| law::nothing_lost(law.as_ref())).collect();
         let distance = self.motion.sliding_distance(pair.pitch()[0]);
         let mut change = |after: &mut Pair, contacts: &[Contact]| {
             law::apply(self.laws, after, contacts, distance, self.interiors, &mut lost);

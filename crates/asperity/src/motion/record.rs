@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::law::LostVolume;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre};
 
 /// A static contact in numbers: `static` in `summary.json`.
@@ -244,6 +243,17 @@ pub struct PassRecord {
     pub convolutions: f64,
     /// Time the pass took.
     pub wall_time_s: Second,
+}
+
+/// The volumes that a law took from the bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LostVolume {
+    /// Name of the law.
+    pub law: String,
+    /// Volumes that the lower and the upper body lost, m³.
+    pub whole: [CubicMetre; 2],
+    /// Volumes that the interiors of the lower and of the upper body lost, m³.
+    pub interior: [CubicMetre; 2],
 }
 
 impl PassRecord {

@@ -1,14 +1,9 @@
-//! Who looks on while a motion is computed.
+//! Who looks on while a contact or a motion is computed.
 
 use std::sync::OnceLock;
 
-use crate::error::Result;
-use crate::grid::Field;
-use crate::motion::contact::Contact;
-use crate::motion::pair::Pair;
-use crate::motion::record::{PassRecord, StepRecord, SweepRecord};
-use crate::motion::warm_start::{Guess, WarmStart};
-use crate::solver::{self, Control, Sliding};
+use crate::motion::record::{PassRecord, SweepRecord};
+use crate::solver::{self, Control};
 use crate::units::Newton;
 
 /// How far a motion has come.
@@ -99,51 +94,4 @@ impl solver::Watch for AtRest<'_> {
     fn stop(&self) -> bool {
         self.watch.stop()
     }
-}
-
-/// A finished pass.
-pub struct PassReport<'a> {
-    /// The pass in numbers.
-    pub record: &'a PassRecord,
-    /// The positions of the pass in numbers.
-    pub steps: &'a [StepRecord],
-    /// The contacts of the pass, position by position.
-    pub contacts: &'a [Contact],
-    /// The bodies after the pass.
-    pub pair: &'a Pair,
-    /// How they slid, if there is friction.
-    pub sliding: Option<Sliding>,
-    /// The guess with which the search of the next pass begins, if a mean load is prescribed.
-    pub guess: Option<Guess>,
-}
-
-impl PassReport<'_> {
-    /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same
-    /// bits.
-    pub fn warm_start(&self) -> WarmStart {
-        WarmStart::new(self.guess, self.contacts)
-    }
-
-    /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
-    pub fn mean_pressure(&self) -> [Field; 2] {
-        let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
-        for contact in self.contacts {
-            for &(cell, p) in &contact.pressure {
-                let bodies = self.pair.cells_of_bodies(&contact.position, cell as usize);
-                for (mean, cell) in mean.iter_mut().zip(bodies) {
-                    mean.as_slice_mut().expect("standard layout")[cell] += p;
-                }
-            }
-        }
-        mean.map(|sum| sum / self.contacts.len() as f64)
-    }
-}
-
-/// Takes what a motion yields. An output that cannot be written ends the motion.
-pub trait Output {
-    /// Takes a finished pass.
-    ///
-    /// # Errors
-    /// What kept it from being written.
-    fn pass(&mut self, report: &PassReport) -> Result<()>;
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Result, check_in};
 use crate::grid::CellValues;
+use crate::solver::coarse::coarse_means;
 use crate::units::{Dimension, Pascal};
 
 /// Bounds of the pressure, cell by cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
@@ -65,7 +66,7 @@ impl Bounds {
     pub(crate) fn coarse(&self) -> Self {
         let coarse = |values: &CellValues| match values {
             CellValues::Uniform(value) => CellValues::Uniform(*value),
-            CellValues::Field(field) => CellValues::Field(super::site::coarse_means(field)),
+            CellValues::Field(field) => CellValues::Field(coarse_means(field)),
         };
         Self { lower: coarse(&self.lower), upper: coarse(&self.upper) }
     }

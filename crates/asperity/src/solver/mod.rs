@@ -3,6 +3,7 @@
 mod active_set;
 mod bounds;
 mod cascade;
+mod coarse;
 mod coarse_correction;
 mod direct;
 mod feasible;

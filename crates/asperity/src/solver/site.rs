@@ -7,6 +7,7 @@ use std::sync::Mutex;
 use crate::grid::{Field, Grid};
 use crate::operator::Operator;
 use crate::solver::bounds::Bounds;
+use crate::solver::coarse::coarse_means;
 
 /// Where one of the contacts that share an approach takes place.
 ///
@@ -73,16 +74,4 @@ pub(crate) fn coarse_site(
     bounds: &Bounds,
 ) -> OwnedSite<'static, Box<dyn Operator>> {
     OwnedSite::new(operator, Cow::Owned(coarse_means(gap)), Cow::Owned(bounds.coarse()))
-}
-
-/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
-pub(super) fn coarse_means(fine: &Field) -> Field {
-    let (nx, ny) = fine.dim();
-    let cells = fine.as_slice().expect("standard layout");
-    Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
-        // At the end of an odd number the last row or column stands for both.
-        let (rows, columns) = ([2 * i, (2 * i + 1).min(nx - 1)], [2 * j, (2 * j + 1).min(ny - 1)]);
-        let sum = |row: usize| cells[row * ny + columns[0]] + cells[row * ny + columns[1]];
-        0.25 * (sum(rows[0]) + sum(rows[1]))
-    })
 }

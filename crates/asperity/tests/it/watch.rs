@@ -85,14 +85,14 @@ fn friction_and_rolling_stop_within_an_increment() {
     let rolled = |watch: &Patience| {
         roll(&pair, Boundary::FREE, &plain, Control::Load(load), rolling, &params, watch).map(|_| ())
     };
-    let runs: [&dyn Fn(&Patience) -> asperity::Result<()>; 2] = [&staged, &rolled];
-    for (n, run) in runs.into_iter().enumerate() {
+    let run = |n: usize, watch: &Patience| if n == 0 { staged(watch) } else { rolled(watch) };
+    for n in [0, 1] {
         let patient = Patience::new(usize::MAX);
-        run(&patient).unwrap();
+        run(n, &patient).unwrap();
         let asked = patient.asked.load(Ordering::Relaxed);
         assert!(patient.told.load(Ordering::Relaxed) > 0 && asked > 5, "{n}: asked {asked} times");
         for most in [1, asked / 2, asked - 2] {
-            let stopped = run(&Patience::new(most));
+            let stopped = run(n, &Patience::new(most));
             assert!(matches!(stopped, Err(Error::Interrupted)), "{n}, {most} of {asked}: {stopped:?}");
         }
     }
