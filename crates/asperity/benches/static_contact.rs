@@ -39,6 +39,6 @@ fn rough(side: usize) -> Field {
 fn solve(operator: &mut dyn Operator, pressure: f64) {
     let gap = rough(operator.grid().shape[0]);
     let load = Control::Load(pressure * operator.grid().area());
-    let params = Params { method: Method::ActiveSet, ..Params::default() };
+    let params = Params::default().with_method(Method::ActiveSet);
     solve_normal(operator, &gap, &Bounds::ELASTIC, load, None, &params).expect("an equilibrium");
 }

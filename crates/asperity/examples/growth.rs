@@ -50,7 +50,7 @@ fn measure(side: usize) -> Result<f64, Box<dyn Error>> {
     let mut operator = FreeFft::new(grid, 1.0);
     // A = 2 W/(E* h'rms).
     let load = Control::Load(0.0025 * grid.area());
-    let params = Params { method: Method::ActiveSet, ..Params::default() };
+    let params = Params::default().with_method(Method::ActiveSet);
     let mut seconds = [0.0; 3];
     let mut last = None;
     for seconds in &mut seconds {

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let load = number("load", number("mean", f64::NAN)? * grid.area())?;
     let boundary = Boundary([choice(&options, "boundary", Edge::Free)?; 2]);
     let method: Method = choice(&options, "method", Method::ActiveSet)?;
-    let params = Params { method, tolerance: number("tolerance", 1e-6)?, ..Params::default() };
+    let params = Params::default().with_method(method).with_tolerance(number("tolerance", 1e-6)?);
 
     let start = Instant::now();
     let modulus = number("modulus", 1.0)?;

@@ -55,7 +55,7 @@ fn solve(
     tolerance: f64,
 ) -> Solution {
     let load = Control::Load(mean * operator.grid().area());
-    let params = Params { method: Method::ActiveSet, tolerance, ..Params::default() };
+    let params = Params::default().with_method(Method::ActiveSet).with_tolerance(tolerance);
     solve_normal(operator, gap, &Bounds::ELASTIC, load, start, &params).unwrap()
 }
 

@@ -18,25 +18,11 @@ use super::stored::{Cap, Stored};
 use super::*;
 
 fn under(forces: &[[f64; 2]]) -> Vec<IncrementRecord> {
-    let of = |(i, force): (usize, &[f64; 2])| IncrementRecord {
-        increment: i + 1,
-        stage: 1,
-        load: 1.0,
-        approach: 0.0,
-        tangential_force_x: force[0],
-        tangential_force_y: force[1],
-        tangential_displacement_x: 0.0,
-        tangential_displacement_y: 0.0,
-        contact_area: 1.0,
-        stick_area: 1.0,
-        max_pressure: 1.0,
-        max_shear: 1.0,
-        plastic_volume: 0.0,
-        elastic_energy: 0.0,
-        dissipation: 0.0,
-        iterations: 0,
-        convolutions: 0.0,
-        residual: 0.0,
+    let of = |(i, force): (usize, &[f64; 2])| {
+        let mut row = IncrementRecord::default();
+        (row.increment, row.stage, row.load, row.contact_area) = (i + 1, 1, 1.0, 1.0);
+        [row.tangential_force_x, row.tangential_force_y] = *force;
+        row
     };
     forces.iter().enumerate().map(of).collect()
 }

@@ -253,7 +253,7 @@ impl Task {
             Work::Factorisation => Method::Direct,
             Work::Product | Work::Transform => Method::ActiveSet,
         };
-        let params = Params { method, ..Params::default() };
+        let params = Params::default().with_method(method);
         solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, self.control, None, &params)
     }
 }

@@ -144,16 +144,13 @@ impl Output for Keep {
 }
 
 fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
-    let motion = Motion {
-        strategy: Strategy::Overlap,
-        passes: PASSES,
-        stride: 1,
-        control: Control::Load(LOAD),
-        load_control: LoadControl::Pass,
-        plastic_update: PlasticUpdate::Pass,
-        load_tolerance: 1e-4,
-        friction: None,
-    };
+    let motion = Motion::new(Strategy::Overlap, Control::Load(LOAD))
+        .with_passes(PASSES)
+        .with_stride(1)
+        .with_load_control(LoadControl::Pass)
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_load_tolerance(1e-4)
+        .with_friction(None);
     bar.set_message(format!("figure 10: {PASSES} passes of {} positions", 2 * SIDE - 1));
     let mut kept = Keep(Vec::new());
     Simulation::new(pair, Boundary::FREE, motion, Params::default())?.run(&(), &mut [&mut kept])?;

@@ -88,7 +88,7 @@ impl Display {
 
 impl Watch for Display {
     fn at(&self, progress: &Progress) {
-        let Progress { pass, passes, trial, solved, positions, load, together } = *progress;
+        let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let (place, part, steps) = if self.step == "pass" {
             let place = match together {
                 Some(way) => format!("all {positions} positions together, {:.0} %", 100.0 * way),

@@ -8,6 +8,7 @@ use crate::units::Dimension;
 
 /// One of two bodies that face each other: its heights, and what else of it a motion may change cell by cell.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Body {
     /// Heights of the surface, of the upper body those of its underside, m.
     pub heights: Field,

@@ -14,6 +14,7 @@ use crate::units::{CubicMetre, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// Where.
     pub position: Position,
@@ -177,6 +178,7 @@ impl Contact {
 
 /// A static contact without friction.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct StaticContact {
     /// The contact in numbers.
     pub record: StaticRecord,

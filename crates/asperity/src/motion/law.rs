@@ -40,6 +40,7 @@ pub trait Law: Send + Sync {
 
 /// The cells in contact at one position.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct Touching<'a> {
     /// The position.
     pub position: &'a Position,

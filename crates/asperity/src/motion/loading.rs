@@ -26,6 +26,7 @@ pub struct Stage {
 
 /// A static contact, and how it came about.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LoadedContact {
     /// The contact at the end of its loading, in numbers.
     pub record: StaticRecord,
@@ -54,6 +55,7 @@ pub enum Equilibrium {
 
 /// A loading under way: all that its next increment depends on.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LoadingState {
     /// The increments done.
     pub increments: Vec<IncrementRecord>,
@@ -71,6 +73,7 @@ pub struct LoadingState {
 
 /// What the cells of a contact have taken up plastically in the course of its loading.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Flattening {
     /// What plastic flow has taken away for good, m: both bodies are lowered by it together. None before plastic
     /// cells are first unloaded.
@@ -459,6 +462,7 @@ impl Flattening {
 
 /// The state in which a stage begins, in each quantity that it may prescribe.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Origin {
     /// Normal force.
     pub load: Newton,

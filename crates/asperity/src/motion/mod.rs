@@ -125,6 +125,7 @@ choice!(PlasticUpdate: "pass" => Pass, "step" => Step);
 
 /// A motion: how often, how finely and under what the bodies pass over each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// Overlap or circular shift.
     pub strategy: Strategy,
@@ -145,6 +146,69 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// One pass in steps of a cell, in which a load holds in the mean over the pass to 10⁻⁴ and plastic deformation is applied
+    /// after it; without friction.
+    pub const fn new(strategy: Strategy, control: Control) -> Self {
+        Self {
+            strategy,
+            passes: 1,
+            stride: 1,
+            control,
+            load_control: LoadControl::Pass,
+            plastic_update: PlasticUpdate::Pass,
+            load_tolerance: 1e-4,
+            friction: None,
+        }
+    }
+
+    /// The same by another strategy.
+    #[must_use]
+    pub const fn with_strategy(self, strategy: Strategy) -> Self {
+        Self { strategy, ..self }
+    }
+
+    /// The same over so many passes, ≥ 1.
+    #[must_use]
+    pub const fn with_passes(self, passes: usize) -> Self {
+        Self { passes, ..self }
+    }
+
+    /// The same in steps of so many cells, ≥ 1.
+    #[must_use]
+    pub const fn with_stride(self, stride: usize) -> Self {
+        Self { stride, ..self }
+    }
+
+    /// The same under another load or approach.
+    #[must_use]
+    pub const fn with_control(self, control: Control) -> Self {
+        Self { control, ..self }
+    }
+
+    /// The same with a load that holds there.
+    #[must_use]
+    pub const fn with_load_control(self, load_control: LoadControl) -> Self {
+        Self { load_control, ..self }
+    }
+
+    /// The same with plastic deformation applied then.
+    #[must_use]
+    pub const fn with_plastic_update(self, plastic_update: PlasticUpdate) -> Self {
+        Self { plastic_update, ..self }
+    }
+
+    /// The same to another relative tolerance on the pass-mean load, > 0.
+    #[must_use]
+    pub const fn with_load_tolerance(self, load_tolerance: f64) -> Self {
+        Self { load_tolerance, ..self }
+    }
+
+    /// The same with friction, or without.
+    #[must_use]
+    pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
+        Self { friction: friction.into(), ..self }
+    }
+
     /// How the bodies slide, if there is friction: the upper one towards where it goes.
     pub(crate) fn sliding(&self) -> Option<Sliding> {
         self.friction.map(|friction| Sliding { friction, direction: [self.strategy.direction(), 0.0] })

@@ -6,6 +6,7 @@ use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Sec
 
 /// A static contact in numbers: `static` in `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StaticRecord {
     /// Total normal force W.
     pub load: Newton,
@@ -38,6 +39,7 @@ pub struct StaticRecord {
 
 /// What friction adds to a static contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ShearRecord {
     /// Force of the upper body on the lower one, along x and y.
     pub tangential_force: [Newton; 2],
@@ -66,7 +68,8 @@ pub struct ShearRecord {
 }
 
 /// One increment of the loading of a static contact: a row of `increments.csv`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct IncrementRecord {
     /// Increment, from 1.
     pub increment: usize,
@@ -108,6 +111,7 @@ pub struct IncrementRecord {
 
 /// One point of a sweep: a row of `sweep.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SweepRecord {
     /// Point, from 1, in the order given.
     pub point: usize,
@@ -160,6 +164,7 @@ pub struct SweepRecord {
 
 /// One position of one pass: a row of `steps.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StepRecord {
     /// Pass, from 1.
     pub pass: usize,
@@ -199,6 +204,7 @@ pub struct StepRecord {
 
 /// One pass: a row of `passes.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PassRecord {
     /// Pass, from 1.
     pub pass: usize,
@@ -247,6 +253,7 @@ pub struct PassRecord {
 
 /// The volumes that a law took from the bodies.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LostVolume {
     /// Name of the law.
     pub law: String,

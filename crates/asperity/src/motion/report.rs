@@ -9,6 +9,7 @@ use crate::motion::warm_start::{Guess, WarmStart};
 use crate::solver::Sliding;
 
 /// A finished pass.
+#[non_exhaustive]
 pub struct PassReport<'a> {
     /// The pass in numbers.
     pub record: &'a PassRecord,

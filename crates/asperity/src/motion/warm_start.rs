@@ -10,6 +10,7 @@ use crate::units::{Metre, Pascal};
 /// depends on where they
 /// begin: a motion goes on with the same bits only from the same start.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WarmStart {
     /// The guess with which the search for the approach begins; none where no mean load is prescribed.
     pub guess: Option<Guess>,
@@ -19,6 +20,7 @@ pub struct WarmStart {
 
 /// A guess with which the search for the approach of a pass begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Guess {
     /// The approach δ.
     pub approach: Metre,
@@ -29,6 +31,7 @@ pub struct Guess {
 
 /// What bears at one position.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Bearing {
     /// The approach δ.
     pub approach: Metre,

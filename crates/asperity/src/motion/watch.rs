@@ -8,6 +8,7 @@ use crate::units::Newton;
 
 /// How far a motion has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// The pass under way, from 1.
     pub pass: usize,

@@ -79,6 +79,7 @@ choice!(Method: "auto" => Auto, "direct" => Direct, "polonsky-keer" => PolonskyK
 
 /// How accurately, and by what method.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Params {
     /// The method.
     pub method: Method,
@@ -88,14 +89,40 @@ pub struct Params {
     pub max_convolutions: usize,
 }
 
+impl Params {
+    /// The method that suits the grid, a residual of 10⁻⁶, 10 000 operator calls at the most.
+    pub const fn new() -> Self {
+        Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000 }
+    }
+
+    /// The same with another method.
+    #[must_use]
+    pub const fn with_method(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
+    /// The same with another residual at which the answer is accepted.
+    #[must_use]
+    pub const fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The same with another number of operator calls after which the iteration is given up.
+    #[must_use]
+    pub const fn with_max_convolutions(self, max_convolutions: usize) -> Self {
+        Self { max_convolutions, ..self }
+    }
+}
+
 impl Default for Params {
     fn default() -> Self {
-        Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000 }
+        Self::new()
     }
 }
 
 /// What an answer cost.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Stats {
     /// Iterations: conjugate gradient steps, or factorisations of the direct method.
     pub iterations: usize,
@@ -118,6 +145,7 @@ impl Stats {
 
 /// A contact in equilibrium, with the problem that it solves.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Solution {
     /// Grid of the contact.
     pub grid: Grid,

@@ -7,6 +7,7 @@ use crate::units::{Metre, Pascal};
 
 /// How far a pressure is from equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Residual {
     /// η = max|φ| / scale.
     pub eta: f64,

@@ -37,7 +37,7 @@ impl Problem {
     }
 
     fn solve(&mut self, control: Control, method: Method, tolerance: f64) -> asperity::Result<Solution> {
-        let params = Params { method, tolerance, ..Params::default() };
+        let params = Params::default().with_method(method).with_tolerance(tolerance);
         let bounds = self.bounds();
         solve_normal(self.operator.as_mut(), &self.gap, &bounds, control, None, &params)
     }
@@ -133,7 +133,7 @@ fn uniform_bounds_as_fields_come_to_the_same() {
     let mut problem = Problem::random(&mut rng, 2, [70, 64], false);
     problem.upper.fill(0.4);
     let field = problem.solve(Control::Load(300.0), Method::ActiveSet, 1e-6).unwrap();
-    let params = Params { method: Method::ActiveSet, ..Params::default() };
+    let params = Params::default().with_method(Method::ActiveSet);
     let operator = problem.operator.as_mut();
     let uniform =
         solve_normal(operator, &problem.gap, &Bounds::up_to(0.4), Control::Load(300.0), None, &params)
@@ -151,7 +151,7 @@ fn bodies_that_attract_each_other_bear_a_pull() {
     let bounds = Bounds::ELASTIC.above(-0.02);
     for method in METHODS {
         let mut operator = DirectSum::new(grid, 1.0);
-        let params = Params { method, tolerance: 1e-8, ..Params::default() };
+        let params = Params::default().with_method(method).with_tolerance(1e-8);
         let mut last = f64::NEG_INFINITY;
         for share in [-0.99, -0.5, 0.0, 0.5] {
             let load = Control::Load(share * 0.02 * 144.0);

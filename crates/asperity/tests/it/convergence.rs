@@ -45,8 +45,10 @@ fn stress(seeds: impl Iterator<Item = u64>) {
                     let boundary = operator.boundary();
                     let case =
                         format!("seed {seed}, {boundary:?}, hardness {hardness}, mean pressure {mean}");
-                    let params =
-                        Params { method: Method::ActiveSet, tolerance: TOLERANCE, max_convolutions: 300 };
+                    let params = Params::new()
+                        .with_method(Method::ActiveSet)
+                        .with_tolerance(TOLERANCE)
+                        .with_max_convolutions(300);
                     let load = Control::Load(mean * grid.area());
                     let solution =
                         solve_normal(operator.as_mut(), &gap, &Bounds::up_to(hardness), load, start, &params);

@@ -10,8 +10,10 @@ use asperity::{Error, Field, Grid};
 
 use crate::support::cell_by_cell::CellByCell;
 
-const PARAMS: Params =
-    Params { method: asperity::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };
+const PARAMS: Params = Params::new()
+    .with_method(asperity::solver::Method::Auto)
+    .with_tolerance(1e-10)
+    .with_max_convolutions(10_000);
 
 fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
     let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
@@ -130,7 +132,7 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
     let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
     let gap = gap(grid.shape).mapv(|h| 0.1 * h);
     let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
-    let friction = Friction { shear_strength: 0.02, ..Friction::coulomb(0.5).unwrap() };
+    let friction = Friction::coulomb(0.5).unwrap().with_shear_strength(0.02);
     let loading = Loading { normal: Control::Load(5.0), tangential: Tangential::Sliding([1.0, 0.0]) };
     let mut solve = |friction: &Friction, loading| {
         solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, friction, loading, None, &PARAMS).unwrap()
@@ -146,7 +148,7 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
     let error = (&pushed.normal.pressure - &sliding.normal.pressure).mapv(f64::abs);
     assert!(error.iter().all(|e| *e < 1e-5 * sliding.normal.max_pressure()));
     // Ahead of the shear that drags it the softer lower body sinks, behind it it rises to meet the upper one.
-    let alone = solve(&Friction { coefficient: 0.0, ..friction }, loading);
+    let alone = solve(&friction.with_coefficient(0.0), loading);
     let moment = |p: &Field| p.indexed_iter().map(|((i, _), p)| i as f64 * p).sum::<f64>() / p.sum();
     assert!(moment(&sliding.normal.pressure) < moment(&alone.normal.pressure) - 0.05);
 }
@@ -158,7 +160,8 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
     let (hardness, load) = (0.04, 6.0);
     for pair in [alike(), dissimilar()] {
         let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
-        let friction = |junction_growth| Friction { junction_growth, ..Friction::coulomb(0.4).unwrap() };
+        let friction =
+            |junction_growth| Friction::coulomb(0.4).unwrap().with_junction_growth(junction_growth);
         let mut solve = |junction_growth, tangential, before: Option<&FrictionalSolution>| {
             let loading = Loading { normal: Control::Load(load), tangential };
             let law = friction(junction_growth);
@@ -246,7 +249,7 @@ fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
             &friction,
             loading,
             state.as_ref(),
-            &Params { tolerance: 1e-9, ..PARAMS },
+            &PARAMS.with_tolerance(1e-9),
         );
         state = Some(next.unwrap());
     }
@@ -261,7 +264,7 @@ fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
     let mut solve = |force: [f64; 2], coefficient| {
         let loading = Loading { normal: Control::Load(2.0), tangential: Tangential::Force(force) };
-        let friction = Friction { coefficient, ..Friction::coulomb(0.0).unwrap() };
+        let friction = Friction::coulomb(0.0).unwrap().with_coefficient(coefficient);
         solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, None, &PARAMS)
     };
     match solve([0.3, 0.4], 0.25) {
@@ -291,8 +294,10 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
                 (0.2, f64::INFINITY, 0.08),
                 (f64::INFINITY, f64::INFINITY, f64::INFINITY),
             ] {
-                let friction =
-                    Friction { shear_strength, coupling, ..Friction::coulomb(coefficient).unwrap() };
+                let friction = Friction::coulomb(coefficient)
+                    .unwrap()
+                    .with_shear_strength(shear_strength)
+                    .with_coupling(coupling);
                 let mut operator = CoupledSum::new(grid, pair);
                 let reference = CellByCell::new(&mut operator, coupling);
                 let what = format!("{name}, {friction:?}, H = {hardness}");

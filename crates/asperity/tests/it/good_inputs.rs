@@ -264,7 +264,11 @@ fn what_a_stage_does_not_name_stays() {
     let case = load("pushed");
     let friction = case.friction.as_ref().unwrap();
     let coupling = Coupling::Goodman;
-    let law = Friction { coefficient: 0.3, shear_strength: 20e6, coupling, junction_growth: 9.0 };
+    let law = Friction::coulomb(0.3)
+        .unwrap()
+        .with_shear_strength(20e6)
+        .with_coupling(coupling)
+        .with_junction_growth(9.0);
     assert_eq!((friction.law, friction.prescribed), (law, None));
     let stage = |load, tangential, increments| Stage {
         loading: Loading { normal: solver::Control::Load(load), tangential },

@@ -74,16 +74,13 @@ fn pair(hardness: f64) -> Pair {
 }
 
 fn run(hardness: f64, update: PlasticUpdate) -> Kept {
-    let motion = Motion {
-        strategy: Strategy::Overlap,
-        passes: 3,
-        stride: 1,
-        control: Control::Load(0.2),
-        load_control: LoadControl::Pass,
-        plastic_update: update,
-        load_tolerance: 1e-4,
-        friction: None,
-    };
+    let motion = Motion::new(Strategy::Overlap, Control::Load(0.2))
+        .with_passes(3)
+        .with_stride(1)
+        .with_load_control(LoadControl::Pass)
+        .with_plastic_update(update)
+        .with_load_tolerance(1e-4)
+        .with_friction(None);
     let mut kept = Kept::default();
     let simulation = Simulation::new(pair(hardness), Boundary::FREE, motion, Params::default());
     simulation.unwrap().with_law(Wear).run(&(), &mut [&mut kept]).unwrap();
@@ -124,15 +121,14 @@ fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
 #[test]
 fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     let whole = run(4e9, PlasticUpdate::Pass);
-    let motion = |passes| Motion {
-        strategy: Strategy::Overlap,
-        passes,
-        stride: 1,
-        control: Control::Load(0.2),
-        load_control: LoadControl::Pass,
-        plastic_update: PlasticUpdate::Pass,
-        load_tolerance: 1e-4,
-        friction: None,
+    let motion = |passes| {
+        Motion::new(Strategy::Overlap, Control::Load(0.2))
+            .with_passes(passes)
+            .with_stride(1)
+            .with_load_control(LoadControl::Pass)
+            .with_plastic_update(PlasticUpdate::Pass)
+            .with_load_tolerance(1e-4)
+            .with_friction(None)
     };
     struct Warm(Kept, Option<asperity::motion::WarmStart>);
     impl Output for Warm {

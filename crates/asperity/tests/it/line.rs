@@ -35,7 +35,7 @@ fn solve(
     control: Control,
     method: Method,
 ) -> Solution {
-    let params = Params { method, tolerance: 1e-9, max_convolutions: 5000 };
+    let params = Params::new().with_method(method).with_tolerance(1e-9).with_max_convolutions(5000);
     solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &params)
         .unwrap_or_else(|error| panic!("{error}: {method:?}, {hardness}, {control:?}, {:?}", operator.grid()))
 }
@@ -201,16 +201,13 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
         asperity::surface::Topography::new(Grid::new([40, 24], [1e-6; 2]).unwrap(), heights).unwrap()
     };
     let pair = Pair::new(topography(heights(2e-8)), topography(-heights(1e-8)), [&steel, &steel]).unwrap();
-    let motion = Motion {
-        strategy: Strategy::Overlap,
-        passes: 1,
-        stride: 6,
-        control: Control::Load(0.02),
-        load_control: LoadControl::Pass,
-        plastic_update: PlasticUpdate::Pass,
-        load_tolerance: 1e-6,
-        friction: None,
-    };
+    let motion = Motion::new(Strategy::Overlap, Control::Load(0.02))
+        .with_passes(1)
+        .with_stride(6)
+        .with_load_control(LoadControl::Pass)
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_load_tolerance(1e-6)
+        .with_friction(None);
     struct Kept(Vec<motion::Contact>);
     impl motion::Output for Kept {
         fn pass(&mut self, report: &motion::PassReport) -> asperity::Result<()> {
@@ -218,7 +215,7 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
             Ok(())
         }
     }
-    let params = Params { tolerance: 1e-8, ..Params::default() };
+    let params = Params::default().with_tolerance(1e-8);
     let mut kept = Kept(Vec::new());
     let mut simulation = Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap();
     simulation.run(&(), &mut [&mut kept]).unwrap();

@@ -21,7 +21,8 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::support::cell_by_cell::CellByCell;
 
-const FINE: Params = Params { method: Method::Auto, tolerance: 1e-10, max_convolutions: 10_000 };
+const FINE: Params =
+    Params::new().with_method(Method::Auto).with_tolerance(1e-10).with_max_convolutions(10_000);
 
 fn pair(grid: Grid, gap: Field, materials: [Material; 2]) -> Pair {
     let topography = |heights| Topography::new(grid, heights).unwrap();
@@ -84,7 +85,7 @@ fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
 fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
     let pair = ball(48, 0.6e-6, 0.7e9);
     let whole = load(&pair, None, &[to(0.25, 0.0, 1)], &Params::default(), &mut ()).unwrap();
-    let asperity::motion::StaticContact { record, solution } =
+    let asperity::motion::StaticContact { record, solution, .. } =
         asperity::motion::press(&pair, Boundary::FREE, Control::Load(0.25), &Params::default(), &()).unwrap();
     assert_eq!(whole.record, record);
     assert_eq!(whole.solution.normal().pressure, solution.pressure);
@@ -136,12 +137,11 @@ impl Case {
         let friction = random.random_bool(0.7).then(|| {
             let couplings = [Coupling::Full, Coupling::Goodman, Coupling::None];
             let strengths = [f64::INFINITY, f64::INFINITY, 0.02];
-            Friction {
-                coupling: couplings[random.random_range(0..3)],
-                shear_strength: strengths[random.random_range(0..3)],
-                junction_growth: if growth { random.random_range(0.0..15.0) } else { 0.0 },
-                ..Friction::coulomb(random.random_range(0.1..0.7)).unwrap()
-            }
+            Friction::coulomb(random.random_range(0.1..0.7))
+                .unwrap()
+                .with_coupling(couplings[random.random_range(0..3)])
+                .with_shear_strength(strengths[random.random_range(0..3)])
+                .with_junction_growth(if growth { random.random_range(0.0..15.0) } else { 0.0 })
         });
         let limit = hardness * grid.area();
         let by_load = random.random_bool(0.5);
@@ -200,7 +200,7 @@ fn against_cell_by_cell(seed: u64) {
     let states = case.run(&FINE).unwrap_or_else(|error| panic!("case {seed}: {error}"));
     let [lower, upper] = &case.materials;
     let mut operator = CoupledSum::new(case.grid, Compliances::new(lower, upper).unwrap());
-    let none = Friction { coupling: Coupling::None, ..Friction::coulomb(0.0).unwrap() };
+    let none = Friction::coulomb(0.0).unwrap().with_coupling(Coupling::None);
     let friction = case.friction.unwrap_or(none);
     let reference = CellByCell::new(&mut operator, friction.coupling);
     let mut gap = case.gap.clone();
@@ -245,7 +245,7 @@ fn any_loading_of_what_yields_is_that_of_a_cell_by_cell_iteration() {
 /// Where plastic flow, contact and friction are what they are said to be, also with junction growth.
 fn keeps_the_law(seed: u64) {
     let case = Case::at_random(seed, [22, 20], true);
-    let params = Params { tolerance: 1e-7, ..Params::default() };
+    let params = Params::default().with_tolerance(1e-7);
     let states = case.run(&params).unwrap_or_else(|error| panic!("case {seed}: {error}"));
     let mut before = Field::zeros(case.gap.raw_dim());
     for state in &states {
@@ -299,7 +299,7 @@ fn any_tolerance(seed: u64) {
         }
     }
     let modulus = pair(case.grid, case.gap.clone(), case.materials).modulus();
-    let params = Params { tolerance, ..Params::default() };
+    let params = Params::default().with_tolerance(tolerance);
     let states =
         case.run(&params).unwrap_or_else(|error| panic!("case {seed}, tolerance {tolerance:e}: {error}"));
     for state in &states {

@@ -37,7 +37,7 @@ fn at_a_constant_approach_the_bodies_shake_down_at_once() {
 fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
     // Deformation at every position runs in faster than a pass of frozen geometry, which decays by about 0.3.
     for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
-        let load = Motion { plastic_update: update, ..motion(pass_load(10.0 * LOAD), 5) };
+        let load = motion(pass_load(10.0 * LOAD), 5).with_plastic_update(update);
         let kept = run(rough_pair(32), load);
         let volumes = plastic_volumes(&kept);
         for pair in volumes.windows(2) {
@@ -48,7 +48,7 @@ fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together()
         let [first, last] = [0, 4].map(|pass| kept.passes[pass].mean_contact_area);
         assert!(last > first, "{update:?}: the bodies conform, area {first:e} → {last:e}");
 
-        let held = Motion { control: Control::Approach(approach[0]), ..load };
+        let held = load.with_control(Control::Approach(approach[0]));
         let held = plastic_volumes(&run(rough_pair(32), held));
         assert!((held[0] / volumes[0] - 1.0).abs() < 1e-4, "the first pass is the same");
         assert!((1..5).all(|pass| held[pass] < volumes[pass]), "held {held:?}, sinking {volumes:?}");
@@ -72,7 +72,7 @@ fn the_mean_load_of_every_pass_is_the_load_asked_for() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         for tolerance in [1e-2, 1e-4, 1e-7] {
             let motion =
-                Motion { plastic_update: update, load_tolerance: tolerance, ..motion(pass_load(LOAD), 2) };
+                motion(pass_load(LOAD), 2).with_plastic_update(update).with_load_tolerance(tolerance);
             let kept = run(rough_pair(24), motion);
             for pass in &kept.passes {
                 let mean = mean(&kept.loads_of(pass.pass));
@@ -90,7 +90,7 @@ fn the_mean_load_of_every_pass_is_the_load_asked_for() {
 fn the_mean_load_is_found_from_a_touch_to_nearly_the_plastic_limit() {
     let limit = pass_limit(24, 24, 1);
     for load in [1e-9 * limit, 1e-6 * limit, 1e-3 * limit, 0.3 * limit, 0.9 * limit, 0.99 * limit] {
-        let motion = Motion { stride: 4, ..motion(pass_load(load), 1) };
+        let motion = motion(pass_load(load), 1).with_stride(4);
         let kept = run(rough_pair(24), motion);
         assert!((kept.passes[0].mean_load / load - 1.0).abs() <= 1e-4, "{:e}", load / limit);
     }
@@ -99,7 +99,7 @@ fn the_mean_load_is_found_from_a_touch_to_nearly_the_plastic_limit() {
 #[test]
 fn a_load_held_at_every_position_is_met_to_the_last_digits() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-        let motion = Motion { plastic_update: update, ..motion(step_load(0.5 * LOAD), 2) };
+        let motion = motion(step_load(0.5 * LOAD), 2).with_plastic_update(update);
         let kept = run(rough_pair(24), motion);
         for step in &kept.steps {
             assert!((step.load / (0.5 * LOAD) - 1.0).abs() < 1e-10, "{step:?}");
@@ -110,7 +110,7 @@ fn a_load_held_at_every_position_is_met_to_the_last_digits() {
 #[test]
 fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them() {
     for control in [pass_load(LOAD), step_load(0.5 * LOAD)] {
-        let motion = Motion { plastic_update: PlasticUpdate::Step, ..motion(control, 2) };
+        let motion = motion(control, 2).with_plastic_update(PlasticUpdate::Step);
         let kept = run(rough_pair(24), motion);
         let lost = |pass: &PassRecord| pass.lost("plastic")[0] + pass.lost("plastic")[1];
         let first = lost(&kept.passes[0]);
@@ -145,7 +145,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
         (slide, Boundary::FREE, PlasticUpdate::Pass),
         (slide, Boundary::PERIODIC, PlasticUpdate::Step),
     ] {
-        let motion = Motion { strategy, plastic_update: update, ..motion(pass_load(20.0 * LOAD), 2) };
+        let motion = motion(pass_load(20.0 * LOAD), 2).with_strategy(strategy).with_plastic_update(update);
         let [kept, whole] = [0.2, 0.0].map(|rim| {
             let simulation = Simulation::new(rough_pair(24), boundary, motion, Params::default()).unwrap();
             continued(simulation.with_rim(rim).unwrap())
@@ -217,7 +217,7 @@ fn the_harder_body_loses_nothing() {
     let [soft, hard] = [2e9, 7e9].map(|hardness| Material::new(STEEL[0], STEEL[1], hardness).unwrap());
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         for (materials, harder) in [([&soft, &hard], 1), ([&hard, &soft], 0)] {
-            let motion = Motion { plastic_update: update, ..motion(pass_load(LOAD), 2) };
+            let motion = motion(pass_load(LOAD), 2).with_plastic_update(update);
             let initial = Pair::new(surface([24, 24], 1), surface([24, 24], 2), materials).unwrap();
             let kept = run(initial.clone(), motion);
             for pass in &kept.passes {
@@ -236,7 +236,7 @@ fn the_harder_body_loses_nothing() {
 fn the_mean_pressures_of_both_bodies_carry_the_loads() {
     let shift = Strategy::Shift { speed_lower: 1.0, speed_upper: -0.5 };
     for strategy in [Strategy::Overlap, shift] {
-        let motion = Motion { strategy, ..motion(pass_load(LOAD), 2) };
+        let motion = motion(pass_load(LOAD), 2).with_strategy(strategy);
         let initial = rough_pair(24);
         let kept = run(initial.clone(), motion);
         for (pass, means) in kept.passes.iter().zip(&kept.mean_pressure) {
@@ -269,7 +269,7 @@ fn overlap_and_shift_are_one_where_all_faces_all() {
     let approach = at_approach(approach_of(&rough_pair(24), LOAD));
     let overlap = run(rough_pair(24), motion(approach, 1));
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
-    let shift = run(rough_pair(24), Motion { strategy: sliding, ..motion(approach, 1) });
+    let shift = run(rough_pair(24), motion(approach, 1).with_strategy(sliding));
     let flush = overlap.steps.iter().find(|s| s.offset == 0.0).unwrap();
     assert_eq!(flush.overlap_columns, 24);
     let first = &shift.steps[0];
@@ -342,7 +342,7 @@ fn bodies_of_different_lengths_pass_in_strides_that_do_not_divide_them() {
         let pair = steel_pair(surface([lower, 16], 1), surface([upper, 16], 2));
         let load = 5e-2 * HARDNESS * PITCH * PITCH * 16.0 * lower.min(upper) as f64;
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-            let motion = Motion { stride, plastic_update: update, ..motion(pass_load(load), 2) };
+            let motion = motion(pass_load(load), 2).with_stride(stride).with_plastic_update(update);
             let kept = run(pair.clone(), motion);
             let offsets: Vec<isize> = kept.steps_of(1).map(|s| (s.offset / PITCH).round() as isize).collect();
             let expected: Vec<isize> =
@@ -361,7 +361,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
         let [one, two] = [1, 2].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let motion = Motion { plastic_update: update, ..motion(pass_load(LOAD), 2) };
+            let motion = motion(pass_load(LOAD), 2).with_plastic_update(update);
             pool.install(|| run(rough_pair(24), motion))
         });
         assert_eq!(one.steps, two.steps);
@@ -377,7 +377,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
 /// Motions of every kind, of three passes that yield.
 fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     let slides = Friction::coulomb(0.3).unwrap();
-    let grows = Friction { junction_growth: 9.0, ..slides };
+    let grows = slides.with_junction_growth(9.0);
     let shift = Strategy::Shift { speed_lower: -0.5, speed_upper: 1.0 };
     let mut motions = Vec::new();
     for (strategy, boundary) in
@@ -386,7 +386,11 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
         for control in [pass_load(5.0 * LOAD), step_load(0.8 * LOAD), at_approach(40e-9)] {
             for plastic_update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
                 for friction in [None, Some(slides), Some(grows)] {
-                    let kind = Motion { strategy, plastic_update, friction, stride: 3, ..motion(control, 3) };
+                    let kind = motion(control, 3)
+                        .with_strategy(strategy)
+                        .with_plastic_update(plastic_update)
+                        .with_friction(friction)
+                        .with_stride(3);
                     motions.push((boundary, kind));
                 }
             }
@@ -401,7 +405,7 @@ fn a_resumed_motion_goes_on_with_the_same_bits() {
         // Every other pair is of dissimilar bodies, which the shear displaces normally.
         let pair = if index % 2 == 0 { rough_pair(16) } else { dissimilar_pair(16) };
         let simulation = |pair: &Pair, passes: usize| {
-            Simulation::new(pair.clone(), boundary, Motion { passes, ..motion }, Params::default())
+            Simulation::new(pair.clone(), boundary, motion.with_passes(passes), Params::default())
                 .unwrap_or_else(|error| panic!("{error}: {motion:?}"))
         };
         let whole = continued(simulation(&pair, 3));
@@ -437,7 +441,7 @@ fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bit
     }
     for (control, positions) in [(step_load(0.5 * LOAD), 60), (pass_load(LOAD), 200)] {
         for update in [PlasticUpdate::Pass, PlasticUpdate::Step] {
-            let motion = Motion { plastic_update: update, ..motion(control, 3) };
+            let motion = motion(control, 3).with_plastic_update(update);
             let whole = run(rough_pair(24), motion);
             let mut kept = Kept::default();
             let mut simulation =
@@ -468,7 +472,7 @@ fn an_output_that_fails_ends_the_motion() {
             Err(Error::Unsupported("no space left"))
         }
     }
-    let motion = Motion { stride: 8, ..motion(step_load(0.2 * LOAD), 3) };
+    let motion = motion(step_load(0.2 * LOAD), 3).with_stride(8);
     let mut simulation = Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default()).unwrap();
     assert!(matches!(simulation.run(&(), &mut [&mut Full]), Err(Error::Unsupported("no space left"))));
 }
@@ -477,13 +481,13 @@ fn an_output_that_fails_ends_the_motion() {
 
 #[test]
 fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
-    let step = Motion { plastic_update: PlasticUpdate::Step, ..motion(pass_load(1.0), 1) };
+    let step = motion(pass_load(1.0), 1).with_plastic_update(PlasticUpdate::Step);
     // The lower body takes all of the plastic deformation.
     let [soft, hard] = [1.0, 2.0].map(|times| Material::new(STEEL[0], STEEL[1], times * HARDNESS).unwrap());
     let pair = || Pair::new(surface([24, 24], 1), surface([24, 24], 2), [&soft, &hard]).unwrap();
     let limit = pass_limit(24, 24, 1);
     let tried = |load: f64| {
-        let motion = Motion { control: Control::Load(load), load_control: LoadControl::Pass, ..step };
+        let motion = step.with_control(Control::Load(load)).with_load_control(LoadControl::Pass);
         let mut kept = Kept::default();
         let mut simulation = Simulation::new(pair(), Boundary::FREE, motion, Params::default()).unwrap();
         simulation.run(&(), &mut [&mut kept]).map(|()| kept)
@@ -494,7 +498,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
     assert_eq!((load, cause), (0.9 * limit, LoadLimit::Yielded));
     // However far beyond: what was lowered by more has the same shape, and bears the same.
     for far in [1.5, 20.0] {
-        let at = Motion { control: Control::Approach(far * approach), ..step };
+        let at = step.with_control(Control::Approach(far * approach));
         let bears = run(pair(), at).passes[0].mean_load;
         assert!((bears / most - 1.0).abs() < 1e-5, "{bears:e} N and {most:e} N");
     }
@@ -504,12 +508,10 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
         assert!(kept.passes[0].approach < approach);
     }
     // Bodies that yield after the pass bear it.
-    let after = Motion {
-        plastic_update: PlasticUpdate::Pass,
-        control: Control::Load(0.9 * limit),
-        load_control: LoadControl::Pass,
-        ..step
-    };
+    let after = step
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_control(Control::Load(0.9 * limit))
+        .with_load_control(LoadControl::Pass);
     assert!((run(pair(), after).passes[0].mean_load / (0.9 * limit) - 1.0).abs() <= 1e-4);
 }
 
@@ -517,7 +519,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
 fn periodic_bodies_share_a_load_up_to_full_contact() {
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let tried = |load: f64| {
-        let motion = Motion { strategy: sliding, stride: 4, ..motion(pass_load(load), 1) };
+        let motion = motion(pass_load(load), 1).with_strategy(sliding).with_stride(4);
         let mut kept = Kept::default();
         let mut simulation =
             Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
@@ -554,7 +556,7 @@ fn a_load_beyond_the_plastic_limit_is_refused_with_the_limit() {
     for (strategy, control, columns) in limits {
         let expected = HARDNESS * PITCH * PITCH * 24.0 * columns;
         let simulation = |load: f64| {
-            let motion = Motion { strategy, ..motion(control(load), 1) };
+            let motion = motion(control(load), 1).with_strategy(strategy);
             Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default())
         };
         match simulation(1.001 * expected).map(|_| ()) {
@@ -574,36 +576,36 @@ fn a_motion_without_meaning_is_refused() {
         Simulation::new(pair, boundary, motion, Params::default()).map(|_| ()).unwrap_err().to_string()
     };
     let free = |motion| refused(motion, Boundary::FREE, rough_pair(24));
-    assert!(free(Motion { passes: 0, ..good }).starts_with("passes is 0"));
-    assert!(free(Motion { stride: 0, ..good }).starts_with("stride is 0"));
-    assert!(free(Motion { load_tolerance: 0.0, ..good }).starts_with("load_tolerance is 0"));
+    assert!(free(good.with_passes(0)).starts_with("passes is 0"));
+    assert!(free(good.with_stride(0)).starts_with("stride is 0"));
+    assert!(free(good.with_load_tolerance(0.0)).starts_with("load_tolerance is 0"));
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(
-            free(Motion { control: Control::Load(load), load_control: LoadControl::Pass, ..good })
+            free(good.with_control(Control::Load(load)).with_load_control(LoadControl::Pass))
                 .starts_with("load is "),
             "{load}"
         );
         assert!(
-            free(Motion { control: Control::Load(load), load_control: LoadControl::Step, ..good })
+            free(good.with_control(Control::Load(load)).with_load_control(LoadControl::Step))
                 .starts_with("load is "),
             "{load}"
         );
     }
-    assert!(free(Motion { control: Control::Approach(f64::NAN), ..good }).starts_with("approach is NaN"));
+    assert!(free(good.with_control(Control::Approach(f64::NAN))).starts_with("approach is NaN"));
     let still = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.0 };
-    assert!(free(Motion { strategy: still, ..good }).starts_with("speed is 0"));
+    assert!(free(good.with_strategy(still)).starts_with("speed is 0"));
     let periodic = refused(good, Boundary::PERIODIC, rough_pair(24));
     assert!(periodic.contains("its boundary is free"), "{periodic}");
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
     let unequal = steel_pair(surface([24, 24], 1), surface([20, 24], 2));
-    let unequal = refused(Motion { strategy: sliding, ..good }, Boundary::FREE, unequal);
+    let unequal = refused(good.with_strategy(sliding), Boundary::FREE, unequal);
     assert!(unequal.contains("24 cells along x and 20 cells along x differ"), "{unequal}");
 }
 
 #[test]
 fn an_approach_that_closes_a_periodic_gap_is_refused_during_the_pass() {
     let sliding = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
-    let motion = Motion { strategy: sliding, ..motion(at_approach(1e-6), 1) };
+    let motion = motion(at_approach(1e-6), 1).with_strategy(sliding);
     let mut simulation =
         Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, Params::default()).unwrap();
     let ended = simulation.run(&(), &mut []);
@@ -657,8 +659,8 @@ fn periodic_pair() -> Pair {
 
 /// Loads over a pass of the periodic pair at an approach that presses about a tenth of it together.
 fn periodic_loads(strategy: Strategy) -> Vec<f64> {
-    let motion = Motion { strategy, ..motion(at_approach(-70e-9), 1) };
-    let params = Params { tolerance: 1e-8, ..Params::default() };
+    let motion = motion(at_approach(-70e-9), 1).with_strategy(strategy);
+    let params = Params::default().with_tolerance(1e-8);
     let simulation = Simulation::new(periodic_pair(), Boundary::PERIODIC, motion, params).unwrap();
     let loads = continued(simulation).loads_of(1);
     assert!(loads[0] > 0.0);
@@ -666,16 +668,13 @@ fn periodic_loads(strategy: Strategy) -> Vec<f64> {
 }
 
 fn motion((control, load_control): Held, passes: usize) -> Motion {
-    Motion {
-        strategy: Strategy::Overlap,
-        passes,
-        stride: 1,
-        control,
-        load_control,
-        plastic_update: PlasticUpdate::Pass,
-        load_tolerance: 1e-4,
-        friction: None,
-    }
+    Motion::new(Strategy::Overlap, control)
+        .with_passes(passes)
+        .with_stride(1)
+        .with_load_control(load_control)
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_load_tolerance(1e-4)
+        .with_friction(None)
 }
 
 /// The approach of a first pass whose mean load is `load`.
@@ -746,7 +745,9 @@ fn plastic_volumes(kept: &Kept) -> Vec<f64> {
 
 /// The records but for the time they took.
 fn untimed(passes: &[PassRecord]) -> Vec<PassRecord> {
-    passes.iter().map(|pass| PassRecord { wall_time_s: 0.0, ..pass.clone() }).collect()
+    let mut passes = passes.to_vec();
+    passes.iter_mut().for_each(|pass| pass.wall_time_s = 0.0);
+    passes
 }
 
 #[track_caller]

@@ -42,20 +42,17 @@ fn pair(case: &Value, hardness: f64, share: f64) -> Pair {
 }
 
 fn motion((control, load_control): Held, plastic_update: PlasticUpdate) -> Motion {
-    Motion {
-        strategy: Strategy::Overlap,
-        passes: 1,
-        stride: 1,
-        control,
-        load_control,
-        plastic_update,
-        load_tolerance: 1e-12,
-        friction: None,
-    }
+    Motion::new(Strategy::Overlap, control)
+        .with_passes(1)
+        .with_stride(1)
+        .with_load_control(load_control)
+        .with_plastic_update(plastic_update)
+        .with_load_tolerance(1e-12)
+        .with_friction(None)
 }
 
 fn params(method: Method) -> Params {
-    Params { method, tolerance: 1e-11, ..Params::default() }
+    Params::default().with_method(method).with_tolerance(1e-11)
 }
 
 /// Keeps what the passes yield.
@@ -218,10 +215,8 @@ fn circular_shift_has_the_references_loads() {
     let case = case();
     let expected = &case["conventional_fixed_r0"];
     for (method, tolerance) in METHODS {
-        let motion = Motion {
-            strategy: Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
-            ..motion(at_approach(0.0), PlasticUpdate::Pass)
-        };
+        let motion = motion(at_approach(0.0), PlasticUpdate::Pass)
+            .with_strategy(Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 });
         let (kept, _) = run(pair(&case, case["H"].as_f64().unwrap(), 0.5), motion, method);
         assert_close(&loads(&kept.contacts[0]), &numbers(&expected["F"]), tolerance, "shift");
     }

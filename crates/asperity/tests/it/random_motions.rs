@@ -78,24 +78,22 @@ impl Case {
         let sq = [3e-9, 35e-9, 200e-9][pick(rng, 3)];
         let friction = match pick(rng, 4) {
             0 | 1 => None,
-            kind => Some(Friction {
-                junction_growth: if kind == 3 { 9.0 } else { 0.0 },
-                coupling: [Coupling::Full, Coupling::Full, Coupling::None][pick(rng, 3)],
-                ..Friction::coulomb(rng.random_range(0.05..0.5)).unwrap()
-            }),
+            kind => Some(
+                Friction::coulomb(rng.random_range(0.05..0.5))
+                    .unwrap()
+                    .with_junction_growth(if kind == 3 { 9.0 } else { 0.0 })
+                    .with_coupling([Coupling::Full, Coupling::Full, Coupling::None][pick(rng, 3)]),
+            ),
         };
         let plastic_update = [PlasticUpdate::Pass, PlasticUpdate::Step][pick(rng, 2)];
         let stride = rng.random_range(1..5);
-        let mut motion = Motion {
-            strategy,
-            passes: 2,
-            stride,
-            control: Control::Approach(0.0),
-            load_control: LoadControl::Pass,
-            plastic_update,
-            load_tolerance: [1e-4, 1e-2, 1e-6][pick(rng, 3)],
-            friction,
-        };
+        let mut motion = Motion::new(strategy, Control::Approach(0.0))
+            .with_passes(2)
+            .with_stride(stride)
+            .with_load_control(LoadControl::Pass)
+            .with_plastic_update(plastic_update)
+            .with_load_tolerance([1e-4, 1e-2, 1e-6][pick(rng, 3)])
+            .with_friction(friction);
         let maps = pick(rng, 3) == 0;
         let cap = if maps { SOFTEST } else { 1.0 }
             * friction.map_or(hardness[0].min(hardness[1]), |f| f.sliding_cap(hardness[0].min(hardness[1])));
@@ -148,7 +146,7 @@ impl Case {
     }
 
     fn params(&self) -> Params {
-        Params { method: self.method, tolerance: self.tolerance, ..Params::default() }
+        Params::default().with_method(self.method).with_tolerance(self.tolerance)
     }
 
     fn pair(&self) -> Pair {
@@ -184,7 +182,7 @@ impl Case {
 
     fn run(&self, control: Control) -> (asperity::Result<()>, Kept) {
         let mut kept = Kept::default();
-        let motion = Motion { control, ..self.motion };
+        let motion = self.motion.with_control(control);
         let mut simulation = Simulation::new(self.pair(), self.boundary, motion, self.params()).unwrap();
         (simulation.run(&(), &mut [&mut kept]), kept)
     }
@@ -344,7 +342,7 @@ fn again(
     } else {
         Control::Approach(step.approach)
     };
-    let exact = Params { method: Method::Direct, tolerance: 1e-9, ..Params::default() };
+    let exact = Params::default().with_method(Method::Direct).with_tolerance(1e-9);
     let caps = Field::from_shape_fn(shape, |(j, iy)| {
         let cells = [(position.lower + j) % case.columns[0], (position.upper + j) % case.columns[1]];
         let [lower, upper] = case.borne(cells.map(|column| [column, iy]));

@@ -72,7 +72,7 @@ fn steel() -> Material {
 fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let (modulus, compliance) = (115e9, 2e-17);
     let pair = rough_pair([&steel(), &steel()]).with_response(Sprung { modulus, compliance });
-    let params = Params { tolerance: 1e-10, method: Method::ActiveSet, ..Params::default() };
+    let params = Params::default().with_tolerance(1e-10).with_method(Method::ActiveSet);
     let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params, &()).unwrap();
     let (record, solution) = (found.record, found.solution);
     // u = Cp by the coefficients of half-spaces, cell by cell, and by the springs; the gap is never below 0, and 0 under
@@ -109,7 +109,7 @@ fn all_methods_find_the_same_contact_of_ones_own_bodies() {
     for (n, operator) in operators.into_iter().enumerate() {
         let [direct, active_set, polonsky_keer] = [Method::Direct, Method::ActiveSet, Method::PolonskyKeer]
             .map(|method| {
-                let params = Params { tolerance: 1e-9, method, ..Params::default() };
+                let params = Params::default().with_tolerance(1e-9).with_method(method);
                 let control = Control::Load(0.004 * GRID.area());
                 solve_normal(operator().as_mut(), &gap, &Bounds::up_to(0.05), control, None, &params).unwrap()
             });
@@ -155,16 +155,13 @@ fn what_is_not_known_of_a_response_is_refused() {
     let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params, &());
     unsupported(rolled.map(|_| ()).unwrap_err(), "shear");
     for (coupling, slides) in [(Coupling::Full, false), (Coupling::None, true)] {
-        let motion = Motion {
-            strategy: Strategy::Overlap,
-            passes: 1,
-            stride: 4,
-            control: Control::Load(0.05),
-            load_control: LoadControl::Pass,
-            plastic_update: PlasticUpdate::Pass,
-            friction: Some(Friction { coupling, ..friction }),
-            load_tolerance: 1e-3,
-        };
+        let motion = Motion::new(Strategy::Overlap, Control::Load(0.05))
+            .with_passes(1)
+            .with_stride(4)
+            .with_load_control(LoadControl::Pass)
+            .with_plastic_update(PlasticUpdate::Pass)
+            .with_friction(Some(friction.with_coupling(coupling)))
+            .with_load_tolerance(1e-3);
         let made = Simulation::new(pair(), Boundary::FREE, motion, params);
         match slides {
             true => made.unwrap().run(&(), &mut []).unwrap(),

@@ -10,13 +10,14 @@ use asperity::{Field, Grid};
 use crate::support::{Held, pass_load, step_load};
 
 const GRID: Grid = Grid { shape: [20, 16], pitch: [1e-6, 1.5e-6] };
-const PARAMS: Params = Params { method: Method::Auto, tolerance: 1e-9, max_convolutions: 10_000 };
+const PARAMS: Params =
+    Params::new().with_method(Method::Auto).with_tolerance(1e-9).with_max_convolutions(10_000);
 const LOAD: f64 = 10e-3;
 
 #[test]
 fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
     let pair = pair([20e9, 210e9], |z| z);
-    let friction = Friction { shear_strength: 400e6, ..Friction::coulomb(0.3).unwrap() };
+    let friction = Friction::coulomb(0.3).unwrap().with_shear_strength(400e6);
     let operators = Operators::new(pair.lower_grid(), *pair.compliances(), Boundary::FREE);
     for control in [pass_load(LOAD), step_load(LOAD)] {
         let kept = slide(pair.clone(), Strategy::Overlap, control, Some(friction));
@@ -113,16 +114,13 @@ fn slide(
             Ok(())
         }
     }
-    let motion = Motion {
-        strategy,
-        passes: 1,
-        stride: 3,
-        control,
-        load_control,
-        plastic_update: PlasticUpdate::Pass,
-        load_tolerance: 1e-4,
-        friction,
-    };
+    let motion = Motion::new(strategy, control)
+        .with_passes(1)
+        .with_stride(3)
+        .with_load_control(load_control)
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_load_tolerance(1e-4)
+        .with_friction(friction);
     let mut kept = Kept(Vec::new());
     Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap().run(&(), &mut [&mut kept]).unwrap();
     kept.0

@@ -32,7 +32,7 @@ fn solve(
     control: Control,
     tolerance: f64,
 ) -> Solution {
-    let params = Params { method, tolerance, max_convolutions: 20_000 };
+    let params = Params::new().with_method(method).with_tolerance(tolerance).with_max_convolutions(20_000);
     let solution = solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &params)
         .unwrap_or_else(|e| panic!("{method:?} on {:?}, {control:?}, H = {hardness}: {e}", gap.dim()));
     assert!(solution.residual < tolerance, "{method:?}: residual {:e}", solution.residual);
@@ -376,7 +376,7 @@ fn a_uniform_contact_converges_by_every_method() {
             };
             for (which, gap) in gaps.iter().enumerate() {
                 for method in METHODS.into_iter().filter(|method| n <= 20 || *method != Method::Direct) {
-                    let params = Params { method, ..Params::default() };
+                    let params = Params::default().with_method(method);
                     let what = format!("{n} {periodic} {which} {method:?}");
                     let solution =
                         solve_normal(operator.as_mut(), gap, &Bounds::ELASTIC, load, None, &params)
@@ -415,7 +415,7 @@ fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
             };
             for method in METHODS {
                 for load in [1e-12, 1e-9, 1e-6, 1e-4] {
-                    let params = Params { method, ..Params::default() };
+                    let params = Params::default().with_method(method);
                     let [a, b] = [&near, &far].map(|gap| {
                         solve_normal(
                             operator.as_mut(),
@@ -479,7 +479,7 @@ fn numbers_near_the_ends_of_their_range_are_errors_or_answers_but_never_nan() {
                 for (hardness, method) in
                     [(INF, Method::Auto), (1e9, Method::Auto), (INF, Method::PolonskyKeer)]
                 {
-                    let params = Params { method, max_convolutions: 200, ..Params::default() };
+                    let params = Params::default().with_method(method).with_max_convolutions(200);
                     let mut operator = FreeFft::new(grid, modulus);
                     if let Ok(solution) =
                         solve_normal(&mut operator, &gap, &Bounds::up_to(hardness), control, None, &params)

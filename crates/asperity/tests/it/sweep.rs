@@ -20,7 +20,8 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-const FINE: Params = Params { method: Method::Auto, tolerance: 1e-9, max_convolutions: 10_000 };
+const FINE: Params =
+    Params::new().with_method(Method::Auto).with_tolerance(1e-9).with_max_convolutions(10_000);
 
 fn pair(grid: Grid, gap: Field, hardness: f64) -> Pair {
     let steel = Material::new(210e9, 0.3, hardness).unwrap();
@@ -79,7 +80,7 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
         let points: Vec<_> = controls.iter().copied().map(at).collect();
         let (records, last) = swept(&pair, boundary, &points, &Params::default());
         for (record, control) in records.iter().zip(&controls) {
-            let StaticContact { record: alone, solution } =
+            let StaticContact { record: alone, solution, .. } =
                 press(&pair, boundary, *control, &Params::default(), &()).unwrap();
             let area = alone.apparent_area;
             assert_eq!(
@@ -167,7 +168,7 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let friction = Friction::coulomb(0.3).unwrap();
     let rolling = Rolling { creep: Creep::Creepage([5e-4, 0.0]), spin: 0.0 };
     let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling) });
-    let params = Params { tolerance: 1e-4, ..Params::default() };
+    let params = Params::default().with_tolerance(1e-4);
     let (records, _) =
         sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut ()).unwrap();
     for (record, point) in records.iter().zip(&points) {

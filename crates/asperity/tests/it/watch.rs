@@ -49,7 +49,7 @@ fn a_contact_at_rest_tells_how_far_it_is_and_stops_when_it_is_asked_to() {
     for (method, cells) in [(Method::ActiveSet, 80), (Method::PolonskyKeer, 40), (Method::Direct, 16)] {
         let pair = pair(cells);
         let load = Control::Load(1e8 * pair.lower_grid().area());
-        let params = Params { method, ..Params::default() };
+        let params = Params::default().with_method(method);
         let patient = Patience::new(usize::MAX);
         let solved = press(&pair, Boundary::FREE, load, &params, &patient).unwrap();
         let [told, asked] = [&patient.told, &patient.asked].map(|count| count.load(Ordering::Relaxed));
@@ -69,7 +69,7 @@ fn a_contact_at_rest_tells_how_far_it_is_and_stops_when_it_is_asked_to() {
 fn friction_and_rolling_stop_within_an_increment() {
     let pair = pair(24);
     let load = 1e8 * pair.lower_grid().area();
-    let friction = Friction { junction_growth: 9.0, ..Friction::coulomb(0.3).unwrap() };
+    let friction = Friction::coulomb(0.3).unwrap().with_junction_growth(9.0);
     let tangential = Tangential::Force([0.1 * load, 0.0]);
     let stage = asperity::motion::Stage {
         loading: Loading { normal: Control::Load(load), tangential },

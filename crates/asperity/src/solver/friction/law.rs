@@ -36,6 +36,7 @@ impl Coupling {
 /// Where |q| is less the bodies stick; where it is that much they may slip, and q on the lower body points where the upper
 /// one slips to.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Friction {
     /// Coefficient of friction μ ≥ 0; infinite where the bodies stick wherever they touch.
     pub coefficient: f64,
@@ -57,6 +58,30 @@ impl Friction {
     pub fn coulomb(coefficient: f64) -> Result<Self> {
         let (shear_strength, coupling) = (Pascal::INFINITY, Coupling::Full);
         Self { coefficient, shear_strength, coupling, junction_growth: 0.0 }.checked()
+    }
+
+    /// The same with another coefficient of friction μ ≥ 0.
+    #[must_use]
+    pub const fn with_coefficient(self, coefficient: f64) -> Self {
+        Self { coefficient, ..self }
+    }
+
+    /// The same with a shear strength τ of the interface, > 0.
+    #[must_use]
+    pub const fn with_shear_strength(self, shear_strength: Pascal) -> Self {
+        Self { shear_strength, ..self }
+    }
+
+    /// The same with another coupling of normal and tangential displacements.
+    #[must_use]
+    pub const fn with_coupling(self, coupling: Coupling) -> Self {
+        Self { coupling, ..self }
+    }
+
+    /// The same with a weight α ≥ 0 of the shear in what a plastic cell bears.
+    #[must_use]
+    pub const fn with_junction_growth(self, junction_growth: f64) -> Self {
+        Self { junction_growth, ..self }
     }
 
     /// The same, if its numbers have a meaning.

@@ -63,6 +63,7 @@ pub struct Loading {
 
 /// A contact with friction in equilibrium, at the end of an increment of its loading.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FrictionalSolution {
     /// Pressure, approach, and the normal displacement under pressure and shear together; the residual is the larger of
     /// the normal and the tangential one. Its upper bounds are what the shear leaves to the pressure.

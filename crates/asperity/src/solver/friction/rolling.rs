@@ -29,6 +29,7 @@ pub enum Creep {
 
 /// Bodies in steady rolling.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct RollingSolution {
     /// The contact, whose slip is that while it moves on by a cell.
     pub contact: FrictionalSolution,
