@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use asperity::Choice;
 use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{Boundary, Course, Mount, Side, StrategyKind};
+use asperity::study::case::{Boundary, LoadingPath, Mount, Side, StrategyKind};
 use asperity::study::{Bodies, Case, Demand, Estimate, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
@@ -36,9 +36,9 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
         ("time", format!("about {}, without figures", units::format_time(demand.time()))),
     ];
     let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, estimate)));
-    let history = match &estimate.course {
-        Some(Course::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
-            Some(("history", course(stages)))
+    let history = match &estimate.loading_path {
+        Some(LoadingPath::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
+            Some(("history", loading_path(stages)))
         }
         _ => None,
     };
@@ -125,8 +125,8 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
         Boundary([x, y]) => format!("boundary {} along x, {} along y", x.word(), y.word()),
     };
     let method = case.contact.method.word();
-    let mut text = match &estimate.course {
-        Some(Course::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
+    let mut text = match &estimate.loading_path {
+        Some(LoadingPath::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
         _ => control,
     };
     if let (Control::Load(load), true) = (estimate.control, estimate.plastic_limit.is_finite()) {
@@ -159,8 +159,8 @@ fn swept(points: &[Point]) -> String {
 
 fn motion(case: &Case, estimate: &Estimate) -> String {
     let Some(motion) = case.motion else {
-        return match &estimate.course {
-            Some(Course::Sweep(points)) => {
+        return match &estimate.loading_path {
+            Some(LoadingPath::Sweep(points)) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
             _ => "none: one static contact".to_owned(),
@@ -194,11 +194,11 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
     }
     let coupling = friction.coupling.word();
     let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", estimate.dundurs);
-    text + &match &estimate.course {
+    text + &match &estimate.loading_path {
         None => "sliding at each position".to_owned(),
-        Some(Course::Rolling(at)) => rolling(*at),
-        Some(Course::Stages(stages)) => course(stages),
-        Some(Course::Sweep(points)) => rolling_through(points),
+        Some(LoadingPath::Rolling(at)) => rolling(*at),
+        Some(LoadingPath::Stages(stages)) => loading_path(stages),
+        Some(LoadingPath::Sweep(points)) => rolling_through(points),
     }
 }
 
@@ -229,7 +229,7 @@ fn with_spin(spin: f64) -> String {
     if spin == 0.0 { String::new() } else { format!(" and a spin of {spin} 1/m") }
 }
 
-fn course(stages: &[Stage]) -> String {
+fn loading_path(stages: &[Stage]) -> String {
     let increments = stages.iter().map(|stage| stage.increments).sum();
     let slides = |stage: &Stage| matches!(stage.loading.tangential, Tangential::Sliding(_));
     format!(

@@ -17,6 +17,7 @@ struct Kit {
     files: &'static [(&'static str, &'static [u8])],
 }
 
+/// The examples that the command writes.
 const KITS: [Kit; 5] = [
     Kit {
         name: "quickstart",

@@ -36,6 +36,7 @@ fn available() -> f64 {
 /// What is left of the address space, where it is limited.
 #[cfg(unix)]
 fn address_space() -> Option<u64> {
+    /// Bytes of a memory page.
     const PAGE: u64 = 4096;
     let (limit, _) = rlimit::Resource::AS.get().ok().filter(|(limit, _)| *limit != rlimit::INFINITY)?;
     let sizes = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();

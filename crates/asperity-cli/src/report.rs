@@ -163,7 +163,7 @@ fn message(failure: &Failure) -> String {
 }
 
 /// The longest message that is shown in full, characters: some lines of a terminal.
-const LONGEST: usize = 600;
+const MAX_CHARACTERS: usize = 600;
 
 /// A message in one paragraph of bounded length: of a longer one its beginning and its end. What would move the cursor
 /// is escaped.
@@ -180,17 +180,17 @@ pub(crate) fn clipped(text: &str) -> String {
         let end = text.char_indices().rev().nth(n - 1).map_or(0, |(at, _)| at);
         [begin, end]
     };
-    let [longest, _] = ends(LONGEST);
-    if longest == text.len() && text.lines().count() <= MOST_LINES {
+    let [longest, _] = ends(MAX_CHARACTERS);
+    if longest == text.len() && text.lines().count() <= MAX_LINES {
         return shown(text);
     }
-    let [begin, end] = ends(LONGEST / 3);
+    let [begin, end] = ends(MAX_CHARACTERS / 3);
     let flat = |text: &str| shown(text).replace('\n', " ");
     format!("{} … {}", flat(&text[..begin]), flat(&text[end.max(begin)..]))
 }
 
 /// The most lines of a message that is shown in full.
-const MOST_LINES: usize = 8;
+const MAX_LINES: usize = 8;
 
 /// The lines of the case that hold the mistake, and where they begin in its text.
 fn lines(case: &CaseError) -> Range<usize> {
@@ -215,7 +215,8 @@ fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::El
         return Origin::path(file).into();
     }
     let text = &case.text[lines.clone()];
-    if text.lines().count() > MOST_LINES || text.lines().any(|line| line.chars().nth(LONGEST).is_some()) {
+    if text.lines().count() > MAX_LINES || text.lines().any(|line| line.chars().nth(MAX_CHARACTERS).is_some())
+    {
         return Origin::path(file).line(case.line).char_column(case.column).into();
     }
     let span = case.span.start - lines.start..case.span.end.max(case.span.start) - lines.start;

@@ -94,7 +94,7 @@ impl From<Field> for CellValues {
 }
 
 /// The most cells of a grid: a field of them takes 32 GiB. Where `usize` has 32 bits, as many as it can count.
-pub const MOST_CELLS: usize = if usize::BITS > 32 { (1_u64 << 32) as usize } else { usize::MAX };
+pub const MAX_CELLS: usize = if usize::BITS > 32 { (1_u64 << 32) as usize } else { usize::MAX };
 
 /// A regular grid of rectangular cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,7 +109,7 @@ impl Grid {
     /// A grid of `shape` cells of size `pitch`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no cells or more than [`MOST_CELLS`], or a pitch is not positive or beyond [`Dimension::range`].
+    /// [`Error::OutOfRange`] if there are no cells or more than [`MAX_CELLS`], or a pitch is not positive or beyond [`Dimension::range`].
     pub fn new(shape: [usize; 2], pitch: [Metre; 2]) -> Result<Self> {
         if shape.contains(&0) {
             return Err(Error::OutOfRange {
@@ -119,7 +119,7 @@ impl Grid {
                 expected: "at least one cell along x and y",
             });
         }
-        let cells = shape[0].checked_mul(shape[1]).filter(|cells| *cells <= MOST_CELLS);
+        let cells = shape[0].checked_mul(shape[1]).filter(|cells| *cells <= MAX_CELLS);
         if cells.is_none() {
             let value = shape[0] as f64 * shape[1] as f64;
             return Err(Error::OutOfRange {

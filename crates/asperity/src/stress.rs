@@ -67,6 +67,7 @@ impl Stress {
 
     /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃, to round-off of the largest, by Jacobi's rotations.
     pub fn principal(&self) -> [Pascal; 3] {
+        /// Sweeps over the three pairs of axes: the rotations converge quadratically.
         const SWEEPS: usize = 6;
         let mut s = [[self.xx, self.xy, self.xz], [self.xy, self.yy, self.yz], [self.xz, self.yz, self.zz]];
         for (i, j, k) in (0..SWEEPS).flat_map(|_| [(0, 1, 2), (0, 2, 1), (1, 2, 0)]) {

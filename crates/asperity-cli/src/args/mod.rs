@@ -49,14 +49,14 @@ pub(crate) fn unparsed(error: &Error) -> Outcome {
         return written(error.print());
     }
     let text = error.render().to_string();
-    if text.chars().nth(LONGEST).is_none() {
+    if text.chars().nth(MAX_CHARACTERS).is_none() {
         error.exit()
     }
     Err(Failure::usage(text.trim_start_matches("error: "), None))
 }
 
 /// The longest text about wrong arguments that is shown in full, characters.
-const LONGEST: usize = 2000;
+const MAX_CHARACTERS: usize = 2000;
 
 #[derive(Debug, Subcommand)]
 #[expect(clippy::large_enum_variant, reason = "there is one in a process")]

@@ -2,7 +2,7 @@
 
 use asperity::Choice;
 use asperity::surface::Resample;
-use asperity::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
+use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Two lengths, along x and y.
@@ -56,17 +56,17 @@ pub(super) fn wavelengths(text: &str) -> Result<Pair, String> {
 }
 
 fn counts<const N: usize>(text: &str, separators: &[char], expected: &str) -> Result<[usize; N], String> {
-    let count = |text: &str| text.trim().parse().ok().filter(|count: &usize| *count <= MOST_OF_ANY);
+    let count = |text: &str| text.trim().parse().ok().filter(|count: &usize| *count <= MAX_COUNT);
     let counts: Option<Vec<usize>> = text.split(separators).map(count).collect();
     counts.and_then(|counts| counts.try_into().ok()).ok_or_else(|| format!("expected {expected}"))
 }
 
 pub(super) fn shape(text: &str) -> Result<Shape, String> {
     const EXPECTED: &str = "two whole numbers of at least 1, such as 256x256, and at most 2²⁸ cells";
-    const MOST_CELLS: usize = 1 << 28;
+    const MAX_CELLS: usize = 1 << 28;
     let shape: [usize; 2] = counts(text, &['x', '×', ','], EXPECTED)?;
     match shape[0].checked_mul(shape[1]) {
-        Some(1..=MOST_CELLS) => Ok(Shape(shape)),
+        Some(1..=MAX_CELLS) => Ok(Shape(shape)),
         _ => Err(format!("expected {EXPECTED}")),
     }
 }

@@ -13,11 +13,12 @@ use super::text::{MEDIUM, SMALL};
 /// Width of a figure, pt.
 const WIDTH: f64 = 360.0;
 /// The most that it is high, over its width.
-const HIGHEST: f64 = 0.8;
+const MAX_HEIGHT: f64 = 0.8;
 /// Height of the relief over the longer side of its base.
 const RISE: f64 = 0.22;
 /// Where the eye stands, in degrees from x towards y, and how high above the plane: it sees the corner of least x and y.
 const AZIMUTH: f64 = -120.0;
+/// Elevation of the eye above the horizon, degrees.
 const ELEVATION: f64 = 32.0;
 /// Distance of the eye over the longer side of the base.
 const DISTANCE: f64 = 3.6;
@@ -226,7 +227,7 @@ impl View {
         }
         // Room for ticks and names at the left, right, top and bottom.
         const MARGINS: [[f64; 2]; 2] = [[40.0, 36.0], [22.0, 34.0]];
-        let room = [width, HIGHEST * width];
+        let room = [width, MAX_HEIGHT * width];
         let room = [0, 1].map(|axis| room[axis] - MARGINS[axis][0] - MARGINS[axis][1]);
         view.scale = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
         let height = view.scale * (high[1] - low[1]);

@@ -12,11 +12,12 @@ use super::text::LARGE;
 /// Width of a map alone and of a sheet of them, pt.
 const WIDTHS: [f64; 2] = [330.0, 482.0];
 /// The most that a sheet of one row, or of several, is high, over its width.
-const HIGHEST: [f64; 2] = [1.1, 0.8];
+const MAX_HEIGHTS: [f64; 2] = [1.1, 0.8];
 /// What a narrow sheet may be high in any case, pt.
-const LOWEST: f64 = 240.0;
+const MIN_HEIGHT: f64 = 240.0;
 /// Width of a colour bar, pt.
 const BAR: f64 = 9.0;
+/// Gap between a panel and its colour bar, pt.
 const GAP: f64 = 7.0;
 
 /// Maps that are seen together.
@@ -112,7 +113,7 @@ impl<'s, 'a> Layout<'s, 'a> {
             layout.margins = layout.margins_of_columns();
             let margins: f64 = layout.margins.iter().flatten().sum::<f64>() + layout.shared_bar();
             let room = ((width - margins) / columns as f64).max(30.0);
-            let highest = (HIGHEST[usize::from(rows > 1)] * width).max(LOWEST);
+            let highest = (MAX_HEIGHTS[usize::from(rows > 1)] * width).max(MIN_HEIGHT);
             let height = ((highest - above) / rows as f64).max(30.0);
             size = [room, height];
         }

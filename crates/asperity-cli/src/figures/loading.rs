@@ -79,6 +79,7 @@ pub(super) fn direction(increments: &[IncrementRecord]) -> [f64; 2] {
     let [xx, yy, xy] = forces().fold([0.0; 3], |s, [x, y]| [s[0] + x * x, s[1] + y * y, s[2] + x * y]);
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
     let (y, x) = angle.sin_cos();
+    /// Component of a unit vector that is rounding.
     const ROUNDING: f64 = 1e-6;
     match [x, y] {
         [_, y] if y.abs() < ROUNDING => [1.0, 0.0],

@@ -170,7 +170,7 @@ fn pressures(
     let frames: Vec<Stored> =
         kept.iter().map(|step| Ok(read(step)?.framed(lower))).collect::<Outcome<_>>()?;
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
-        Ok(pressure::histogram(frames.iter().map(|stored| &stored.field), cap))
+        Ok(pressure::histogram(frames.iter().map(|stored| &stored.field), &caps[0]))
     })?;
     sheet.animate("pressure", "pressure on the lower body", Colours::Pressure, || {
         let words = kept.iter().map(|step| {

@@ -12,7 +12,7 @@ use crate::report::Outcome;
 /// Widths of the spot shown at each side of it.
 const AROUND: usize = 4;
 /// The least number of cells shown at each side.
-const LEAST: usize = 12;
+const MIN_AROUND: usize = 12;
 
 /// What faces at one position, all on one grid.
 pub(super) struct Facing<'a> {
@@ -52,7 +52,7 @@ impl Profile {
         let row = facing.pressure.column(iy);
         let first = (0..ix).rev().find(|i| row[*i] <= 0.0).map_or(0, |i| i + 1);
         let end = (ix..row.len()).find(|i| row[*i] <= 0.0).unwrap_or(row.len());
-        let around = (AROUND * (end - first)).max(LEAST);
+        let around = (AROUND * (end - first)).max(MIN_AROUND);
         let shown = first.saturating_sub(around)..(end + around).min(row.len());
         // Which body flows depends on the cell where one of them has a map of its hardness.
         let mapped = ["lower", "upper"].iter().any(|body| case[body]["hardness"].is_object());

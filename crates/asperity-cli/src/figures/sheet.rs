@@ -25,7 +25,7 @@ pub(super) struct Sheet<'a> {
 }
 
 /// The longest title of a case that stands in full on its figures, characters.
-const LONGEST: usize = 160;
+const MAX_CHARACTERS: usize = 160;
 
 enum Drawing {
     Still(Scene),
@@ -40,7 +40,7 @@ impl<'a> Sheet<'a> {
     ) -> Outcome<Self> {
         let case = results.case()?;
         let title = case.get("title").and_then(|title| title.as_str()).unwrap_or_default();
-        let mut case: String = title.chars().take(LONGEST).collect();
+        let mut case: String = title.chars().take(MAX_CHARACTERS).collect();
         if case.len() < title.len() {
             case.push('…');
         }

@@ -57,6 +57,7 @@ pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> O
 ///
 /// Over the creepage with its sign where that has one direction, over its amount elsewhere.
 fn traction(points: &[SweepRecord], friction: &Value, sheet: &mut Sheet) -> Outcome {
+    /// Component, creepage and traction coefficient along each axis.
     const ALONG: [(&str, Number, Number); 2] = [
         ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
         ("along y", |p| p.creepage_y, |p| p.tangential_force_y / p.load),

@@ -29,6 +29,7 @@ const REACH: usize = 24;
 const PRESSURE: Pascal = 1e9;
 /// Mean load of a pass, N.
 const LOAD: f64 = 0.6;
+/// Passes of the sliding bodies.
 const PASSES: usize = 3;
 
 /// Names of the figures' files.

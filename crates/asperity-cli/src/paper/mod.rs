@@ -22,11 +22,15 @@ use cost::Costs;
 
 /// The paper's cells: squares of 1 µm.
 const PITCH: Metre = 1e-6;
-/// What the paper leaves open: rms height and cut-off wavelength of the surfaces, and their material.
+/// Rms height of the surfaces; what follows, too, the paper leaves open.
 const SQ: Metre = 50e-9;
+/// Shortest wave of the surfaces, m.
 const CUTOFF: Metre = 12e-6;
+/// Young's modulus of both bodies, Pa.
 const YOUNG: Pascal = 210e9;
+/// Poisson's ratio of both bodies.
 const POISSON: f64 = 0.3;
+/// Hardness of both bodies, Pa.
 const HARDNESS: Pascal = 3e9;
 
 /// Draws the paper's figures, and measures what its strategy costs.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::study;
 use asperity::study::Existing;
-use asperity::study::case::{Case, Course};
+use asperity::study::case::{Case, LoadingPath};
 
 use crate::args::Run;
 use crate::machine;
@@ -64,10 +64,10 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
 
 /// Whether a static contact is computed in increments or points, which are kept one by one.
 fn in_steps(case: &Case) -> bool {
-    match case.course(1.0) {
-        Some(Course::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
-        Some(Course::Sweep(points)) => points.len() > 1,
-        Some(Course::Rolling(_)) | None => false,
+    match case.loading_path(1.0) {
+        Some(LoadingPath::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
+        Some(LoadingPath::Sweep(points)) => points.len() > 1,
+        Some(LoadingPath::Rolling(_)) | None => false,
     }
 }
 

@@ -153,7 +153,7 @@ impl FieldFile {
         let shape: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
         let dataset = self.builder.create_dataset(name);
         dataset.with_f64_data(values).with_shape(&shape);
-        if values.len() >= SMALLEST_COMPRESSED {
+        if values.len() >= MIN_COMPRESSED {
             // Most of a pressure field is 0, and neighbouring heights share their exponents.
             dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
         }
@@ -224,17 +224,20 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
     sha256(text.as_bytes())
 }
 
-const SMALLEST_COMPRESSED: usize = 1024;
+/// Fields of fewer values are not compressed.
+const MIN_COMPRESSED: usize = 1024;
+/// Level of the compression, 1 to 9.
 const DEFLATE_LEVEL: u32 = 4;
 
 /// Whole rows, about 1 MiB of them; of very long rows a part.
 fn chunk(shape: &[u64]) -> Vec<u64> {
+    /// Values of a chunk.
     const VALUES: u64 = 1 << 17;
     // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 would do, which HDF5 2 refuses.
-    const LONGEST: u64 = 1 << 15;
+    const MAX_CHUNK_SIDE: u64 = 1 << 15;
     match *shape {
-        [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(LONGEST)), ny.min(LONGEST)],
-        _ => vec![shape[0].min(LONGEST)],
+        [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(MAX_CHUNK_SIDE)), ny.min(MAX_CHUNK_SIDE)],
+        _ => vec![shape[0].min(MAX_CHUNK_SIDE)],
     }
 }
 

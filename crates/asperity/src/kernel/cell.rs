@@ -49,6 +49,7 @@ fn by_quadrature(at: [f64; 2], half: [f64; 2], k: impl Fn(f64, f64) -> f64) -> f
 
 /// 4 × 4 Gauss points of a cell as they are seen from `at` its centre, and their weights, which add up to 4.
 pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<Item = ([f64; 2], f64)> {
+    /// Nodes and weights of the four-point Gauss rule.
     const NODES: [(f64, f64); 4] = [
         (-0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
         (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),

@@ -8,7 +8,7 @@ use crate::units::{Metre, Pascal};
 /// What the bodies of these materials answer to a traction: coated ones to a pressure alone.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if both bodies are rigid.
+/// [`crate::Error::OutOfRange`] if both bodies are rigid.
 pub fn response(lower: &Material, upper: &Material) -> Result<SharedResponse> {
     let compliances = Compliances::new(lower, upper)?;
     let of = |material: &Material| match material.coating {

@@ -94,9 +94,10 @@ const FAR: f64 = 6.0;
 /// Cells of the line are summed one by one up to where the distances that occur are less than this share of that of the
 /// first one that is left to the series, and the size of a cell less than that.
 const REACH: f64 = 0.25;
+/// Largest size of a cell as a share of the distance of the first cell that is left to the series.
 const SMOOTH: f64 = 1.0 / 32.0;
 /// The series ends where its terms are less than this.
-const LEAST: f64 = 1e-17;
+const MIN_TERM: f64 = 1e-17;
 
 /// A line of cells from one distance across it.
 struct Seen {
@@ -191,7 +192,7 @@ impl Near {
     fn new(cells: usize, ratio: f64, line: &Line) -> Self {
         let Line { period, datum, .. } = *line;
         let first = (cells + 1) as f64;
-        let orders = (LEAST.ln() / ratio.ln()).ceil() as i32;
+        let orders = (MIN_TERM.ln() / ratio.ln()).ceil() as i32;
         let harmonic: f64 = (1..=cells).map(|n| 1.0 / n as f64).sum();
         let scale = 2.0 / period;
         Self {
@@ -247,10 +248,12 @@ impl Near {
     }
 }
 
+/// Euler's constant γ.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 
 /// m^{p−1} Σ_{n≥m} n^{−p}, p ≥ 2: term by term up to n = 24, from there on by the sum of Euler and Maclaurin.
 fn tail_of_zeta(p: i32, m: f64) -> f64 {
+    /// The n from which on the sum of Euler and Maclaurin is taken.
     const ASYMPTOTIC: f64 = 24.0;
     /// B_{2k}/(2k)!.
     const BERNOULLI: [f64; 4] = [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0];

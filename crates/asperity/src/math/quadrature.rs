@@ -4,11 +4,13 @@ use std::f64::consts::PI;
 
 /// ∫ f over `lo … hi` by five-point Gauss–Legendre on 64 panels; never evaluated at the ends.
 pub(crate) fn integrate(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> f64 {
+    /// Nodes and weights of one half of the symmetric rule.
     const NODES: [(f64, f64); 3] = [
         (0.0, 0.568_888_888_888_888_9),
         (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
         (0.906_179_845_938_664, 0.236_926_885_056_189_08),
     ];
+    /// Panels of equal width.
     const PANELS: usize = 64;
     let half = 0.5 * (hi - lo) / PANELS as f64;
     let sum = |centre: f64| -> f64 {

@@ -1,5 +1,6 @@
 //! Sums of a fixed order.
 
+/// Partial sums that are added up side by side.
 const LANES: usize = 8;
 
 /// The sums of what `terms` makes of each index and value, taken in eight lanes: faster than one after another, and

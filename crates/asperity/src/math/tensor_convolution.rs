@@ -8,6 +8,7 @@ use rustfft::num_traits::Zero;
 use crate::grid::Field;
 use crate::math::convolution::{Parity, Plans, Scratch, Transform, strips};
 
+/// Parities along x and y of the components xx, xy, yy, xz, yz and zz of the tensor.
 const PARITIES: [[Parity; 2]; 6] = [
     [Parity::Even, Parity::Even],
     [Parity::Odd, Parity::Odd],

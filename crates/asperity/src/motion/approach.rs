@@ -1,26 +1,32 @@
-//! The search for the one approach of a pass whose mean load is the load wanted.
+//! The search for the approach of a pass at which its mean load is the one prescribed.
 
 use crate::error::{Error, LoadLimit, Result};
 use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
-/// Residual η of the roughest trial.
-pub(super) const LOOSEST: f64 = 0.1;
-/// Trials after which the search is given up.
-const MOST_TRIALS: usize = 100;
+/// Largest residual η to which the positions of a trial are solved.
+pub(super) const MAX_RESIDUAL: f64 = 0.1;
+/// Approaches tried, after which the search is given up.
+const MAX_TRIALS: usize = 100;
 
-/// A load from positions solved to the residual η is uncertain by some part of it, in η: no approach need meet a load
-/// more closely than that.
-const ROUNDOFF: f64 = 100.0;
+/// Largest relative error of the load, in residuals η of its positions, that an exhausted bracket may leave: the load is
+/// uncertain by a part of η itself.
+const MAX_LOAD_ERROR: f64 = 100.0;
 
-/// A load that differs from the one wanted by less than this share of the residual does not tell on which side of it it is.
-const UNTOLD: f64 = 0.1;
+/// Width of a bracket, in roundings of its approaches, that holds no more of them to try.
+const BRACKET_ROUNDING: f64 = 4.0;
+/// Relative error of the load, as a share of the residual η: a load that differs from the one wanted by less does not tell on
+/// which side of it it is.
+const UNCERTAINTY: f64 = 0.1;
 /// Trials to the wanted residual that come as near to the load as that can tell, and not within the tolerance, after which the
 /// next of them is taken: on which side of the load they are is not known, and no bracket closes.
-const MOST_UNTOLD: usize = 8;
+const MAX_UNCERTAIN_TRIALS: usize = 8;
+/// Relative error of the load after a secant step, in products of the errors of the two trials before it.
+const SECANT_ERROR: f64 = 4.0;
 
-/// What is searched.
+/// A search for the approach of a mean load.
 pub(super) struct Search {
+    /// The mean load wanted.
     pub(super) load: Newton,
     /// Relative tolerance on the load.
     pub(super) tolerance: f64,
@@ -30,23 +36,26 @@ pub(super) struct Search {
     pub(super) touch: Metre,
     /// Length below which approaches do not differ: the rounding of the heights.
     pub(super) resolution: Metre,
-    /// Approach from which on the load grows no more, or is not determined; infinite where there is none.
+    /// Where the load grows no more, or is not determined.
     pub(super) limit: Limit,
 }
 
-/// The approach above which none is sought.
+/// The largest approach that is tried.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limit {
+    /// The approach; infinite where there is no limit.
     pub(super) approach: Metre,
-    /// Why there is no more load beyond it.
+    /// Why the load grows no more beyond this approach.
     pub(super) cause: LoadLimit,
 }
 
-/// An accepted trial.
+/// The accepted trial of a search.
 pub(super) struct Found<T> {
+    /// The outcome of the trial.
     pub(super) outcome: T,
     /// The approach and the slope there, to begin the next search with.
     pub(super) guess: Guess,
+    /// Approaches tried.
     pub(super) trials: usize,
 }
 
@@ -67,8 +76,8 @@ impl Search {
         let (mut was_rough, mut rough_misled) = (false, false);
         let (mut low, mut high) = (self.touch, f64::INFINITY);
         let mut before: Option<(Metre, f64)> = None;
-        let (mut excess_before, mut below, mut untold) = (1.0, 0.0f64, 0);
-        for trials in 1..=MOST_TRIALS {
+        let (mut excess_before, mut below, mut uncertain) = (1.0, 0.0f64, 0);
+        for trials in 1..=MAX_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
             if excess < 0.0 {
@@ -76,15 +85,16 @@ impl Search {
             }
             let at_limit = approach >= self.limit.approach && excess < 0.0;
             let is_rough = residual > self.residual;
-            if std::mem::replace(&mut was_rough, is_rough) && !is_rough && excess.abs() > LOOSEST {
+            if std::mem::replace(&mut was_rough, is_rough) && !is_rough && excess.abs() > MAX_RESIDUAL {
                 // The rough answers before it promised that this one meets the load: from here on without them.
                 (rough_misled, low, high, before, below) = (true, self.touch, f64::INFINITY, None, 0.0);
             }
             let exhausted = high.is_finite()
-                && high - low <= 4.0 * self.resolution.max(f64::EPSILON * low.abs().max(high.abs()));
-            let tells_no_side = excess.abs() <= UNTOLD * residual;
-            untold += usize::from(tells_no_side && !is_rough);
-            let as_near_as_it_gets = tells_no_side && untold > MOST_UNTOLD;
+                && high - low
+                    <= BRACKET_ROUNDING * self.resolution.max(f64::EPSILON * low.abs().max(high.abs()));
+            let tells_no_side = excess.abs() <= UNCERTAINTY * residual;
+            uncertain += usize::from(tells_no_side && !is_rough);
+            let as_near_as_it_gets = tells_no_side && uncertain > MAX_UNCERTAIN_TRIALS;
             if excess.abs() <= self.tolerance || exhausted || at_limit || as_near_as_it_gets {
                 if is_rough {
                     residual = self.residual;
@@ -99,7 +109,7 @@ impl Search {
                     let Limit { approach, cause } = self.limit;
                     return Err(Error::BeyondPass { load: self.load, most: load, approach, cause });
                 }
-                if excess.abs() > self.tolerance.max(ROUNDOFF * self.residual) {
+                if excess.abs() > self.tolerance.max(MAX_LOAD_ERROR * self.residual) {
                     return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
                 return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
@@ -133,7 +143,7 @@ impl Search {
             residual = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
             excess_before = excess;
         }
-        Err(Error::LoadNotReached { load: self.load, below, trials: MOST_TRIALS, approach })
+        Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
     }
 
     /// The residual that is enough for the trial after two that missed the load by these.
@@ -141,10 +151,10 @@ impl Search {
     /// The mean load is some thousand times more accurate than the residual, and the next trial is expected to miss it
     /// by a few times the product of the last two: where that is within the tolerance, the trial is taken to be the last.
     fn residual_for(&self, excess: f64, before: f64) -> f64 {
-        if 4.0 * (excess * before).abs() <= self.tolerance {
+        if SECANT_ERROR * (excess * before).abs() <= self.tolerance {
             return self.residual;
         }
-        excess.abs().clamp(self.residual, LOOSEST.max(self.residual))
+        excess.abs().clamp(self.residual, MAX_RESIDUAL.max(self.residual))
     }
 }
 
@@ -164,7 +174,7 @@ mod tests {
     #[test]
     fn it_finds_the_load_of_a_hertzian_curve_in_a_few_trials() {
         let found = search(1e-12)
-            .run(Guess { approach: 0.3, slope: 2.0 }, LOOSEST, |delta, eta| Ok((delta.powf(1.5), eta)))
+            .run(Guess { approach: 0.3, slope: 2.0 }, MAX_RESIDUAL, |delta, eta| Ok((delta.powf(1.5), eta)))
             .unwrap();
         assert!((found.guess.approach - 2f64.powf(2.0 / 3.0)).abs() < 1e-11);
         assert_eq!(found.outcome, 1e-6, "the last trial is solved to the wanted residual");
@@ -175,7 +185,7 @@ mod tests {
     fn it_finds_its_way_from_no_contact_and_over_a_kink() {
         let curve = |delta: f64| (delta - 1.0).max(0.0) + 20.0 * (delta - 2.5).max(0.0);
         let found = search(1e-9)
-            .run(Guess { approach: 0.1, slope: 3.0 }, LOOSEST, |delta, _| Ok((curve(delta), ())))
+            .run(Guess { approach: 0.1, slope: 3.0 }, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())))
             .unwrap();
         assert!((curve(found.guess.approach) - 2.0).abs() < 1e-8);
     }
@@ -183,8 +193,8 @@ mod tests {
     #[test]
     fn a_load_that_the_curve_jumps_over_is_not_reached() {
         let curve = |delta: f64| if delta < 1.0 { 1.0 + 0.1 * delta } else { 3.0 + delta };
-        let found =
-            search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, LOOSEST, |delta, _| Ok((curve(delta), ())));
+        let found = search(1e-4)
+            .run(Guess { approach: 0.5, slope: 2.0 }, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())));
         match found.map(|found| found.guess) {
             Err(Error::LoadNotReached { load, approach, .. }) => {
                 assert_eq!(load, 2.0);
@@ -198,7 +208,7 @@ mod tests {
     fn a_load_beyond_the_most_there_is_names_it() {
         let curve = |delta: f64| 1.5 * (1.0 - (-delta).exp());
         let first = Guess { approach: 0.5, slope: 2.0 };
-        let found = limited(1e-4, 8.0).run(first, LOOSEST, |delta, _| Ok((curve(delta), ())));
+        let found = limited(1e-4, 8.0).run(first, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ())));
         match found.map(|found| found.guess) {
             Err(Error::BeyondPass { load, most, approach, cause: LoadLimit::Yielded }) => {
                 assert_eq!((load, most, approach), (2.0, curve(8.0), 8.0));
@@ -207,7 +217,7 @@ mod tests {
         }
         // What is just below it is found.
         let found = Search { load: 1.499, ..limited(1e-6, 8.0) };
-        let found = found.run(first, LOOSEST, |delta, _| Ok((curve(delta), ()))).unwrap();
+        let found = found.run(first, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ()))).unwrap();
         assert!((curve(found.guess.approach) / 1.499 - 1.0).abs() < 1e-6);
     }
 
@@ -216,7 +226,7 @@ mod tests {
         // The rough load is twice too large below 1.2, half of it above.
         let rough = |delta: f64| if delta < 1.2 { 2.0 * delta } else { 0.5 * delta };
         let trial = |delta: f64, eta: f64| Ok((if eta > 1e-6 { rough(delta) } else { delta }, ()));
-        let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, LOOSEST, trial).unwrap();
+        let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, MAX_RESIDUAL, trial).unwrap();
         assert!((found.guess.approach - 2.0).abs() < 1e-5, "{:?}", found.guess);
     }
 
@@ -226,15 +236,15 @@ mod tests {
         let uncertain = |delta: f64| 5e-5 * (1e15 * delta).sin();
         let trial = |delta: f64, _| Ok((delta.powf(1.5) * (1.0 + uncertain(delta)), ()));
         let first = Guess { approach: 0.3, slope: 2.0 };
-        let found = Search { residual: 1e-3, ..search(1e-9) }.run(first, LOOSEST, trial).unwrap();
+        let found = Search { residual: 1e-3, ..search(1e-9) }.run(first, MAX_RESIDUAL, trial).unwrap();
         assert!((found.guess.approach.powf(1.5) / 2.0 - 1.0).abs() < 2e-4, "{:?}", found.guess);
         assert!(found.trials < 30, "{} trials", found.trials);
     }
 
     #[test]
     fn a_load_that_is_never_there_is_given_up() {
-        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, LOOSEST, |_, _| Ok((1.0, ())));
+        let found = search(1e-4).run(Guess { approach: 0.5, slope: 2.0 }, MAX_RESIDUAL, |_, _| Ok((1.0, ())));
         let error = found.map(|found| found.guess).unwrap_err();
-        assert!(matches!(error, Error::LoadNotReached { trials: MOST_TRIALS, .. }), "{error:?}");
+        assert!(matches!(error, Error::LoadNotReached { trials: MAX_TRIALS, .. }), "{error:?}");
     }
 }

@@ -16,19 +16,19 @@ use crate::units::{CubicMetre, Metre, Newton, Pascal};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Contact {
-    /// Where.
+    /// The relative position of the bodies.
     pub position: Position,
     /// Flat cells with p > 0 and their pressure, Pa.
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
-    /// Load W = ΔA Σ p.
+    /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
     pub tangential_force: Newton,
-    /// Approach δ.
+    /// Rigid-body approach δ, m.
     pub approach: Metre,
-    /// Residual η.
+    /// Scale-free complementarity residual η.
     pub residual: f64,
     /// Cost: iterations of this solution, convolutions of all that led to it.
     pub stats: Stats,
@@ -53,7 +53,7 @@ impl Contact {
         let shape = [position.columns, gap.ncols()];
         let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
         let solution = match sliding {
-            Some(sliding) if sliding.lifts(pair.couples()) => {
+            Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
                 solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params, watch)?
                     .normal
@@ -66,7 +66,7 @@ impl Contact {
         Ok(Self::new(position, sliding, &solution))
     }
 
-    /// A contact of which no more is known than the pressure at an approach, and what it cost.
+    /// A contact of which the pressure at an approach and the cost are known alone.
     pub(super) fn from_pressure(
         pair: &Pair,
         position: Position,
@@ -128,17 +128,17 @@ impl Contact {
         self.pressure.iter().map(of).collect()
     }
 
-    /// Largest pressure.
+    /// Largest pressure, Pa.
     pub fn max_pressure(&self) -> Pascal {
         self.pressure.iter().map(|(_, p)| *p).fold(0.0, f64::max)
     }
 
-    /// ΔA Σ w.
+    /// Plastic volume ΔA Σ w of the contact.
     pub fn plastic_volume(&self, pair: &Pair) -> CubicMetre {
         pair.cell_area() * self.plastic.iter().map(|(_, w)| w).sum::<f64>()
     }
 
-    /// The row of `steps.csv`.
+    /// The record of this position: a row of `steps.csv`.
     pub(super) fn record(
         &self,
         pair: &Pair,
@@ -182,7 +182,7 @@ impl Contact {
 pub struct StaticContact {
     /// The contact in numbers.
     pub record: StaticRecord,
-    /// Its fields.
+    /// The solution, with its fields.
     pub solution: Solution,
 }
 

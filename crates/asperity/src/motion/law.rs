@@ -1,4 +1,4 @@
-//! What a pass does to the bodies.
+//! The laws by which a pass changes the bodies.
 
 use crate::grid::Field;
 use crate::motion::contact::Contact;
@@ -42,13 +42,13 @@ pub trait Law: Send + Sync {
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Touching<'a> {
-    /// The position.
+    /// The relative position of the bodies.
     pub position: &'a Position,
     /// Flat cells in contact of the lower and of the upper body: those of the same index face each other.
     pub cells: [&'a [u32]; 2],
-    /// Pressure on each, Pa.
+    /// Pressure on each of these cells, Pa.
     pub pressure: &'a [Pascal],
-    /// Plastic interference w of each, m; 0 where the pressure is below what the cells bear.
+    /// Plastic interference w of each of these cells, m; 0 where the pressure is below what the cells bear.
     pub interference: &'a [Metre],
     /// Distance over which the bodies slide from this position to the next, m.
     pub sliding_distance: Metre,

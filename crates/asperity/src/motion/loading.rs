@@ -20,11 +20,11 @@ use crate::units::{Joule, Metre, Newton, SquareMetre};
 pub struct Stage {
     /// What acts at the end of the stage. Without friction nothing acts in the plane, whatever is prescribed there.
     pub loading: Loading,
-    /// Steps, ≥ 1.
+    /// Number of equal steps, ≥ 1.
     pub increments: usize,
 }
 
-/// A static contact, and how it came about.
+/// A static contact at the end of its loading, with the history of it.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct LoadedContact {
@@ -57,13 +57,13 @@ pub enum Equilibrium {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct LoadingState {
-    /// The increments done.
+    /// The increments done so far.
     pub increments: Vec<IncrementRecord>,
-    /// The end of the last one.
+    /// The contact at the end of the last increment.
     pub contact: Equilibrium,
-    /// What acted where the stage of the last increment began.
+    /// Load, approach, force and displacement where the stage of the last increment began.
     pub origin: Origin,
-    /// What its cells have taken up plastically.
+    /// The plastic interference that the cells have taken up.
     pub flattening: Flattening,
     /// Slip of all increments together along x and y, m; none without friction.
     pub slip: Option<[Field; 2]>,
@@ -78,7 +78,7 @@ pub struct Flattening {
     /// What plastic flow has taken away for good, m: both bodies are lowered by it together. None before plastic
     /// cells are first unloaded.
     pub kept: Option<Field>,
-    /// Largest plastic interference since then, m, on the surfaces so lowered.
+    /// Largest plastic interference of each cell, m, on the surfaces so lowered.
     pub deepest: Field,
 }
 
@@ -91,7 +91,7 @@ pub trait LoadingOutput {
     fn increment(&mut self, state: &LoadingState) -> Result<()>;
 }
 
-/// Nobody takes them.
+/// The output of a loading whose increments nobody takes.
 impl LoadingOutput for () {
     fn increment(&mut self, _: &LoadingState) -> Result<()> {
         Ok(())
@@ -229,7 +229,7 @@ impl LoadedContact {
 }
 
 impl Equilibrium {
-    /// Pressure, displacement and approach.
+    /// The normal problem: pressure, displacement and approach.
     pub fn normal(&self) -> &Solution {
         match self {
             Self::Frictionless(solution) => solution,
@@ -237,7 +237,7 @@ impl Equilibrium {
         }
     }
 
-    /// What there is with friction.
+    /// The solution with its tangential problem; none without friction.
     pub fn frictional(&self) -> Option<&FrictionalSolution> {
         match self {
             Self::Frictionless(_) => None,
@@ -253,7 +253,7 @@ impl Equilibrium {
     }
 }
 
-/// Two bodies, and what solves an increment of their loading.
+/// Two bodies under a loading, and the solver of an increment.
 struct Bodies<'a> {
     /// The initial gap of the bodies as they are prepared.
     gap: Field,
@@ -268,9 +268,9 @@ enum Solver<'a> {
     Frictional(Box<dyn CoupledOperator>, &'a Friction),
 }
 
-/// The plastic interference of a cell has gone back if by more than this many tolerances, as a share of std(u): each of
-/// the two answers is off by some.
-const GONE_BACK: f64 = 4.0;
+/// Decrease of a plastic interference, in tolerances as a share of std(u), up to which it counts as none: each of the two
+/// answers has an error.
+const MAX_DECREASE: f64 = 4.0;
 
 impl<'a> Bodies<'a> {
     fn new(
@@ -315,7 +315,7 @@ impl<'a> Bodies<'a> {
             self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params, watch)?;
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
-        let allowed = GONE_BACK * params.tolerance * contact.normal().displacement.std(0.0);
+        let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
             contact = self.solver.solve(
@@ -424,7 +424,7 @@ impl Solver<'_> {
 }
 
 impl Flattening {
-    /// The gap of the surfaces lowered for good.
+    /// The initial gap of the surfaces as they are lowered for good.
     pub(crate) fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
         match &self.kept {
             None => Cow::Borrowed(gap),
@@ -447,11 +447,12 @@ impl Flattening {
         });
     }
 
+    /// Raises the largest interference of each cell to that of the present contact.
     fn deepen(&mut self, now: &Field) {
         self.deepest.zip_mut_with(now, |deepest, now| *deepest = deepest.max(*now));
     }
 
-    /// What has been taken up in all, with the interference `now`.
+    /// All of the plastic interference taken up, that of the present contact being `now`.
     fn whole(&self, now: Field) -> Field {
         match &self.kept {
             None => now,
@@ -466,7 +467,7 @@ impl Flattening {
 pub struct Origin {
     /// Normal force.
     pub load: Newton,
-    /// Approach.
+    /// Rigid-body approach.
     pub approach: Metre,
     /// Force of the upper body on the lower one along x and y.
     pub force: [Newton; 2],
@@ -481,6 +482,7 @@ impl Origin {
         Self { load: 0.0, approach, force: [0.0; 2], displacement: [0.0; 2] }
     }
 
+    /// The state of a contact in equilibrium.
     fn of(contact: &Equilibrium) -> Self {
         let (normal, shear) = (contact.normal(), contact.frictional());
         Self {

@@ -58,7 +58,7 @@ pub enum LoadControl {
     Step,
 }
 
-/// How the bodies pass over each other.
+/// The strategy by which the bodies pass over each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Strategy {
     /// The upper body enters on the left, passes over, leaves on the right; only what faces is solved.
@@ -127,13 +127,13 @@ choice!(PlasticUpdate: "pass" => Pass, "step" => Step);
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Motion {
-    /// Overlap or circular shift.
+    /// How the bodies pass over each other: overlap or circular shift.
     pub strategy: Strategy,
     /// Number of passes, ≥ 1.
     pub passes: usize,
     /// Cells per step, ≥ 1.
     pub stride: usize,
-    /// Load or approach.
+    /// Control of the normal direction: load or approach.
     pub control: Control,
     /// Where a load holds.
     pub load_control: LoadControl,

@@ -11,7 +11,7 @@ use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 
-/// The two bodies, and what the materials make of them together.
+/// Two bodies that face each other, with the elastic response of their materials.
 #[derive(Debug, Clone)]
 pub struct Pair {
     /// The lower body.
@@ -106,17 +106,17 @@ impl Pair {
         &self.compliances
     }
 
-    /// What the bodies answer to a traction.
+    /// The elastic response of the bodies to a traction.
     pub fn response(&self) -> &SharedResponse {
         &self.response
     }
 
-    /// Whether a pressure displaces tangentially and a shear normally, as far as that is known.
+    /// Whether pressure displaces the bodies tangentially and shear normally; false where the response to shear is not known.
     pub(super) fn couples(&self) -> bool {
         self.response.coupled().is_some_and(|coupled| coupled.couples())
     }
 
-    /// [`Error::Unsupported`] where what shear does is not known.
+    /// Refuses bodies whose response to shear is not known, by [`Error::Unsupported`].
     pub(super) fn check_shear(&self) -> Result<()> {
         self.response.coupled().map(|_| ()).ok_or(Error::Unsupported(
             "what shear does to these bodies is not known: their friction is that of full sliding without coupling",
@@ -199,7 +199,7 @@ impl Pair {
         initial_gap([&self.lower.heights, &self.upper.heights], position)
     }
 
-    /// Of a flat cell of the contact at `position`: its flat cells of the lower and of the upper body.
+    /// The flat cells of the lower and of the upper body that a flat cell of the contact at `position` is made of.
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
         facing_cells([self.lower_grid().shape, self.upper_grid().shape], position, cell)
     }
@@ -215,7 +215,7 @@ fn facing_cells(shapes: [[usize; 2]; 2], position: &Position, cell: usize) -> [u
     ]
 }
 
-/// What `of` makes of the values of two bodies of these shapes where their cells face each other.
+/// The values `of` of the values of two bodies of these shapes where their cells face each other.
 pub(crate) fn facing_values(
     values: [&CellValues; 2],
     shapes: [[usize; 2]; 2],

@@ -20,9 +20,11 @@ use crate::units::Newton;
 
 /// A pass at one prescribed load or approach: its contacts, and the pair as it leaves it.
 pub(super) struct Pass {
+    /// The contacts at the positions.
     pub(super) contacts: Vec<Contact>,
+    /// The bodies after the pass.
     pub(super) pair: Pair,
-    /// What each law took from it.
+    /// The volumes that each law took from the bodies.
     pub(super) lost: Vec<LostVolume>,
 }
 
@@ -33,7 +35,7 @@ impl Pass {
     }
 }
 
-/// What a pass is solved with.
+/// The solver of a pass: all that its trials have in common.
 pub(super) struct Solver<'a> {
     pub(super) operators: &'a Operators,
     pub(super) positions: &'a [Position],
@@ -46,7 +48,7 @@ pub(super) struct Solver<'a> {
 }
 
 /// Convolutions after which a rough answer is given up.
-const ROUGH_CONVOLUTIONS: usize = 300;
+const MAX_ROUGH_CONVOLUTIONS: usize = 300;
 
 impl Solver<'_> {
     /// Solves all positions roughly, to a residual above that of the `params`, or to theirs where that does not lead anywhere:
@@ -59,7 +61,7 @@ impl Solver<'_> {
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
         if residual > params.tolerance {
-            let max_convolutions = ROUGH_CONVOLUTIONS.min(params.max_convolutions);
+            let max_convolutions = MAX_ROUGH_CONVOLUTIONS.min(params.max_convolutions);
             let rough = Params { tolerance: residual, max_convolutions, ..*params };
             match self.solve(pair, control, &rough, earlier) {
                 Err(Error::AtPosition { source, .. }) if matches!(*source, Error::NotConverged { .. }) => {}
@@ -133,6 +135,11 @@ impl Solver<'_> {
     }
 }
 
+/// Least extrapolation of a guess, in steps between the two earlier approaches.
+const MIN_EXTRAPOLATION: f64 = -0.5;
+/// Largest extrapolation of a guess, in steps between the two earlier approaches.
+const MAX_EXTRAPOLATION: f64 = 1.0;
+
 /// The pressure at a position, extrapolated over the approach from those of earlier trials.
 fn first_guess(earlier: &[Vec<Contact>], index: usize, control: Control, width: usize) -> Option<Field> {
     let latest = &earlier.first()?[index];
@@ -144,7 +151,7 @@ fn first_guess(earlier: &[Vec<Contact>], index: usize, control: Control, width: 
         let before = &before[index];
         let step = (approach - latest.approach) / (latest.approach - before.approach);
         if step.is_finite() && !before.pressure.is_empty() {
-            let step = step.clamp(-0.5, 1.0);
+            let step = step.clamp(MIN_EXTRAPOLATION, MAX_EXTRAPOLATION);
             let change = &guess - &before.pressure_field(width);
             guess.scaled_add(step, &change);
             guess.mapv_inplace(|p| p.max(0.0));

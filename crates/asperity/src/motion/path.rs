@@ -10,11 +10,11 @@ use crate::units::MetrePerSecond;
 pub struct Position {
     /// Columns by which the upper body has moved to the right of the lower one.
     pub offset: isize,
-    /// First column of the lower body.
+    /// First column of the lower body that faces the upper one.
     pub lower: usize,
-    /// First column of the upper body.
+    /// First column of the upper body that faces the lower one.
     pub upper: usize,
-    /// Columns that face each other.
+    /// Number of columns that face each other.
     pub columns: usize,
 }
 

@@ -20,11 +20,11 @@ pub struct StaticRecord {
     pub max_pressure: Pascal,
     /// Mean deformed gap.
     pub mean_gap: Metre,
-    /// ½ ΔA Σ p u.
+    /// Elastic energy ½ ΔA Σ p u.
     pub elastic_energy: Joule,
     /// Number of cells at the hardness, under shear at their caps.
     pub plastic_cells: usize,
-    /// ΔA Σ w, w the plastic interference that the cells have taken up in the course of the loading.
+    /// Plastic volume ΔA Σ w, w the plastic interference that the cells have taken up in the course of the loading.
     pub plastic_volume: CubicMetre,
     /// Iterations of the solver.
     pub iterations: usize,
@@ -32,12 +32,12 @@ pub struct StaticRecord {
     pub convolutions: f64,
     /// Scale-free complementarity residual η.
     pub residual: f64,
-    /// What friction adds to it.
+    /// The tangential quantities; none without friction.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub shear: Option<ShearRecord>,
 }
 
-/// What friction adds to a static contact.
+/// A static contact with friction: its tangential quantities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ShearRecord {
@@ -89,21 +89,21 @@ pub struct IncrementRecord {
     pub tangential_displacement_y: Metre,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
-    /// Area of those that stick; here and below 0 without friction.
+    /// Area of the cells that stick; 0 without friction.
     pub stick_area: SquareMetre,
     /// Largest pressure.
     pub max_pressure: Pascal,
     /// Largest shear traction.
     pub max_shear: Pascal,
-    /// What both bodies have lost so far.
+    /// Plastic volume that both bodies have lost so far.
     pub plastic_volume: CubicMetre,
-    /// Elastic energy of both tractions.
+    /// Elastic energy ½ ΔA Σ (p u_z + q·u).
     pub elastic_energy: Joule,
     /// Energy that friction took in this increment.
     pub dissipation: Joule,
     /// Iterations of the solver.
     pub iterations: usize,
-    /// Convolutions.
+    /// Convolutions of the increment.
     pub convolutions: f64,
     /// Scale-free residual η, normal and tangential.
     pub residual: f64,
@@ -133,14 +133,14 @@ pub struct SweepRecord {
     pub max_pressure: Pascal,
     /// Area of the cells at the hardness, under shear at their caps.
     pub plastic_area: SquareMetre,
-    /// ΔA Σ w, w the plastic interference of the cells.
+    /// Plastic volume ΔA Σ w, w the plastic interference of the cells.
     pub plastic_volume: CubicMetre,
-    /// ½ ΔA Σ p u, in rolling that of both tractions.
+    /// Elastic energy ½ ΔA Σ p u, in rolling that of both tractions.
     pub elastic_energy: Joule,
     /// Normal stiffness dW/dδ, see [`crate::solver::normal_stiffness`]; none where a whole period bears elastically.
     pub stiffness: Option<NewtonPerMetre>,
-    /// Velocity of the upper body against the lower one over the rolling velocity, along x; here and below 0 unless the
-    /// bodies roll.
+    /// Creepage along x, velocity of the upper body against the lower one over the rolling velocity; 0 of a contact that does
+    /// not roll.
     pub creepage_x: f64,
     /// Creepage along y; 0 of a contact that does not roll.
     pub creepage_y: f64,
@@ -182,7 +182,7 @@ pub struct StepRecord {
     pub tangential_force: Newton,
     /// Area of the cells with p > 0.
     pub contact_area: SquareMetre,
-    /// Area of those of them that are in the interior of both bodies.
+    /// Area of the cells with p > 0 that are in the interior of both bodies.
     pub contact_area_interior: SquareMetre,
     /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
     pub largest_spot_cells: usize,
@@ -190,7 +190,7 @@ pub struct StepRecord {
     pub max_pressure: Pascal,
     /// Number of cells at the hardness.
     pub plastic_cells: usize,
-    /// ΔA Σ w, w the interference left at the cells at the hardness.
+    /// Plastic volume ΔA Σ w, w the interference left at the cells at the hardness.
     pub plastic_volume: CubicMetre,
     /// Plastic volume over the cells that are in the interior of both bodies.
     pub plastic_volume_interior: CubicMetre,
@@ -216,9 +216,9 @@ pub struct PassRecord {
     pub mean_tangential_force: Newton,
     /// Mean friction force over mean load.
     pub friction_coefficient: f64,
-    /// Smallest load.
+    /// Smallest load at a position of the pass.
     pub min_load: Newton,
-    /// Largest load.
+    /// Largest load at a position of the pass.
     pub max_load: Newton,
     /// Mean load over the mean area that faces.
     pub mean_pressure: Pascal,
@@ -229,7 +229,7 @@ pub struct PassRecord {
     /// Cells across the largest contact spot met: of the spot with the most cells at a position, its columns or its rows,
     /// the fewer.
     pub largest_spot_cells: usize,
-    /// Largest pressure met.
+    /// Largest pressure at any position.
     pub max_pressure: Pascal,
     /// Volumes that each law took from the bodies in this pass: of the plastic flow the columns `plastic_volume_lower`,
     /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
@@ -243,7 +243,7 @@ pub struct PassRecord {
     pub sq_lower_interior: Metre,
     /// Rms height of the interior of the upper surface after the pass.
     pub sq_upper_interior: Metre,
-    /// Approaches tried.
+    /// Number of approaches tried.
     pub outer_iterations: usize,
     /// Convolutions of the pass.
     pub convolutions: f64,
@@ -274,6 +274,7 @@ impl PassRecord {
         self.of(law).map_or([0.0; 2], |lost| lost.interior)
     }
 
+    /// The volumes of the law of that name.
     fn of(&self, law: &str) -> Option<&LostVolume> {
         self.lost.iter().find(|lost| lost.law == law)
     }
@@ -287,6 +288,7 @@ mod lost_volumes {
 
     use super::{CubicMetre, LostVolume};
 
+    /// Endings of the columns of a law, after its name.
     const COLUMNS: [&str; 4] =
         ["_volume_lower", "_volume_upper", "_volume_lower_interior", "_volume_upper_interior"];
 

@@ -51,7 +51,7 @@ impl Interior {
         field.slice(s![columns.clone(), across.clone()])
     }
 
-    /// Number of cells.
+    /// Number of cells of the interior.
     pub fn cells(&self) -> usize {
         self.ranges[0].len() * self.ranges[1].len()
     }

@@ -4,7 +4,7 @@ use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;
-use crate::motion::approach::{LOOSEST, Limit, Search};
+use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::contact::Contact;
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
@@ -31,12 +31,12 @@ pub struct Simulation {
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
-    /// What a pass does to the bodies, in the order in which it is done.
+    /// The laws by which a pass changes the bodies, in their order.
     laws: Vec<Box<dyn Law>>,
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     passes_done: usize,
-    /// From where the next pass begins.
+    /// The state in which the next pass begins.
     warm: WarmStart,
 }
 
@@ -156,7 +156,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// One pass from the present geometry, where the search of the next one begins, and the number of approaches tried.
+    /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
     fn solve_pass(&self, pass: usize, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
         let mut earlier: Vec<Vec<Contact>> =
             self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
@@ -182,7 +182,7 @@ impl Simulation {
             (Control::Load(load), LoadControl::Pass) => load,
             (control, _) => return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1)),
         };
-        let mut residual = LOOSEST;
+        let mut residual = MAX_RESIDUAL;
         let mut guess = self.warm.guess;
         if self.together {
             let accuracy = self.motion.load_tolerance;
@@ -273,7 +273,7 @@ impl Simulation {
         self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// The rounding of the heights.
+    /// The rounding of the heights, as a length.
     fn resolution(&self) -> Metre {
         let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
         f64::EPSILON * highest(&self.pair.lower.heights).max(highest(&self.pair.upper.heights))
@@ -306,7 +306,7 @@ impl Simulation {
         }
     }
 
-    /// A length over which the load changes by a factor: a tenth of the roughness.
+    /// The length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
     fn height_scale(&self) -> Metre {
         let roughness = self.pair.lower.heights.std(0.0).hypot(self.pair.upper.heights.std(0.0));
         if roughness > 0.0 { 0.1 * roughness } else { self.pair.pitch()[0] }
@@ -366,7 +366,7 @@ fn interiors(pair: &Pair, boundary: Boundary, motion: &Motion, rim: f64) -> [Int
     Interior::of_bodies(shapes, boundary, motion.strategy, rim)
 }
 
-/// The row of `passes.csv`, but for what the search alone knows.
+/// The record of a pass, a row of `passes.csv`, but for the number of approaches tried and the time.
 fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord], pass: usize) -> PassRecord {
     let pair = &outcome.pair;
     let mean_columns = steps.iter().map(|s| s.overlap_columns as f64).sum::<f64>() / steps.len() as f64;
@@ -458,7 +458,8 @@ mod tests {
             strategy: Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
             passes: 1,
             stride: 3,
-            control: Control::PassLoad(load),
+            control: Control::Load(load),
+            load_control: LoadControl::Pass,
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-4,
             friction: None,

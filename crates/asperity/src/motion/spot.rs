@@ -41,7 +41,7 @@ pub(crate) fn largest_spot(
     across(&mut spots, &cells_in_order, shape, periodic)
 }
 
-/// Joins what touches in two neighbouring lines.
+/// Joins the cells of two neighbouring lines that touch each other.
 fn join_lines(
     spots: &mut Spots,
     line: &[(usize, usize)],
@@ -71,6 +71,7 @@ fn join_lines(
     }
 }
 
+/// Cells across the largest spot.
 fn across(spots: &mut Spots, cells: &[[usize; 2]], shape: [usize; 2], periodic: [bool; 2]) -> usize {
     let mut counts = vec![0_usize; cells.len()];
     for cell in 0..cells.len() {
@@ -98,18 +99,20 @@ fn narrower(widths: [usize; 2], shape: [usize; 2], periodic: [bool; 2]) -> usize
     }
 }
 
-/// Sets of connected cells.
+/// Disjoint sets of connected cells (union–find).
 #[derive(Default)]
 struct Spots {
     parent: Vec<usize>,
 }
 
 impl Spots {
+    /// Adds a cell as a set of its own.
     fn add(&mut self) -> usize {
         self.parent.push(self.parent.len());
         self.parent.len() - 1
     }
 
+    /// The representative of the set of a cell.
     fn root(&mut self, mut cell: usize) -> usize {
         while self.parent[cell] != cell {
             self.parent[cell] = self.parent[self.parent[cell]];
@@ -118,6 +121,7 @@ impl Spots {
         cell
     }
 
+    /// Joins the sets of two cells.
     fn join(&mut self, one: usize, other: usize) {
         let (one, other) = (self.root(one), self.root(other));
         self.parent[one.max(other)] = one.min(other);

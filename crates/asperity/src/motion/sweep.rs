@@ -10,12 +10,12 @@ use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::{Boundary, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
-/// What is prescribed at a point of a sweep.
+/// One point of a sweep, as it is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// What is prescribed in the normal direction.
     pub control: Control,
-    /// How the bodies roll; none of bodies that do not.
+    /// The rolling of the bodies; none of bodies that do not roll.
     pub rolling: Option<Rolling>,
 }
 
@@ -28,7 +28,7 @@ pub trait SweepOutput {
     fn point(&mut self, points: &[SweepRecord], contact: &LoadedContact) -> Result<()>;
 }
 
-/// Nobody takes them.
+/// The output of a sweep whose points nobody takes.
 impl SweepOutput for () {
     fn point(&mut self, _: &[SweepRecord], _: &LoadedContact) -> Result<()> {
         Ok(())

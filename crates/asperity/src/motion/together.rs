@@ -16,14 +16,14 @@ use crate::solver::Control;
 use crate::solver::{Bounds, Method, Params, Residual, Site, Sliding, coarse_site, solve_together};
 use crate::units::Newton;
 
-/// Cells of all positions above which they are not held at once.
+/// The most cells of all positions together that are held at once.
 const MAX_CELLS: usize = 40_000_000;
-/// Memory that a cell takes then, bytes.
-const PER_CELL: f64 = 60.0;
+/// Memory of a cell while all positions are held at once, bytes.
+const BYTES_PER_CELL: f64 = 60.0;
 
 /// Residual η at which the approach is known well enough, at the most. From there on the positions are solved one by one,
 /// each with the iterations that it needs itself.
-const LOOSEST: f64 = 3e-2;
+const MAX_RESIDUAL: f64 = 3e-2;
 /// The residual for a relative accuracy of the mean load: at the approach found with a residual η the load is off by less
 /// than 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
 const RESIDUAL_PER_ACCURACY: f64 = 300.0;
@@ -42,12 +42,12 @@ pub(crate) fn memory_together(
     let frozen = motion.plastic_update == PlasticUpdate::Pass || !yields;
     let iterative = matches!(method, Method::Auto | Method::ActiveSet);
     let searched = matches!((motion.control, motion.load_control), (Control::Load(_), LoadControl::Pass));
-    (frozen && iterative && searched && cells <= MAX_CELLS).then_some(PER_CELL * cells as f64)
+    (frozen && iterative && searched && cells <= MAX_CELLS).then_some(BYTES_PER_CELL * cells as f64)
 }
 
-/// The part of the residual at the start, at which even a good start must arrive: it is wrong where the geometry has
+/// Share of the first residual that the iteration goes below even from a good start: that is wrong where the geometry has
 /// changed, all in one direction, and so is its approach.
-const PROGRESS: f64 = 0.1;
+const MIN_PROGRESS: f64 = 0.1;
 
 impl Solver<'_> {
     /// Solves all positions under the one approach at which their mean load is `load`, so well that it is met to the
@@ -71,14 +71,14 @@ impl Solver<'_> {
         let width = pair.lower.width();
         let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
         let total = load * self.positions.len() as f64;
-        let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(LOOSEST);
+        let residual = (RESIDUAL_PER_ACCURACY * accuracy).min(MAX_RESIDUAL);
         let first = OnceCell::new();
         let tolerance = |state: &Residual| {
             let first = *first.get_or_init(|| state.eta);
-            let wanted = residual.min(PROGRESS * first).max(params.tolerance);
-            let way = (first / state.eta).ln() / (first / wanted).ln();
-            let way = if way.is_finite() { way.clamp(0.0, 1.0) } else { 0.0 };
-            self.watch.at(&Progress { load, together: Some(way), ..self.progress });
+            let wanted = residual.min(MIN_PROGRESS * first).max(params.tolerance);
+            let progress = (first / state.eta).ln() / (first / wanted).ln();
+            let progress = if progress.is_finite() { progress.clamp(0.0, 1.0) } else { 0.0 };
+            self.watch.at(&Progress { load, together: Some(progress), ..self.progress });
             wanted
         };
         let watch = OneOfMany(self.watch);

@@ -1,4 +1,4 @@
-//! What a pass leaves to the next besides the bodies: where its solution begins.
+//! The warm start that a pass leaves to the next besides the bodies.
 
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
@@ -7,14 +7,13 @@ use crate::solver::Stats;
 use crate::units::{Metre, Pascal};
 
 /// The state in which the next pass begins. The iterations of a pass end within their tolerances, and where in them
-/// depends on where they
-/// begin: a motion goes on with the same bits only from the same start.
+/// depends on where they begin: a motion goes on with the same bits only from the same start.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct WarmStart {
     /// The guess with which the search for the approach begins; none where no mean load is prescribed.
     pub guess: Option<Guess>,
-    /// What bears at each position of the last pass; nothing before the first.
+    /// The bearing cells at each position of the last pass; nothing before the first.
     pub positions: Vec<Bearing>,
 }
 
@@ -29,7 +28,7 @@ pub struct Guess {
     pub slope: f64,
 }
 
-/// What bears at one position.
+/// The bearing cells at one position.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Bearing {
@@ -40,7 +39,7 @@ pub struct Bearing {
 }
 
 impl WarmStart {
-    /// What contacts leave.
+    /// The warm start that the contacts of a pass leave.
     pub(super) fn new(guess: Option<Guess>, contacts: &[Contact]) -> Self {
         let bearing = |c: &Contact| Bearing { approach: c.approach, pressure: c.pressure.clone() };
         Self { guess, positions: contacts.iter().map(bearing).collect() }

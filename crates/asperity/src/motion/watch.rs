@@ -27,7 +27,7 @@ pub struct Progress {
     pub together: Option<f64>,
 }
 
-/// Looks on, from the threads that solve.
+/// Watches a computation, from the threads that solve, and may stop it.
 pub trait Watch: Sync {
     /// A position has been solved.
     fn at(&self, progress: &Progress);
@@ -45,7 +45,7 @@ pub trait Watch: Sync {
     fn stop(&self) -> bool;
 }
 
-/// Nobody looks on.
+/// The watch of a computation that nobody looks on.
 impl Watch for () {
     fn at(&self, _: &Progress) {}
 

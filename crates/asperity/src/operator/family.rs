@@ -127,7 +127,7 @@ mod tests {
                     displacement
                 };
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-                done.send(pool.install(|| rayon::join(displacement, displacement)))
+                done.send(pool.install(|| rayon::join(displacement, displacement))).expect("somebody waits");
             });
             let (one, other) = is_done.recv_timeout(Duration::from_secs(60)).expect("no deadlock");
             assert_eq!(one, other);

@@ -82,6 +82,7 @@ fn stiffening(dundurs: f64) -> f64 {
 
 /// J = 1 − 4ε² Σ (−1)ᵏ η(2k + 1) ε²ᵏ, η Dirichlet's; to 1e-13 for |β| ≤ ½.
 fn integral(dundurs: f64) -> f64 {
+    /// Values η(1), η(3), … of Dirichlet's function.
     const ETA: [f64; 8] = [
         LN_2,
         0.901_542_677_369_695_7,

@@ -1,4 +1,4 @@
-//! Between which bounds the pressure of each cell lies.
+//! The bounds of the pressure, cell by cell.
 
 use crate::error::{Result, check_in};
 use crate::grid::CellValues;
@@ -31,12 +31,12 @@ impl Bounds {
         Self { lower: lower.into(), ..self }
     }
 
-    /// The lower bounds.
+    /// The lower bounds of the pressure.
     pub fn lower(&self) -> &CellValues {
         &self.lower
     }
 
-    /// The upper bounds.
+    /// The upper bounds of the pressure.
     pub fn upper(&self) -> &CellValues {
         &self.upper
     }
@@ -105,7 +105,7 @@ impl From<Pascal> for Bounds {
     }
 }
 
-/// The bounds of one cell.
+/// The interval of the pressure of one cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Interval {
     pub(super) lower: Pascal,

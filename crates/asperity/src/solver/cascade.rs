@@ -1,4 +1,4 @@
-//! A first guess from coarser and coarser grids.
+//! The cascade: a first guess of the pressure from coarser and coarser grids.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -7,17 +7,18 @@ use crate::solver::site::Site;
 use crate::solver::watch::Within;
 use crate::solver::{Residual, Terms, attraction};
 
-/// Residual to which the coarse grids are solved: of std(u), or of what the largest upper bound does to a cell where that
+/// Tolerance of the coarse grids: of std(u), or of the displacement of a cell by itself at the largest upper bound where that
 /// is less, for φ never exceeds it.
 const COARSE_TOLERANCE: f64 = 1e-2;
 /// Convolutions after which a coarse grid is given up.
-const COARSE_CONVOLUTIONS: usize = 100;
+const MAX_COARSE_CONVOLUTIONS: usize = 100;
 /// Grids are not coarsened where none has as many cells as this along both axes.
 const MIN_CELLS: usize = 64;
 
-/// The caution from a start that is given: unlike a guess from coarse grids, which is wrong smoothly, the answer at another
-/// approach or of another geometry is wrong at single cells, and so are the sets that these predict.
-const CAUTION: f64 = 2.0;
+/// The compliance, as a multiple of the self-influence, by which the sets are first predicted from a start that is given:
+/// unlike a guess from coarse grids, which is wrong smoothly, the answer at another approach or of another geometry is wrong
+/// at single cells, and so are the sets that these predict.
+const COMPLIANCE_FACTOR: f64 = 2.0;
 
 /// Solves from the `start` of each contact; where there is none, on a cascade of grids, each with twice the pitch of the
 /// one above it, from the coarsest upwards, the pressure of each the first guess of the next. `tolerance` gives the η at
@@ -30,7 +31,7 @@ pub(super) fn solve(
     max_convolutions: usize,
 ) -> Result<Equilibrium> {
     if start.is_some() {
-        return active_set::solve(sites, terms, start, CAUTION, tolerance, max_convolutions);
+        return active_set::solve(sites, terms, start, COMPLIANCE_FACTOR, tolerance, max_convolutions);
     }
     let (guess, spent) = first_guess(sites, terms, tolerance)?;
     let mut found = active_set::solve(sites, terms, guess, 1.0, tolerance, max_convolutions)?;
@@ -38,7 +39,8 @@ pub(super) fn solve(
     Ok(found)
 }
 
-/// The prolonged pressures of the next coarser grids and their cost in convolutions of these.
+/// The pressures of the next coarser grids, prolonged, and their cost in convolutions of these grids; none where the grids
+/// are small, or the coarse ones cannot bear the load.
 fn first_guess(
     sites: &[&dyn Site],
     terms: &Terms,
@@ -65,7 +67,7 @@ fn first_guess(
     let saturation = coarse_terms.self_influence * most;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
-    match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, COARSE_CONVOLUTIONS) {
+    match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, MAX_COARSE_CONVOLUTIONS) {
         Ok(found) => {
             let coarse = found.fields.iter().zip(sites);
             let prolonged = coarse.map(|((pressure, _), site)| prolong(pressure, site.grid().shape));
@@ -73,12 +75,12 @@ fn first_guess(
             Ok((Some(prolonged.collect()), spent))
         }
         // A guess that cannot be had is no guess.
-        Err(Error::NotConverged { .. }) => Ok((None, share * (spent + COARSE_CONVOLUTIONS as f64))),
+        Err(Error::NotConverged { .. }) => Ok((None, share * (spent + MAX_COARSE_CONVOLUTIONS as f64))),
         Err(other) => Err(other),
     }
 }
 
-/// Each coarse value on the cells that it covers.
+/// Prolongs a field: each coarse value on the fine cells that it covers.
 fn prolong(coarse: &Field, shape: [usize; 2]) -> Field {
     Field::from_shape_fn(shape, |(i, j)| coarse[[i / 2, j / 2]])
 }

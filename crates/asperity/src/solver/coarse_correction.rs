@@ -1,4 +1,5 @@
-//! What is wide: the stiffness of long waves, on a grid with a sixteenth of the cells along each axis.
+//! The coarse level of the preconditioner: the stiffness of long waves, on a grid with a sixteenth of the cells along each
+//! axis.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 use std::sync::Arc;
@@ -10,10 +11,10 @@ use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
 const COARSENING: usize = 16;
-/// Keeps the weight of sparsely covered coarse cells finite; see [`CoarseCorrection`].
-const SPARSE: f32 = 0.2;
+/// Share of free cells added in the weight, which stays finite in sparsely covered coarse cells; see [`CoarseCorrection`].
+const MIN_COVER: f32 = 0.2;
 
-/// P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse harmonics, of half-spaces E*|q|/2, D a
+/// The correction P D B D Pᵀ: P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse harmonics, of half-spaces E*|q|/2, D a
 /// weight.
 ///
 /// A pressure that is uniform over the free cells of a coarse cell, a share θ of it, has θ of the mean pressure; a
@@ -26,16 +27,18 @@ const SPARSE: f32 = 0.2;
 pub(super) struct CoarseCorrection {
     /// Stiffness of the coarse harmonics, divided by the fine cells in a coarse one.
     stiffness: Convolution<f32>,
-    /// That of the mean, where valleys are as wide as the grid, and the share of cells that are not free.
+    /// Stiffness of the mean where valleys are as wide as the grid, divided by the fine cells in a coarse one.
     mean_stiffness: f32,
+    /// Share of cells that are not free.
     open: f32,
     /// Fine cells in a coarse one.
     cells: f32,
     bilinear: Bilinear,
-    /// D at each node.
+    /// The weight D at each node.
     weight: SingleField,
-    /// D Pᵀ A r, and D B of it.
+    /// The restricted residual D Pᵀ A r.
     restricted: SingleField,
+    /// The coarse solution D B D Pᵀ A r.
     solved: SingleField,
 }
 
@@ -76,15 +79,16 @@ impl CoarseCorrection {
         }
     }
 
+    /// Adapts to the free cells of `sets`.
     pub(super) fn adapt(&mut self, sets: &Sets) {
         let (free, all) = (sets.free().len() as f32, sets.of().len() as f32);
         self.open = 1.0 - (free - 1.0) / all;
         self.bilinear.restrict(sets, |_| 1.0, &mut self.weight);
-        self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + SPARSE));
+        self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
     }
 
-    /// Restricts `r` to the nodes, and writes what is left of it without the wide part into `rest`:
-    /// `(I − T) A r` with T = P D Pᵀ, a smoothing.
+    /// Restricts `r` to the nodes and solves there; writes the residual without its smooth part into `rest`: `(I − T) A r`
+    /// with T = P D Pᵀ, a smoothing.
     pub(super) fn split(&mut self, sets: &Sets, r: &[f32], rest: &mut [f32]) {
         self.restrict(sets, r);
         let scale = 1.0 / self.cells;
@@ -95,7 +99,7 @@ impl CoarseCorrection {
         self.solved *= &self.weight;
     }
 
-    /// Takes the wide part out of `z`, and adds the response to the wide part of the `r` split before:
+    /// Takes the smooth part out of `z`, and adds the coarse solution for the `r` that was split before:
     /// `(I − T)ᵀ z + P D B D Pᵀ A r`.
     pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) {
         self.restrict(sets, z);
@@ -103,7 +107,7 @@ impl CoarseCorrection {
         self.bilinear.interpolate(sets, &self.solved, |cell, wide| z[cell] += wide);
     }
 
-    /// D Pᵀ A r.
+    /// Computes the restricted residual D Pᵀ A r.
     fn restrict(&mut self, sets: &Sets, r: &[f32]) {
         self.bilinear.restrict(sets, |cell| r[cell], &mut self.restricted);
         self.restricted *= &self.weight;

@@ -37,7 +37,7 @@ pub(super) fn solve(
         // Between one approach and the next in double precision.
         let mut cells = Bounded { pressure: &mut answer.pressure, bounds: problem.bounds };
         make_feasible(&mut cells, &problem.terms);
-        pivoting.respond(&answer.pressure, &mut answer.displacement);
+        pivoting.convolve(&answer.pressure, &mut answer.displacement);
     }
     let stats = Stats {
         iterations: pivoting.factorisations,
@@ -59,14 +59,14 @@ pub(super) fn solve(
 }
 
 impl Problem<'_> {
-    /// η at a known approach, also under load control.
+    /// The residual η at a known approach, also under load control.
     fn residual_at(&self, pressure: &Field, displacement: &Field, approach: Metre) -> f64 {
         let terms = Terms { control: Control::Approach(approach), ..self.terms };
         let problem = Problem { terms, ..*self };
         problem.residual(pressure, displacement).eta
     }
 
-    /// The sets of a pressure.
+    /// The set of each cell under a pressure.
     fn sets_of(&self, pressure: &Field) -> Array2<Set> {
         let sets = pressure.iter().enumerate().map(|(cell, p)| Set::of(*p, self.bounds.at(cell)));
         Array2::from_shape_vec(pressure.raw_dim(), sets.collect()).expect("a set for each cell")
@@ -94,7 +94,7 @@ struct AtApproach {
     pressure: Field,
     displacement: Field,
     sets: Array2<Set>,
-    /// dΣp/dδ = 1ᵀ C_FF⁻¹ 1 over the cells between the bounds.
+    /// Slope dΣp/dδ = 1ᵀ C_FF⁻¹ 1 over the cells between the bounds.
     slope: f64,
 }
 
@@ -102,8 +102,8 @@ struct Pivoting<'a, 'b> {
     operator: &'a mut dyn Operator,
     problem: &'a Problem<'b>,
     influence: Field,
-    /// A multiple of 1 1ᵀ added to C where the boundary is periodic: it makes C positive definite and only shifts
-    /// the approach, by itself times Σ p.
+    /// The s of the matrix s 1 1ᵀ that is added to C where the boundary is periodic: it makes C positive definite, and changes
+    /// the approach alone, by s Σ p.
     stiffening: f64,
     factorisations: usize,
     convolutions: usize,
@@ -127,7 +127,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             go_on(self.problem.terms.watch)?;
             self.anchor(approach, &mut sets)?;
             let (pressure, slope) = self.between_bounds(approach, &sets)?;
-            self.respond(&pressure, &mut displacement);
+            self.convolve(&pressure, &mut displacement);
             let largest = |field: &Field| field.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             let (tiny_p, most_u) = (ROUNDING * largest(&pressure), largest(&displacement));
             let mut next = sets.clone();
@@ -159,7 +159,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                     let cells = pressure.iter_mut().enumerate();
                     cells.for_each(|(cell, p)| *p = self.problem.bounds.at(cell).clamp(*p));
                     if given_up {
-                        self.respond(&pressure, &mut displacement);
+                        self.convolve(&pressure, &mut displacement);
                     }
                     return Ok(AtApproach { pressure, displacement, sets, slope });
                 }
@@ -207,7 +207,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Ok(())
     }
 
-    fn respond(&mut self, pressure: &Field, displacement: &mut Field) {
+    /// Computes the displacement of a pressure, that of the stiffened matrix.
+    fn convolve(&mut self, pressure: &Field, displacement: &mut Field) {
         self.operator.apply(pressure, displacement);
         self.convolutions += 1;
         if self.stiffening > 0.0 {
@@ -253,7 +254,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Ok((pressure, factor.solve(&vec![1.0; free.len()]).iter().sum()))
     }
 
-    /// Bracketed Newton iteration on the approach.
+    /// The answer under a load, and its approach, by a bracketed Newton iteration on the approach.
     fn solve_load(&mut self, wanted: f64, mut sets: Option<Array2<Set>>) -> Result<(AtApproach, Metre)> {
         let Terms { self_influence, .. } = self.problem.terms;
         let scale = self.problem.terms.sum_scale(wanted);
@@ -275,7 +276,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                 high = approach;
             }
             let newton = approach - excess / answer.slope;
-            let exhausted = high.is_finite() && high - low <= 4.0 * f64::EPSILON * high.abs().max(low.abs());
+            let exhausted = high.is_finite() && high - low <= BRACKET_ROUNDING * high.abs().max(low.abs());
             if excess.abs() <= self.problem.terms.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS {
                 return Ok((answer, approach));
             }
@@ -299,22 +300,24 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
         let pressure = self.problem.pressure_at_bounds(&gap.mapv(|_| Set::Lower));
         let mut touch = Field::zeros(gap.raw_dim());
-        self.respond(&pressure, &mut touch);
+        self.convolve(&pressure, &mut touch);
         touch += gap;
         lowest(&touch)
     }
 }
 
-/// As much as makes the stiffness of the mean one among those of the waves.
+/// The s of s 1 1ᵀ with which the compliance of the mean is one among those of the waves.
 fn stiffening(operator: &dyn Operator, problem: &Problem) -> f64 {
     problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
 }
 
-/// Changes of the sets at one approach after which the pivots are given up.
+/// Pivoting steps at one approach after which the sets are taken as they are.
 const MAX_PIVOTS: usize = 2000;
 /// Block steps without progress after which a single cell changes its set at a time.
 const MAX_STALLED_BLOCKS: usize = 10;
-/// Approaches tried for a load.
+/// Approaches tried for a load, after which the last is taken.
 const MAX_TRIALS: usize = 200;
-/// Share of the largest pressure, or displacement, that rounding takes.
+/// Relative width of a bracket of approaches that holds no more numbers to try.
+const BRACKET_ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Rounding of pressures and displacements, as a share of the largest.
 const ROUNDING: f64 = 1e-14;

@@ -8,7 +8,7 @@ use crate::units::Pascal;
 
 /// Relative error of the load of a feasible pressure.
 const LOAD_ACCURACY: f64 = 1e-11;
-/// Relative error of a sum of pressures that is as good as none: above the rounding of millions of terms.
+/// Relative error at which a sum of pressures is met: above the rounding of millions of terms.
 const SUM_ACCURACY: f64 = 1e-13;
 /// Scalings of the pressures to a sum before they are offset instead.
 const MAX_SCALINGS: usize = 60;
@@ -17,10 +17,10 @@ const MAX_OFFSETS: usize = 200;
 
 /// Pressures with their bounds that are summed and changed all together.
 pub(super) trait Cells {
-    /// The sums of what `terms` makes of each pressure and its bounds.
+    /// The sums over the cells of `terms` of each pressure and its bounds.
     fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N];
 
-    /// Changes each pressure.
+    /// Replaces each pressure by a function of it and its bounds.
     fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync);
 
     /// The range of the pressures and of their bounds.
@@ -47,7 +47,7 @@ impl Cells for Bounded<'_> {
     }
 }
 
-/// The sums of what `terms` makes of each value and the bounds of its cell.
+/// The sums over the cells of `terms` of each value and the bounds of its cell.
 pub(super) fn sum_within<T: Copy, const N: usize>(
     values: &[T],
     bounds: &Bounds,
@@ -56,7 +56,7 @@ pub(super) fn sum_within<T: Copy, const N: usize>(
     with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(cell))))
 }
 
-/// Changes each pressure to what `change` makes of it and its bounds.
+/// Replaces each pressure by `change` of it and its bounds.
 pub(super) fn map_within(
     pressures: &mut [Pascal],
     bounds: &Bounds,
@@ -74,12 +74,12 @@ impl Terms<'_> {
             .is_none_or(|wanted| (sum - wanted).abs() <= LOAD_ACCURACY * self.sum_scale(wanted))
     }
 
-    /// Error of a pressure sum that is as good as none.
+    /// Error at which a pressure sum is met.
     pub(super) fn sum_accuracy(&self, wanted: f64) -> f64 {
         SUM_ACCURACY * self.sum_scale(wanted)
     }
 
-    /// What the error of a pressure sum is a share of: the sum itself, and what attraction takes from it.
+    /// The pressure of which the error of a pressure sum is a share: the sum itself, and the attraction.
     pub(super) fn sum_scale(&self, wanted: f64) -> f64 {
         wanted.abs() + self.attraction
     }
@@ -117,12 +117,16 @@ pub(super) fn within(pressure: Pascal, bounds: Interval) -> [f64; 2] {
     [p, if bounds.is_free(p) { 1.0 } else { 0.0 }]
 }
 
-/// The least and the largest of some pressures, their number, and the range of their bounds.
+/// The range of some pressures, their number, and the range of their bounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Range {
+    /// Least pressure.
     min: f64,
+    /// Largest pressure.
     max: f64,
+    /// Number of pressures.
     count: usize,
+    /// Least lower bound.
     min_lower: Pascal,
     /// A pressure that is enough for any sum, if every cell is offered it: the largest upper bound that is finite where
     /// upper bounds differ.
@@ -144,7 +148,7 @@ impl Range {
         Self { min, max, count: values.len(), min_lower: bounds.lower().min(), max_upper }
     }
 
-    /// The range of the cells of both.
+    /// The range of two sets of cells together.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             min: self.min.min(other.min),

@@ -41,7 +41,7 @@ use crate::grid::{Field, Grid};
 use crate::operator::Operator;
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
-/// What is prescribed in the normal direction.
+/// The load or the approach that is prescribed of a contact in the normal direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
     /// The total normal force W, > 0.
@@ -60,7 +60,7 @@ impl Control {
     }
 }
 
-/// How the problem is solved. All methods solve the same problem to the same residual.
+/// The method by which a contact problem is solved. All methods solve the same problem to the same residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// The direct method on small grids, the active set elsewhere.
@@ -77,11 +77,11 @@ pub enum Method {
 
 choice!(Method: "auto" => Auto, "direct" => Direct, "polonsky-keer" => PolonskyKeer, "active-set" => ActiveSet);
 
-/// How accurately, and by what method.
+/// Parameters of a solution: the method and its accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Params {
-    /// The method.
+    /// The method of solution.
     pub method: Method,
     /// Scale-free complementarity residual η at which the answer is accepted, > 0; see [`residual`].
     pub tolerance: f64,
@@ -120,7 +120,7 @@ impl Default for Params {
     }
 }
 
-/// What an answer cost.
+/// The cost of a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Stats {
@@ -133,7 +133,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// What two answers cost together.
+    /// The cost of two solutions together.
     pub(crate) fn and(&self, other: &Self) -> Self {
         Self {
             iterations: self.iterations + other.iterations,
@@ -159,9 +159,9 @@ pub struct Solution {
     pub displacement: Field,
     /// Rigid-body approach δ, m.
     pub approach: Metre,
-    /// Scale-free complementarity residual η of this very pressure, with what rounding may have left in the displacement.
+    /// Scale-free complementarity residual η of this pressure, with the rounding of the displacement.
     pub residual: f64,
-    /// What it cost.
+    /// Cost of the solution.
     pub stats: Stats,
 }
 
@@ -176,7 +176,7 @@ impl Solution {
         self.count(|cell, p| self.bounds.touches(cell, p))
     }
 
-    /// Number of capped cells: at their upper bound, which is the hardness, or what a shear leaves of it.
+    /// Number of capped cells: at their upper bound, the hardness, or less under a shear.
     pub fn capped_cells(&self) -> usize {
         self.count(|cell, p| self.bounds.caps(cell, p))
     }
@@ -216,7 +216,7 @@ impl Solution {
         self.grid.cell_area() * self.plastic_interference().sum()
     }
 
-    /// Elastic energy ½ ΔA Σ p u (periodic: without that of the mean displacement, which is free).
+    /// Elastic energy ½ ΔA Σ p u; under a periodic boundary without that of the mean displacement, which is free.
     pub fn elastic_energy(&self) -> Joule {
         0.5 * self.grid.cell_area() * (&self.pressure * &self.displacement).sum()
     }
@@ -225,12 +225,15 @@ impl Solution {
 /// A box-constrained contact problem, as every method sees it.
 #[derive(Clone, Copy)]
 struct Problem<'a> {
+    /// The undeformed gap h.
     initial_gap: &'a Field,
+    /// The bounds of the pressure.
     bounds: &'a Bounds,
+    /// Control and constants.
     terms: Terms<'a>,
 }
 
-/// What a method finds for a [`Problem`].
+/// The answer of a method to a [`Problem`].
 struct Answer {
     pressure: Field,
     displacement: Field,
@@ -239,20 +242,20 @@ struct Answer {
     stats: Stats,
 }
 
-/// What is asked of a contact, or of several together, and who looks on.
+/// The control of a contact, or of several together, the constants that the methods need, and who looks on.
 #[derive(Clone, Copy)]
 struct Terms<'a> {
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
     self_influence: f64,
     cell_area: SquareMetre,
-    /// Σ |p| of all cells at their lower bounds, where these are below 0.
+    /// The sum Σ |p| of all cells at their lower bounds, where these are below 0.
     attraction: Pascal,
     watch: &'a dyn Watch,
 }
 
 impl Terms<'_> {
-    /// Σ p under load control.
+    /// The pressure sum Σ p under load control.
     fn pressure_sum(&self) -> Option<f64> {
         match self.control {
             Control::Load(load) => Some(load / self.cell_area),
@@ -260,7 +263,7 @@ impl Terms<'_> {
         }
     }
 
-    /// The residual does not see the load.
+    /// Holds the pressure of an answer against the load, which the residual does not see.
     fn check_load(&self, answer: &Answer) -> Result<()> {
         let Some(wanted) = self.pressure_sum() else { return Ok(()) };
         let sum = answer.pressure.sum();
@@ -277,7 +280,7 @@ impl Terms<'_> {
     }
 }
 
-/// Σ |p| of so many `cells` at their lower bounds, where these are below 0.
+/// The sum Σ |p| of so many `cells` at their lower bounds, where these are below 0.
 fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
     bounds.lower().map(|lower| (-lower).max(0.0)).sum(cells)
 }
@@ -363,7 +366,9 @@ fn solve_as_given(
     let Problem { initial_gap, bounds, terms } = *problem;
     let answer = match params.method {
         Method::Direct => direct::solve(operator, problem, start, params),
-        Method::Auto if initial_gap.len() <= DIRECT_CELLS => direct::solve(operator, problem, start, params),
+        Method::Auto if initial_gap.len() <= MAX_DIRECT_CELLS => {
+            direct::solve(operator, problem, start, params)
+        }
         Method::PolonskyKeer => polonsky_keer::solve(operator, problem, start, params),
         Method::Auto | Method::ActiveSet => {
             let site = OwnedSite::new(operator, Cow::Borrowed(initial_gap), Cow::Borrowed(bounds));
@@ -379,7 +384,7 @@ fn solve_as_given(
     Ok(answer)
 }
 
-/// Displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
+/// The self-influence c₀: displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
 /// a wave as long serves, as a measure.
 fn self_influence(operator: &dyn Operator) -> f64 {
     match operator.influence(0, 0) {
@@ -388,7 +393,7 @@ fn self_influence(operator: &dyn Operator) -> f64 {
     }
 }
 
-/// The lowest height, where the heights are so far from zero against what they differ by, or against what they are pressed
+/// The lowest height, where the heights are so far from zero against their range, or the depth to which they are pressed
 /// together, that h + u keeps too few digits of u: they are then taken from there, which costs them none.
 fn far_datum(problem: &Problem) -> Option<Metre> {
     let Problem { initial_gap, bounds, terms } = problem;
@@ -398,19 +403,19 @@ fn far_datum(problem: &Problem) -> Option<Metre> {
     }
     let depth = match terms.control {
         Control::Approach(approach) => (approach - lowest).max(0.0),
-        // No deeper than one cell under all of the load.
+        // No deeper than a single cell sinks under the whole load.
         Control::Load(load) => {
             terms.self_influence * (load.abs() / terms.cell_area + terms.attraction).min(bounds.upper().max())
         }
     };
-    let far = lowest.abs() > FAR * depth.min(highest - lowest);
+    let far = lowest.abs() > FAR_DATUM * depth.min(highest - lowest);
     far.then_some(lowest)
 }
 
-/// Heights are far from zero at so many times what they differ by, or are pressed together.
-const FAR: f64 = 1e3;
+/// Heights are far from zero at so many times their range, or the depth to which they are pressed together.
+const FAR_DATUM: f64 = 1e3;
 
-/// What comes of numbers near the ends of their range is an error.
+/// Refuses a value that has left the range of double precision.
 fn finite(quantity: &'static str, value: f64) -> Result<()> {
     check(
         quantity,
@@ -423,9 +428,10 @@ fn finite(quantity: &'static str, value: f64) -> Result<()> {
 /// Relative error of the load at which an answer is accepted.
 const LOAD_TOLERANCE: f64 = 1e-10;
 
-/// Grids of up to so many cells are solved directly by [`Method::Auto`].
-const DIRECT_CELLS: usize = 400;
+/// The most cells of a grid that [`Method::Auto`] solves directly.
+const MAX_DIRECT_CELLS: usize = 400;
 
+/// Whether a problem and its parameters have a meaning.
 fn validate(
     operator: &dyn Operator,
     initial_gap: &Field,

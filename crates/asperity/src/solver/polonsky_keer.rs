@@ -7,11 +7,15 @@ use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::watch::go_on;
 use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
 
-/// Share of an upper bound that rounding takes.
+/// Share of its upper bound below which a pressure differs from it by rounding alone.
 const ROUNDING: f64 = 1e-12;
-/// Convolutions without a new least residual after which steps are halved: the printed ones, cut off at two bounds, may go
+/// Convolutions without a new least residual after which steps are damped: the printed ones, cut off at two bounds, may go
 /// back and forth for ever.
-const PATIENCE: f64 = 100.0;
+const MAX_STAGNATION: f64 = 100.0;
+/// The factor by which steps are damped then.
+const DAMPING: f64 = 0.5;
+/// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
+const FIRST_PRESSURE: f64 = 0.3;
 
 /// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at their upper bound
 /// leave the conjugate directions as those at their lower one do.
@@ -27,7 +31,7 @@ pub(super) fn solve(
         (Some(start), ..) => start.clone(),
         (None, Some(sum), _) => Field::from_elem(initial_gap.raw_dim(), sum / initial_gap.len() as f64),
         (None, None, Control::Approach(delta)) => {
-            initial_gap.mapv(|h| (delta - h) / terms.self_influence * 0.3)
+            initial_gap.mapv(|h| (delta - h) / terms.self_influence * FIRST_PRESSURE)
         }
         (None, None, Control::Load(_)) => unreachable!("a load has a pressure sum"),
     };
@@ -37,7 +41,7 @@ pub(super) fn solve(
     let mut response = Field::zeros(pressure.raw_dim());
     let mut stats = Stats::default();
     let mut squared_before = f64::INFINITY;
-    let (mut caution, mut least, mut least_at) = (1.0, f64::INFINITY, 0.0);
+    let (mut damping, mut least, mut least_at) = (1.0, f64::INFINITY, 0.0);
     loop {
         operator.apply(&pressure, &mut displacement);
         stats.convolutions += 1.0;
@@ -68,15 +72,15 @@ pub(super) fn solve(
         }
         if state.eta < least {
             (least, least_at) = (state.eta, stats.convolutions);
-        } else if stats.convolutions - least_at > PATIENCE {
-            (caution, least_at) = (0.5 * caution, stats.convolutions);
+        } else if stats.convolutions - least_at > MAX_STAGNATION {
+            (damping, least_at) = (DAMPING * damping, stats.convolutions);
         }
         let is_free: Vec<bool> =
             pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
         if !is_free.contains(&true) {
-            // Every cell at a bound and not in equilibrium: one step along the gap frees some.
+            // Every cell at a bound and not in equilibrium: one damped diagonal step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
-                *p += 0.5 * caution * (state.approach - h - u) / terms.self_influence;
+                *p += 0.5 * damping * (state.approach - h - u) / terms.self_influence;
             });
             feasible(&mut pressure);
             continue;
@@ -88,10 +92,10 @@ pub(super) fn solve(
         };
         gap -= datum;
         let squared: f64 = gap.iter().zip(&is_free).filter(|(_, free)| **free).map(|(g, _)| g * g).sum();
-        let conjugate = squared / squared_before;
+        let beta = squared / squared_before;
         squared_before = squared;
         for ((t, g), free) in direction.iter_mut().zip(&gap).zip(&is_free) {
-            *t = if *free { g + conjugate * *t } else { 0.0 };
+            *t = if *free { g + beta * *t } else { 0.0 };
         }
         operator.apply(&direction, &mut response);
         stats.convolutions += 1.0;
@@ -101,7 +105,7 @@ pub(super) fn solve(
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
         // A single free cell under load cannot move, but the cells at the bounds can.
-        let step = caution * if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
+        let step = damping * if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
         let mut reentered = false;
         for (cell, ((p, t), g)) in pressure.iter_mut().zip(&direction).zip(&gap).enumerate() {
             let bounds = bounds.at(cell);

@@ -1,18 +1,19 @@
-//! An approximate inverse of the influence matrix restricted to the free cells; it costs no fine convolution.
+//! The two-level preconditioner: an approximate inverse of the influence matrix on the free cells, at no fine convolution.
 
 use crate::operator::Operator;
 use crate::solver::coarse_correction::CoarseCorrection;
 use crate::solver::sets::Sets;
 use crate::solver::sparse_inverse::SparseInverse;
 
-/// `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free cells A.
+/// The preconditioner `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free
+/// cells A.
 ///
-/// S is the [`SparseInverse`] on the free cells, which deals with what is local, B the stiffness of the long waves,
-/// which deals with what is wide; see [`CoarseCorrection`] for P, D and T.
+/// S is the [`SparseInverse`] on the free cells, for the local part of the residual, B the stiffness of the long waves, for its
+/// smooth part; see [`CoarseCorrection`] for P, D and T.
 pub(super) struct Preconditioner {
     sparse: SparseInverse,
     coarse: CoarseCorrection,
-    /// What is local of r.
+    /// The local part (I − T) A r of the residual.
     local: Vec<f32>,
 }
 
@@ -32,7 +33,7 @@ impl Preconditioner {
         self.local.fill(0.0);
     }
 
-    /// `z = M r`, fields on the grid that are zero where it is not free.
+    /// Computes the preconditioned residual `z = M r`: fields on the grid that are zero where it is not free.
     pub(super) fn apply(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
         z.fill(0.0);
         self.coarse.split(sets, r, &mut self.local);

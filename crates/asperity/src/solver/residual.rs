@@ -1,4 +1,4 @@
-//! The measure by which every answer is judged.
+//! The complementarity residual η, by which every answer is judged.
 
 use crate::grid::Field;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
@@ -9,7 +9,7 @@ use crate::units::{Metre, Pascal};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Residual {
-    /// η = max|φ| / scale.
+    /// The residual η = max|φ| / scale.
     pub eta: f64,
     /// The approach δ at which φ was taken.
     pub approach: Metre,
@@ -52,8 +52,8 @@ pub fn residual(
     })
 }
 
-/// What a residual is a share of, for displacements of this deviation, of which the largest, and the largest that a cell makes
-/// by itself, are of that size.
+/// The displacement of which a residual is a share: the `deviation` of the displacements, unless they are uniform against
+/// their `size`, that of the largest, or of the largest that a cell causes by itself.
 pub(super) fn scale(deviation: Metre, size: Metre) -> Metre {
     if deviation < UNIFORM * size { UNIFORM * size } else { deviation }
 }
@@ -62,14 +62,16 @@ pub(super) fn scale(deviation: Metre, size: Metre) -> Metre {
 /// they deviate by may then be round-off, 10⁻¹⁵ of their size in double precision and 10⁻⁷ in single.
 const UNIFORM: f64 = 1e-4;
 
-/// What the residual asks of a cell.
+/// The state of a cell, as its residual depends on it.
 #[derive(Clone, Copy)]
 pub(super) struct Cell {
+    /// The pressure p.
     pub(super) pressure: Pascal,
+    /// The displacement u.
     pub(super) displacement: Metre,
-    /// h + u: the approach at which it touches.
+    /// The approach h + u at which the cell touches.
     pub(super) touch: Metre,
-    /// Between which its pressure lies.
+    /// The bounds of the pressure.
     pub(super) bounds: Interval,
 }
 
@@ -84,56 +86,64 @@ impl Problem<'_> {
 /// The approach that belongs to a pressure under load control, from the approaches h + u at which the cells touch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Multiplier {
+    /// Sum of the weights, the pressures above the lower bounds.
     weight: f64,
+    /// Weighted sum of the approaches h + u.
     moment: f64,
-    deepest: Metre,
+    /// Largest h + u of the capped cells.
+    max_capped: Metre,
 }
 
 impl Multiplier {
     pub(super) fn of(cells: impl Iterator<Item = Cell>) -> Self {
-        let mut this = Self { weight: 0.0, moment: 0.0, deepest: f64::NEG_INFINITY };
+        let mut this = Self { weight: 0.0, moment: 0.0, max_capped: f64::NEG_INFINITY };
         for Cell { pressure: p, touch, bounds, .. } in cells {
             if bounds.is_free(p) {
                 let weight = p - bounds.lower;
                 this.weight += weight;
                 this.moment += weight * touch;
             } else if p > bounds.lower {
-                this.deepest = this.deepest.max(touch);
+                this.max_capped = this.max_capped.max(touch);
             }
         }
         this
     }
 
-    /// The multiplier of the cells of both.
+    /// The multiplier of two sets of cells together.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             weight: self.weight + other.weight,
             moment: self.moment + other.moment,
-            deepest: self.deepest.max(other.deepest),
+            max_capped: self.max_capped.max(other.max_capped),
         }
     }
 
-    /// All cells at a bound: any approach between the capped and the open cells is in equilibrium; the least.
+    /// The multiplier. Where all cells are at a bound, any approach between the capped and the open cells is in equilibrium:
+    /// the least.
     pub(super) fn approach(&self) -> Metre {
-        if self.weight > 0.0 { self.moment / self.weight } else { self.deepest }
+        if self.weight > 0.0 { self.moment / self.weight } else { self.max_capped }
     }
 }
 
-/// What the residual of some cells is made of: sums and maxima, which those of several contacts are merged from.
+/// Sums and maxima over some cells from which their residual follows; those of several contacts are merged.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ResidualSums {
     /// Largest |φ|.
     largest: Metre,
+    /// Largest |p|.
     max_pressure: Pascal,
+    /// Largest |u|.
     max_displacement: Metre,
+    /// Number of cells.
     cells: f64,
-    /// Mean displacement, and the sum of the squares of its deviations.
+    /// Mean displacement.
     mean: Metre,
+    /// Sum of the squares of the deviations from the mean displacement.
     squares: f64,
 }
 
 impl ResidualSums {
-    /// The sums at an approach.
+    /// The sums of some cells at an approach.
     pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
         let mut this = Self::default();
         // Deviations from some displacement rather than from zero: nothing cancels.
@@ -153,7 +163,7 @@ impl ResidualSums {
         Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
     }
 
-    /// The sums of the cells of both: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
+    /// The sums of two sets of cells together: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
     pub(super) fn and(self, other: Self) -> Self {
         let cells = self.cells + other.cells;
         let apart = other.mean - self.mean;

@@ -3,14 +3,14 @@
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
 
-/// Where the answer is taken to have a cell.
+/// The predicted set of a cell: where in its bounds the answer is taken to have its pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Set {
-    /// At its lower bound: open.
+    /// The open cells, at their lower bound.
     Lower,
-    /// Between its bounds, where the gap is to be closed.
+    /// The free cells, between their bounds, whose gap is to be closed.
     Free,
-    /// At its upper bound: capped.
+    /// The capped cells, at their upper bound.
     Upper,
 }
 
@@ -27,11 +27,13 @@ impl Set {
 
 /// The set of each cell of a grid, and a list of the free ones.
 pub(super) struct Sets {
+    /// The set of each cell.
     of: Vec<Set>,
+    /// Cells in a row of the grid.
     columns: usize,
     /// Flat indices of the free cells, increasing.
     free: Vec<u32>,
-    /// For each row of the grid, how many free cells come before it; at last how many there are.
+    /// Number of free cells before each row of the grid; last, the number of all.
     before: Vec<u32>,
 }
 
@@ -57,6 +59,7 @@ impl Sets {
         self.put(free.map(|free| if free { Set::Free } else { Set::Lower }));
     }
 
+    /// Replaces the sets of all cells.
     fn put(&mut self, mut sets: impl Iterator<Item = Set>) {
         self.free.clear();
         let rows = self.of.chunks_exact_mut(self.columns).zip(&mut self.before);
@@ -78,6 +81,7 @@ impl Sets {
         &self.of
     }
 
+    /// Whether a flat cell is free.
     pub(super) fn is_free(&self, cell: usize) -> bool {
         self.of[cell] == Set::Free
     }

@@ -1,4 +1,4 @@
-//! Where contacts take place.
+//! The grid, the gap, the bounds and the operator of one contact among several.
 
 use std::borrow::Cow;
 use std::ops::DerefMut;
@@ -67,7 +67,7 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for OwnedSite<'_, 
     }
 }
 
-/// The site of a coarse `operator`, where the fine grid has this gap and these bounds.
+/// The site of a coarse `operator` from the gap and the bounds of the fine grid.
 pub(crate) fn coarse_site(
     operator: Box<dyn Operator>,
     gap: &Field,

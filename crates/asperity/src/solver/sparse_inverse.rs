@@ -3,19 +3,21 @@
 use crate::operator::Operator;
 use crate::solver::sets::Sets;
 
-/// GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its
+/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its
 /// causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
 ///
 /// A row depends on nothing but which of the neighbours are free: there are 64.
 pub(super) struct SparseInverse {
     shape: [usize; 2],
+    /// The row of G for each pattern of free neighbours.
     rows: [[f32; MEMBERS]; 1 << NEIGHBOURS],
     /// For each free cell its row of the table: bit k is set where neighbour k is free.
     patterns: Vec<u8>,
 }
 
+/// Number of causal neighbours.
 const NEIGHBOURS: usize = 6;
-/// The neighbours and the cell itself, which is the last.
+/// Number of members of a row: the neighbours, and last the cell itself.
 const MEMBERS: usize = NEIGHBOURS + 1;
 /// The nearest neighbours that come before a cell in memory.
 const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
@@ -56,6 +58,7 @@ impl SparseInverse {
         Self { shape, rows, patterns: Vec::with_capacity(shape[0] * shape[1]) }
     }
 
+    /// Adapts to the free cells of `sets`.
     pub(super) fn adapt(&mut self, sets: &Sets) {
         let [nx, ny] = self.shape.map(|n| n as isize);
         self.patterns.clear();

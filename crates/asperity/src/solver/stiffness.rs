@@ -16,7 +16,7 @@ use crate::units::NewtonPerMetre;
 /// C_EE p' = 1   on the elastic cells E,   K = ΔA Σ p'
 /// ```
 ///
-/// These are the cells with 0 < p < H: a cell at the hardness bears no more, one that is open none. Under a periodic
+/// The elastic cells are those with 0 < p < H: a cell at the hardness bears no more, one that is open none. Under a periodic
 /// boundary δ is the approach of the mean planes of the surfaces, the mean displacement being 0; where all of a period is
 /// elastic nothing gives, and there is no stiffness; under one that is periodic along one axis δ is that against the datum
 /// of the line. K comes to within about a tenth of the tolerance of `params`.
@@ -44,13 +44,13 @@ pub fn normal_stiffness(
     sets.free_where(elastic.iter().copied());
     let mut preconditioner = Preconditioner::new(operator);
     preconditioner.adapt(&sets);
-    let (mut rate, mut left) = (grid.zeros(), mask.clone());
+    let (mut rate, mut residual) = (grid.zeros(), mask.clone());
     let (mut direction, mut response) = (grid.zeros(), grid.zeros());
-    let [mut equations, mut step] = [SingleField::zeros(grid.shape), SingleField::zeros(grid.shape)];
+    let [mut single, mut preconditioned] = [SingleField::zeros(grid.shape), SingleField::zeros(grid.shape)];
     let mut product_before = f64::INFINITY;
     // Conjugate gradients from 0: Σ p' lacks what the steps to come will add, and none of them takes from it.
-    let mut added = [f64::INFINITY; LAST];
-    while left.iter().any(|r| *r != 0.0)
+    let mut added = [f64::INFINITY; LAST_STEPS];
+    while residual.iter().any(|r| *r != 0.0)
         && added.iter().sum::<f64>() > ACCURACY * params.tolerance * rate.sum()
     {
         if stats.iterations >= params.max_convolutions {
@@ -58,31 +58,32 @@ pub fn normal_stiffness(
             let residual = added.iter().sum::<f64>() / rate.sum();
             return Err(Error::NotConverged { iterations, residual, tolerance: ACCURACY * params.tolerance });
         }
-        equations.zip_mut_with(&left, |single, r| *single = *r as f32);
-        let [r, z] = [&mut equations, &mut step].map(|f| f.as_slice_mut().expect("standard layout"));
+        single.zip_mut_with(&residual, |single, r| *single = *r as f32);
+        let [r, z] = [&mut single, &mut preconditioned].map(|f| f.as_slice_mut().expect("standard layout"));
         preconditioner.apply(&sets, r, z);
-        let product = Zip::from(&left).and(&step).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
-        let conjugate = product / product_before;
+        let product =
+            Zip::from(&residual).and(&preconditioned).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
+        let beta = product / product_before;
         product_before = product;
-        direction.zip_mut_with(&step, |d, z| *d = f64::from(*z) + conjugate * *d);
+        direction.zip_mut_with(&preconditioned, |d, z| *d = f64::from(*z) + beta * *d);
         operator.apply(&direction, &mut response);
-        let length = product / (&direction * &response).sum();
-        check("stiffness", length, length.is_finite(), "a number in double precision")?;
-        rate.scaled_add(length, &direction);
-        Zip::from(&mut left).and(&response).and(&mask).for_each(|r, u, inside| *r -= length * u * inside);
+        let step = product / (&direction * &response).sum();
+        check("stiffness", step, step.is_finite(), "a number in double precision")?;
+        rate.scaled_add(step, &direction);
+        Zip::from(&mut residual).and(&response).and(&mask).for_each(|r, u, inside| *r -= step * u * inside);
         added.rotate_left(1);
-        added[LAST - 1] = length * product;
+        added[LAST_STEPS - 1] = step * product;
         stats.iterations += 1;
         stats.convolutions += 1.0;
     }
-    // 2 Σ p' − p'ᵀC p', which is off by the square of what is left only.
-    let sum = Zip::from(&rate).and(&left).fold(0.0, |sum, p, r| sum + p * (1.0 + r));
+    // 2 Σ p' − p'ᵀC p', whose error is of the second order in the residual.
+    let sum = Zip::from(&rate).and(&residual).fold(0.0, |sum, p, r| sum + p * (1.0 + r));
     Ok((Some(grid.cell_area() * sum), stats))
 }
 
-/// Steps whose contributions must be small together.
-const LAST: usize = 2;
-/// Share of the tolerance that they may be of the stiffness.
+/// Last steps of conjugate gradients whose contributions to the stiffness must be small together.
+const LAST_STEPS: usize = 2;
+/// Share of the tolerance that the last steps may contribute to the stiffness.
 const ACCURACY: f64 = 0.1;
 
 #[cfg(test)]

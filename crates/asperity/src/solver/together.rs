@@ -9,11 +9,11 @@ use crate::units::{Metre, Newton, Pascal};
 
 /// Contacts in equilibrium under one approach.
 pub(crate) struct Together {
-    /// The approach δ.
+    /// The common approach δ.
     pub(crate) approach: Metre,
     /// The flat cells in contact and their pressure, for each contact.
     pub(crate) pressures: Vec<Vec<(u32, Pascal)>>,
-    /// What each contact cost, in the mean.
+    /// The cost of each contact, in the mean.
     pub(crate) stats: Stats,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct Together {
 /// box-constrained problem, of a block-diagonal influence matrix. `start` gives a pressure near the answer for each, if
 /// one is known; `tolerance` the η at which a state is accepted.
 ///
-/// Held of each contact are fewer than 60 bytes for each of its cells, besides what its site holds. The residual is that of
+/// Memory: fewer than 60 bytes for each cell of each contact, besides its site. The residual is that of
 /// all cells together.
 ///
 /// # Errors

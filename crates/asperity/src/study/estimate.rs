@@ -7,7 +7,7 @@ mod plausible;
 pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
-use super::case::{Body, Case, Course, Layer, Source, TopographySpec};
+use super::case::{Body, Case, Layer, LoadingPath, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field};
@@ -30,7 +30,7 @@ pub struct Estimate {
     /// Dundurs' β of the pair.
     pub dundurs: f64,
     /// How a static contact is computed; none of a motion.
-    pub course: Option<Course>,
+    pub loading_path: Option<LoadingPath>,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; of maps the least.
     pub hardness: Pascal,
     /// Largest cap on the pressure of any two cells, which is the same where no hardness is a map.
@@ -80,7 +80,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let load_control = case.motion(apparent_area).map_or(LoadControl::Step, |motion| motion.load_control);
     let [lower_hardness, upper_hardness] = [&bodies.lower.hardness, &bodies.upper.hardness];
     let hardness = lower_hardness.min().min(upper_hardness.min());
-    let course = case.course(apparent_area);
+    let loading_path = case.loading_path(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
     // Of the cells that face each other at a position, the softer's.
     let facing_hardness = |position: &Position| {
@@ -91,12 +91,12 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         let cells = position.columns * lower_grid.shape[1];
         facing_hardness(position).sum(cells) / cells as f64
     };
-    if let (None, Some(Course::Stages(stages))) = (case.motion(apparent_area), &course) {
+    if let (None, Some(LoadingPath::Stages(stages))) = (case.motion(apparent_area), &loading_path) {
         bears(law, stages, mean_hardness(&positions[0]), apparent_area)?;
     }
-    let cap = |hardness| match (case.motion(apparent_area), &course) {
+    let cap = |hardness| match (case.motion(apparent_area), &loading_path) {
         (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
-        (None, Some(Course::Stages(stages))) => stage_cap(law, &stages[0], hardness),
+        (None, Some(LoadingPath::Stages(stages))) => stage_cap(law, &stages[0], hardness),
         _ => hardness,
     };
     let bearable: Vec<Newton> = positions
@@ -112,14 +112,14 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     check_limit(control, plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
-    if let (Some(law), Some(course)) = (law, &course) {
-        holds(law, course, case.contact.prescribed.control(apparent_area), apparent_area)?;
+    if let (Some(law), Some(loading_path)) = (law, &loading_path) {
+        holds(law, loading_path, case.contact.prescribed.control(apparent_area), apparent_area)?;
     }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
     let mut estimate = Estimate {
         modulus: compliances.modulus(),
         dundurs: compliances.dundurs(),
-        course,
+        loading_path,
         hardness,
         max_hardness: lower_hardness.max().min(upper_hardness.max()),
         lower_share: share_of_lower(lower_hardness, upper_hardness),
@@ -206,13 +206,18 @@ fn bears(
 }
 
 /// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
-fn holds(friction: &Friction, course: &Course, control: Control, apparent_area: SquareMetre) -> Result<()> {
-    let ends: Vec<_> = match course {
-        Course::Stages(stages) => {
+fn holds(
+    friction: &Friction,
+    loading_path: &LoadingPath,
+    control: Control,
+    apparent_area: SquareMetre,
+) -> Result<()> {
+    let ends: Vec<_> = match loading_path {
+        LoadingPath::Stages(stages) => {
             stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
         }
-        Course::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
-        Course::Sweep(points) => {
+        LoadingPath::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
+        LoadingPath::Sweep(points) => {
             points.iter().filter_map(|point| pushed(point.control, point.rolling?)).collect()
         }
     };
@@ -366,9 +371,9 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
             "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
         ));
     }
-    let stages = match &estimate.course {
-        Some(Course::Stages(stages)) => stages,
-        Some(Course::Rolling(_) | Course::Sweep(_)) => {
+    let stages = match &estimate.loading_path {
+        Some(LoadingPath::Stages(stages)) => stages,
+        Some(LoadingPath::Rolling(_) | LoadingPath::Sweep(_)) => {
             if ![&case.lower, &case.upper].into_iter().all(rolls_alike) {
                 warnings.push(
                     "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
@@ -416,7 +421,7 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
 
 /// Steady rolling over what yields.
 fn rolls_plastically(case: &Case, estimate: &Estimate) -> Option<String> {
-    estimate.course.as_ref()?.rolling().next()?;
+    estimate.loading_path.as_ref()?.rolling().next()?;
     let pressure = rolling_pressure(case, estimate).filter(|pressure| *pressure > estimate.hardness)?;
     let [pressure, hardness] = [pressure, estimate.hardness].map(|p| units::format(p, Dimension::Pressure));
     Some(format!(
@@ -491,6 +496,7 @@ fn loads_at_once(stages: &[Stage]) -> bool {
 ///
 /// A wave of n cells has a slope by differences over one cell greater by 1/cos(π/n) than over two.
 fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+    /// Cells of a wave below which the pitch is coarse for it.
     const CELLS_PER_WAVE: f64 = 8.0;
     for axis in 0..2 {
         let [one, two] = [1, 2].map(|cells| difference(body.topography.heights(), axis, cells));

@@ -351,6 +351,7 @@ struct Fit<'a> {
     bodies: [&'a Prepared; 2],
 }
 
+/// Names of the bodies in messages.
 const NAMES: [&str; 2] = ["lower", "upper"];
 
 impl Fit<'_> {

@@ -11,7 +11,7 @@ use crate::motion::{
     sweep,
 };
 use crate::solver::Params;
-use crate::study::case::{Case, Course};
+use crate::study::case::{Case, LoadingPath};
 use crate::study::estimate::estimate;
 use crate::study::identity;
 use crate::study::loading::LoadingWriter;
@@ -139,20 +139,20 @@ fn rest(
     let boundary = case.contact.boundary;
     let control = case.contact.prescribed.control(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    let (contact, points, under_way) = match (case.course(apparent_area), law) {
-        (Some(Course::Sweep(points)), law) => {
+    let (contact, points, under_way) = match (case.loading_path(apparent_area), law) {
+        (Some(LoadingPath::Sweep(points)), law) => {
             writer.begin()?;
             let mut output = writer.sweep(pair, case.output.pressure_every);
             let done = writer.results().sweep()?;
             let (points, contact) = sweep(pair, boundary, law, &points, params, done, watch, &mut output)?;
             (contact, Some(points), None)
         }
-        (Some(Course::Rolling(rolling)), Some(law)) => {
+        (Some(LoadingPath::Rolling(rolling)), Some(law)) => {
             let contact = roll(pair, boundary, law, control, rolling, params, watch)?;
             writer.begin()?;
             (contact, None, None)
         }
-        (Some(Course::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
+        (Some(LoadingPath::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
             writer.begin()?;
             let mut loading = writer.loading(pair, stages.iter().map(|stage| stage.increments).sum());
             let done = loading.under_way()?;

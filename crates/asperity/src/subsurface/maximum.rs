@@ -57,6 +57,7 @@ impl Subsurface {
     /// # Panics
     /// If there are no depths.
     pub fn maximum(&self, depths: &[Metre]) -> Maximum {
+        /// Rounds, each of which takes a finer set of depths around the largest stress so far.
         const REFINEMENTS: usize = 4;
         let all = self.planes(depths, |plane| plane.maximum());
         let mut most = all.into_iter().reduce(Maximum::or).expect("there are depths");

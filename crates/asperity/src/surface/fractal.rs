@@ -91,6 +91,7 @@ impl SelfAffinity {
     /// Why the exponent is a slope of the spectrum and not a law of the surface, if it is: H outside 0 … 1, which no
     /// self-affine surface has, or less than a decade, over which any smooth curve is straight.
     pub fn doubt(&self) -> Option<String> {
+        /// Rounding of a range of wavelengths.
         const CRUMB: f64 = 1e-9;
         if !(0.0..=1.0).contains(&self.hurst) {
             return Some(format!(

@@ -7,7 +7,7 @@ pub use quantity::{
     Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number, format_within,
     parse,
 };
-pub use range::{MOST_OF_ANY, NUMBERS, Range};
+pub use range::{MAX_COUNT, NUMBERS, Range};
 
 /// Length in metres.
 pub type Metre = f64;

@@ -20,7 +20,7 @@ pub struct Range {
 pub const NUMBERS: Range = Range { least: 1e-15, most: 1e12, unit: "" };
 
 /// The largest number of passes, increments, cells of a stride, samples along an axis.
-pub const MOST_OF_ANY: usize = 1_000_000_000;
+pub const MAX_COUNT: usize = 1_000_000_000;
 
 impl Dimension {
     /// The magnitudes that are accepted of quantities.

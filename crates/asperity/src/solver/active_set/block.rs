@@ -18,51 +18,61 @@ const NEAR_FIELD: usize = 4;
 /// Error of a displacement in single precision, as a share of its largest value.
 const SINGLE_PRECISION: f64 = 4e-7;
 
-/// Pressure and displacement are kept in double precision. What moves them from step to step, directions and their
-/// responses, is computed in single, which is as good as long as the steps are small against what they correct; the
-/// error that this leaves in the displacement is kept count of.
+/// One contact in the iteration: pressure, displacement, direction and residual of its cells.
+///
+/// Pressure and displacement are kept in double precision. Directions and their responses are computed in single, which is
+/// as good as long as the steps are small against what they correct; the error that this leaves in the displacement is
+/// kept count of.
 pub(super) struct Block<'a> {
     site: &'a dyn Site,
     preconditioner: Preconditioner,
-    /// Current pressure, possibly a little outside its bounds.
+    /// The current pressure p, possibly a little outside its bounds.
     pressure: Field,
-    /// h + u: the approach at which each cell touches.
+    /// The approach h + u at which each cell touches.
     touch: Field,
-    /// Bound on the error of the displacement by single precision.
+    /// Largest error of the displacement by single precision.
     rounding: Metre,
-    /// The last feasible pressure, from which the energy only falls, and h + u under it while that is needed.
+    /// The last feasible pressure, from which the energy only falls.
     feasible: Field,
+    /// The approaches h + u under the last feasible pressure, during a line search from it.
     feasible_touch: Option<Field>,
     /// The predicted set of each cell.
     sets: Sets,
-    /// Search direction d, and its response C·d; the latter also holds the proposed pressures while sets are predicted.
+    /// The search direction d.
     direction: SingleField,
+    /// The response C·d of the direction; while sets are predicted, the proposed pressures.
     response: SingleField,
     /// Largest |C·d|.
     max_response: f64,
-    /// Residual r = δ − h − u of the free cells, and the preconditioned residual M r; zero elsewhere.
+    /// The residual r = δ − h − u of the free cells; zero elsewhere.
     residual: SingleField,
+    /// The preconditioned residual z = M r of the free cells; zero elsewhere.
     preconditioned: SingleField,
     /// Influence coefficients up to [`NEAR_FIELD`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
-    /// c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its transforms.
+    /// Self-influence c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its
+    /// transforms.
     local: f64,
+    /// Convolutions so far.
     convolutions: usize,
 }
 
-/// Norms of what conjugate gradients on a set of free cells leave: sums of the squares of the residual at the free cells
-/// and of the violations of the bounds (or their roots, once the contacts are summed), both displacements; the largest
-/// residual; the approach at which they were taken.
+/// Norms that conjugate gradients on a set of free cells leave, as displacements: of one contact sums of squares, of all
+/// together their roots.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ResidualNorms {
+    /// Norm of the residual at the free cells.
     pub(super) residual: f64,
+    /// Norm of the violations of the bounds.
     pub(super) violation: f64,
+    /// Largest residual at the free cells.
     pub(super) max_residual: f64,
+    /// The approach at which they were taken.
     pub(super) datum: Metre,
 }
 
 impl ResidualNorms {
-    /// The norms over the cells of both.
+    /// The norms over the cells of two contacts together.
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             residual: self.residual + other.residual,
@@ -116,12 +126,12 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// The sums of what `terms` makes of each pressure and its bounds.
+    /// The sums over the cells of `terms` of each pressure and its bounds.
     pub(super) fn sum<const N: usize>(&self, terms: impl Fn(Pascal, Interval) -> [f64; N]) -> [f64; N] {
         sum_within(flat(&self.pressure), &self.site.bounds(), terms)
     }
 
-    /// Changes each pressure.
+    /// Replaces each pressure by a function of it and its bounds.
     pub(super) fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal) {
         map_within(flat_mut(&mut self.pressure), &self.site.bounds(), change);
     }
@@ -131,31 +141,35 @@ impl<'a> Block<'a> {
         Range::of(flat(&self.pressure), &self.site.bounds())
     }
 
+    /// Pressure and displacement.
     pub(super) fn into_fields(self) -> (Field, Field) {
         let displacement = self.touch - &*self.site.initial_gap();
         (self.pressure, displacement)
     }
 
+    /// Number of free cells.
     pub(super) fn free_cells(&self) -> usize {
         self.sets.free().len()
     }
 
+    /// Convolutions so far.
     pub(super) fn convolutions(&self) -> usize {
         self.convolutions
     }
 
+    /// Largest error of the displacement by single precision.
     pub(super) fn rounding(&self) -> Metre {
         self.rounding
     }
 
-    /// Convolves the whole pressure.
+    /// Computes h + u from the whole pressure, in double precision.
     pub(super) fn convolve(&mut self) {
         touch_under(self.site, &self.pressure, &mut self.touch);
         self.convolutions += 1;
         self.rounding = 0.0;
     }
 
-    /// Convolves the whole pressure in single precision.
+    /// Computes h + u from the whole pressure, in single precision.
     pub(super) fn convolve_in_single(&mut self) {
         self.direction.zip_mut_with(&self.pressure, |d, p| *d = *p as f32);
         self.convolve_direction();
@@ -165,7 +179,7 @@ impl<'a> Block<'a> {
         self.add_response();
     }
 
-    /// Computes C·d.
+    /// Computes the response C·d of the direction.
     fn convolve_direction(&mut self) {
         let Self { site, direction, response, .. } = self;
         site.with_operator(&mut |operator| operator.apply_single(direction, response));
@@ -174,13 +188,13 @@ impl<'a> Block<'a> {
         self.convolutions += 1;
     }
 
-    /// Adds C·d to the displacement.
+    /// Adds the response C·d to the displacement.
     fn add_response(&mut self) {
         self.touch.zip_mut_with(&self.response, |touch, r| *touch += f64::from(*r));
         self.rounding += SINGLE_PRECISION * self.max_response;
     }
 
-    /// Bound on the error of the displacement if it were computed in single precision.
+    /// Largest error of the displacement if it were computed in single precision.
     pub(super) fn rounding_in_single(&self) -> Metre {
         let gap = self.site.initial_gap();
         let largest =
@@ -188,11 +202,12 @@ impl<'a> Block<'a> {
         SINGLE_PRECISION * largest.max(self.local * self.largest_pressure())
     }
 
+    /// Largest |p|.
     fn largest_pressure(&self) -> Pascal {
         self.pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
     }
 
-    /// Work and twice the elastic energy of the pressure at an approach.
+    /// The work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both over the cell area.
     pub(super) fn work(&self, approach: Metre) -> [f64; 2] {
         let gap = self.site.initial_gap();
         let (mut work, mut twice_energy) = (0.0, 0.0);
@@ -203,14 +218,14 @@ impl<'a> Block<'a> {
         [work, twice_energy]
     }
 
-    /// Multiplies pressure and displacement.
+    /// Multiplies pressure and displacement by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         let gap = self.site.initial_gap();
         self.pressure *= factor;
         self.touch.zip_mut_with(&gap, |touch, h| *touch = h + factor * (*touch - h));
     }
 
-    /// The approach that this contact asks for under load control.
+    /// The part of this contact in the multiplier of the load.
     pub(super) fn multiplier(&self) -> Multiplier {
         let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).enumerate();
         with_bounds!(self.site.bounds(), of => {
@@ -223,7 +238,7 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// Sums for the residual at an approach.
+    /// The sums of this contact for the residual at an approach.
     pub(super) fn residual_sums(&self, approach: Metre, terms: &Terms) -> ResidualSums {
         let gap = self.site.initial_gap();
         let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).zip(flat(&gap)).enumerate();
@@ -238,7 +253,7 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// Moves each pressure down the gap, as far as a cell of that compliance would close it.
+    /// Changes each pressure by as much as closes its gap on a cell of that compliance alone.
     pub(super) fn step_along_gap(&mut self, approach: Metre, compliance: f64) {
         self.pressure.zip_mut_with(&self.touch, |p, touch| *p += (approach - touch) / compliance);
     }
@@ -287,7 +302,7 @@ impl<'a> Block<'a> {
         any
     }
 
-    /// Sets the residual to what it will be once the direction has been taken, by the near field of its response. Returns
+    /// Predicts the residual of the free cells after the step along the direction, by the near field of its response. Returns
     /// its sum.
     pub(super) fn predict_residual(&mut self, approach: Metre) -> f64 {
         self.convolve_near_field();
@@ -302,7 +317,7 @@ impl<'a> Block<'a> {
         sum
     }
 
-    /// C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
+    /// Computes C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
     fn convolve_near_field(&mut self) {
         let [nx, ny] = self.site.grid().shape;
         let reach = [self.near.nrows() - 1, self.near.ncols() / 2];
@@ -320,7 +335,7 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// Subtracts a mean from the residual.
+    /// Subtracts a mean from the residual of the free cells.
     pub(super) fn subtract_mean(&mut self, mean: f64) {
         let residual = flat_mut(&mut self.residual);
         self.sets.free().for_each(|cell| residual[cell] -= mean as f32);
@@ -352,8 +367,8 @@ impl<'a> Block<'a> {
         [added, borne]
     }
 
-    /// Takes from the direction of each free cell so much, and so much in proportion to what it bears above its lower bound:
-    /// the direction then leaves the load as it is.
+    /// Subtracts from the direction of each free cell a uniform part, and one in proportion to the pressure above its lower
+    /// bound: the direction then leaves the load as it is.
     pub(super) fn balance_direction(&mut self, each: f64, per_pressure: f64) {
         let (p, direction) = (flat(&self.pressure), flat_mut(&mut self.direction));
         with_bounds!(self.site.bounds(), of => {
@@ -364,7 +379,7 @@ impl<'a> Block<'a> {
         });
     }
 
-    /// Takes the direction, which ends at the bounds; the displacement follows where `convolved`.
+    /// Moves along the direction to the bounds; updates the displacement, too, by a convolution, if `convolved`.
     pub(super) fn step_to_bounds(&mut self, convolved: bool) {
         if convolved {
             self.convolve_direction();
@@ -383,7 +398,7 @@ impl<'a> Block<'a> {
         });
     }
 
-    /// Adds a pressure to the free cells.
+    /// Adds the same pressure to all free cells.
     pub(super) fn add_to_free_cells(&mut self, pressure: Pascal) {
         let p = flat_mut(&mut self.pressure);
         self.sets.free().for_each(|cell| p[cell] += pressure);
@@ -482,16 +497,18 @@ impl<'a> Block<'a> {
     }
 }
 
-/// Writes h + u under `pressure` into `touch`.
+/// Computes the approaches h + u at which the cells touch under a `pressure`.
 fn touch_under(site: &dyn Site, pressure: &Field, touch: &mut Field) {
     site.with_operator(&mut |operator| operator.apply(pressure, touch));
     *touch += &*site.initial_gap();
 }
 
+/// The values of a field by flat index.
 fn flat<T>(field: &Array2<T>) -> &[T] {
     field.as_slice().expect("standard layout")
 }
 
+/// The values of a field by flat index, to be changed.
 fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
     field.as_slice_mut().expect("standard layout")
 }

@@ -20,67 +20,74 @@ use crate::units::{Metre, Pascal};
 
 use block::{Block, ResidualNorms};
 
-/// Conjugate gradient steps on one active set, at the most.
+/// Conjugate gradient steps on one predicted active set, at the most.
 const MAX_CG_STEPS: usize = 60;
 /// Conjugate gradients end when the residual on the free cells is below so many times the violation of the bounds: more
 /// would be spent on a set that is about to change.
 const CG_EXIT: f64 = 3.0;
-/// After an outer step without progress that ratio is divided by so much, but no less than [`MIN_CG_EXIT`]; after one with
-/// progress it is multiplied by [`CG_EXIT_GROWTH`].
+/// With each outer step without progress [`CG_EXIT`] is divided by this.
 const CG_EXIT_DIVISOR: f64 = 3.0;
+/// The ratio of residual to violation at which conjugate gradients end is no less than this.
 const MIN_CG_EXIT: f64 = 0.05;
+/// With each outer step that has made progress that ratio is multiplied by this, up to [`CG_EXIT`].
 const CG_EXIT_GROWTH: f64 = 1.5;
-/// They end, too, when the largest residual is below so much of what is asked of the answer, which is taken at its bounds.
+/// Conjugate gradients end, too, when the largest residual is below this share of what is asked of the answer at its bounds.
 const CG_TOLERANCE: f64 = 0.9;
 
-/// Damping of the preconditioned step that is folded into the step to the bounds: a running mean of the step lengths of
-/// conjugate gradients, from this value, with these weights of the old and the new, each new one counted up to a limit.
+/// First damping of the preconditioned step that is folded into the step to the bounds. From there on it is a running mean of
+/// the step lengths of conjugate gradients.
 const FIRST_DAMPING: f64 = 0.8;
+/// Weights of the mean so far and of a new step length in the running mean of the damping.
 const DAMPING_WEIGHTS: [f64; 2] = [0.7, 0.3];
+/// A step length counts up to this in the running mean of the damping.
 const MAX_STEP_IN_DAMPING: f64 = 1.2;
 
 /// An outer step has made progress when it leaves less than this share of the best norm so far.
 const PROGRESS: f64 = 0.7;
 /// Outer steps without progress, one after another, after which the energy is lowered by a line search.
 const MAX_STAGNATIONS: usize = 2;
-/// The caution of the predicted sets grows so much with each outer step without progress, and falls so much with each that
-/// has made some.
-const CAUTION_GROWTH: f64 = 4.0;
-const CAUTION_REDUCTION: f64 = 0.5;
+/// With each outer step without progress the compliance by which the sets are predicted is multiplied by this.
+const COMPLIANCE_GROWTH: f64 = 4.0;
+/// With each outer step that has made progress that compliance is multiplied by this, down to the self-influence.
+const COMPLIANCE_REDUCTION: f64 = 0.5;
 /// A line search that goes less of its way than this leads nowhere.
 const MIN_SEARCH_STEP: f64 = 1e-3;
 /// After a line search the best norm is taken to be so much larger: the next outer step may lose a little.
 const BEST_AFTER_SEARCH: f64 = 2.0;
 
-/// What single precision leaves in the displacement may be so much of the residual that is wanted.
-const TRUSTED: f64 = 0.1;
-/// An answer that misses the tolerance once it is feasible is solved to so much of the residual asked of it before.
-const SHARPER: f64 = 0.3;
-/// Share of the elastic interference of a cell by itself that a first pressure takes up.
+/// The error of single precision in the displacement may be this share of the residual that is wanted.
+const MAX_ROUNDING: f64 = 0.1;
+/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
+const TOLERANCE_REDUCTION: f64 = 0.3;
+/// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
 /// Contacts in equilibrium under one approach.
 pub(super) struct Equilibrium {
-    /// Pressure and displacement of each.
+    /// Pressure and displacement of each contact.
     pub(super) fields: Vec<(Field, Field)>,
+    /// Residual of all contacts together.
     pub(super) residual: Residual,
-    /// The convolutions are those of one contact, in the mean.
+    /// Cost of the solution; convolutions in the mean over the contacts.
     pub(super) stats: Stats,
 }
 
 /// Solves from the `start` of each contact (uniform pressure, or the interference under approach control, where there
-/// is none), with a `caution` when the sets are predicted: how much stiffer than its own diagonal each cell is taken to be
-/// at first; to the `tolerance` on η that belongs to a state.
+/// is none) to the `tolerance` on η that belongs to a state.
+///
+/// The sets are predicted as by a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 865
+/// (2003)), whose complementarity parameter is the compliance of a cell: at first `compliance_factor` times its
+/// self-influence.
 pub(super) fn solve(
     sites: &[&dyn Site],
     terms: &Terms,
     start: Option<Vec<Field>>,
-    caution: f64,
+    compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Equilibrium> {
-    let mut iteration = Iteration::new(sites, terms, start, caution);
-    let mut sharpen = 1.0;
+    let mut iteration = Iteration::new(sites, terms, start, compliance_factor);
+    let mut tightening = 1.0;
     let mut state = iteration.residual();
     if let Some(pressure) = terms.pressure_sum() {
         // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
@@ -91,13 +98,13 @@ pub(super) fn solve(
         let mut wanted = tolerance(&state);
         terms.watch.iteration(state.eta, wanted);
         go_on(terms.watch)?;
-        // Nothing is left to sharpen where the answer is as it will be handed out.
+        // An answer that is feasible and free of rounding is handed out as it is.
         let exact = state.eta < wanted && iteration.rounding() == 0.0 && iteration.is_feasible();
-        if exact || state.eta < sharpen * wanted {
+        if exact || state.eta < tightening * wanted {
             // The answer is the feasible pressure nearby; its own residual decides.
-            let trusted = TRUSTED * wanted * state.scale;
-            if iteration.rounding() > trusted || !iteration.is_feasible() {
-                iteration.become_feasible(trusted);
+            let max_rounding = MAX_ROUNDING * wanted * state.scale;
+            if iteration.rounding() > max_rounding || !iteration.is_feasible() {
+                iteration.become_feasible(max_rounding);
                 state = iteration.residual();
                 wanted = tolerance(&state);
             }
@@ -105,14 +112,14 @@ pub(super) fn solve(
             if state.eta < wanted {
                 return Ok(iteration.into_equilibrium(state));
             }
-            sharpen *= SHARPER;
+            tightening *= TOLERANCE_REDUCTION;
         }
         finite("residual", state.eta.min(f64::MAX))?;
         let Stats { iterations, convolutions, .. } = iteration.stats();
         if convolutions >= max_convolutions as f64 {
             return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
         }
-        state = match iteration.outer_step(state, sharpen * wanted) {
+        state = match iteration.outer_step(state, tightening * wanted) {
             // Where the residual of the free cells alone is far too large there is no need to look further.
             Some(left) if left.max_residual > wanted * state.scale => {
                 Residual { eta: left.max_residual / state.scale, approach: left.datum, ..state }
@@ -129,8 +136,8 @@ struct Iteration<'a> {
     cg_exit: f64,
     /// Damping of the preconditioned step that is folded into the step to the bounds.
     damping: f64,
-    /// How much stiffer than its own diagonal a cell is taken to be when the sets are predicted.
-    caution: f64,
+    /// The compliance by which the sets are predicted, as a multiple of the self-influence, ≥ 1.
+    compliance_factor: f64,
     /// Least norm that an outer step has left.
     best: f64,
     /// Outer steps without progress, one after another.
@@ -142,7 +149,12 @@ struct Iteration<'a> {
 }
 
 impl<'a> Iteration<'a> {
-    fn new(sites: &[&'a dyn Site], terms: &Terms<'a>, start: Option<Vec<Field>>, caution: f64) -> Self {
+    fn new(
+        sites: &[&'a dyn Site],
+        terms: &Terms<'a>,
+        start: Option<Vec<Field>>,
+        compliance_factor: f64,
+    ) -> Self {
         let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
         let far = start.is_none();
         let pressures = start.unwrap_or_else(|| {
@@ -162,7 +174,7 @@ impl<'a> Iteration<'a> {
             blocks,
             cg_exit: CG_EXIT,
             damping: FIRST_DAMPING,
-            caution,
+            compliance_factor,
             best: f64::INFINITY,
             stagnations: 0,
             bound_steps: 0,
@@ -178,12 +190,12 @@ impl<'a> Iteration<'a> {
         iteration
     }
 
-    /// Does a task on each block, in parallel where there are several.
+    /// Performs a task on each block, in parallel where there are several.
     fn each(&mut self, task: impl Fn(&mut Block<'a>) + Sync) {
         self.all(task, |(), ()| ());
     }
 
-    /// What comes of a task on each block, merged in the order of the blocks.
+    /// The results of a task on each block, merged in the order of the blocks.
     fn all<R: Send>(&mut self, task: impl Fn(&mut Block<'a>) -> R + Sync, and: impl Fn(R, R) -> R) -> R {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
@@ -194,11 +206,12 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// The sums over the blocks of what comes of a task on each.
+    /// The sums over the blocks of the results of a task on each.
     fn sum_blocks<const N: usize>(&mut self, task: impl Fn(&mut Block<'a>) -> [f64; N] + Sync) -> [f64; N] {
         self.all(task, |a, b| std::array::from_fn(|n| a[n] + b[n]))
     }
 
+    /// Cost so far.
     fn stats(&self) -> Stats {
         let convolutions: usize = self.blocks.iter().map(Block::convolutions).sum();
         Stats {
@@ -208,16 +221,18 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Bound on the error of the displacements by single precision.
+    /// Largest error of the displacements by single precision.
     fn rounding(&self) -> Metre {
         self.blocks.iter().map(Block::rounding).fold(0.0, f64::max)
     }
 
+    /// Number of free cells of all blocks.
     fn free_cells(&self) -> f64 {
         self.blocks.iter().map(Block::free_cells).sum::<usize>() as f64
     }
 
-    /// Under load control directions keep the sum: the mean over the free cells is taken out.
+    /// The mean over the free cells of values with this sum, which a direction loses under load control: it keeps the load. 0
+    /// under approach control.
     fn mean(&self, sum: f64) -> f64 {
         match self.terms.control {
             Control::Load(_) => sum / self.free_cells(),
@@ -240,6 +255,7 @@ impl<'a> Iteration<'a> {
         }
     }
 
+    /// The residual of all blocks, at the approach prescribed or at the multiplier of the load.
     fn residual(&mut self) -> Residual {
         let terms = self.terms;
         let approach = match terms.control {
@@ -250,6 +266,7 @@ impl<'a> Iteration<'a> {
         sums.residual(approach, terms.self_influence)
     }
 
+    /// Whether all pressures are within their bounds and bear the load.
     fn is_feasible(&mut self) -> bool {
         if !self.blocks.iter().all(Block::is_within_bounds) {
             return false;
@@ -258,21 +275,21 @@ impl<'a> Iteration<'a> {
         self.terms.bears_the_load(sum)
     }
 
-    /// The feasible pressure nearby, at the cost of a convolution: in single precision where `trusted` is more than
-    /// what that leaves in the displacement.
-    fn become_feasible(&mut self, trusted: Metre) {
+    /// Moves to the feasible pressure nearby, at the cost of a convolution: in single precision where its error is less than
+    /// `max_rounding`.
+    fn become_feasible(&mut self, max_rounding: Metre) {
         let terms = self.terms;
         make_feasible(self, &terms);
         let rounding = self.all(|block| block.rounding_in_single(), f64::max);
-        if rounding < trusted {
+        if rounding < max_rounding {
             self.each(Block::convolve_in_single);
         } else {
             self.each(Block::convolve);
         }
     }
 
-    /// Predicts the sets and solves for the free cells, as far as it is worth. Returns what that leaves, unless the pressure
-    /// is another since.
+    /// One outer step: predicts the sets, takes the other cells to their bounds, and solves for the free ones by conjugate
+    /// gradients. Returns their norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
         self.predict_sets(state.approach);
         if self.free_cells() == 0.0 {
@@ -281,7 +298,7 @@ impl<'a> Iteration<'a> {
             return None;
         }
         self.bound_steps = 0;
-        self.step_to_bounds(state.approach, TRUSTED * wanted * state.scale);
+        self.step_to_bounds(state.approach, MAX_ROUNDING * wanted * state.scale);
         let left = self.conjugate_gradients(state, wanted);
         self.restore_the_sum();
         let searched = self.safeguard(left.residual.hypot(left.violation), state.approach);
@@ -308,17 +325,17 @@ impl<'a> Iteration<'a> {
         });
     }
 
-    /// One step along the gap.
+    /// One diagonal step along the gap, to a feasible pressure.
     fn step_along_gap(&mut self, approach: Metre) {
         let compliance = 2.0 * self.terms.self_influence;
         self.each(|block| block.step_along_gap(approach, compliance));
         self.become_feasible(0.0);
     }
 
-    /// Predicts cells at a bound where one diagonal Newton step takes them there. Under load control its datum is the one at
+    /// Predicts cells at a bound where the proposal, one diagonal Newton step, takes them there. Under load control its datum is the one at
     /// which the proposed pressures, in their bounds, bear the load.
     fn predict_sets(&mut self, approach: Metre) {
-        let stiffness = 1.0 / (self.caution * self.terms.self_influence);
+        let stiffness = 1.0 / (self.compliance_factor * self.terms.self_influence);
         let terms = self.terms;
         let offset = match terms.pressure_sum() {
             Some(wanted) => {
@@ -333,8 +350,8 @@ impl<'a> Iteration<'a> {
     }
 
     /// Takes the cells predicted at a bound there, and the free cells one preconditioned step further, in one convolution:
-    /// of the step, or where single precision has left more than is `trusted`, of the whole pressure in double.
-    fn step_to_bounds(&mut self, approach: Metre, trusted: Metre) {
+    /// of the step, or where single precision has left more than `max_rounding`, of the whole pressure in double.
+    fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) {
         if !self.all(Block::direct_to_bounds, |a, b| a || b) {
             return;
         }
@@ -352,9 +369,9 @@ impl<'a> Iteration<'a> {
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells(), 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));
         }
-        let afresh = self.rounding() > trusted;
-        self.each(|block| block.step_to_bounds(!afresh));
-        if afresh {
+        let in_double = self.rounding() > max_rounding;
+        self.each(|block| block.step_to_bounds(!in_double));
+        if in_double {
             self.restore_the_sum();
             self.each(Block::convolve);
         }
@@ -370,7 +387,7 @@ impl<'a> Iteration<'a> {
     }
 
     /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the residual.
-    /// Returns what is left of both.
+    /// Returns the norms of both.
     fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
         let [sum] = self.sum_blocks(|block| [block.reset_direction()]);
         let mut datum = match self.terms.control {
@@ -407,26 +424,27 @@ impl<'a> Iteration<'a> {
         left
     }
 
-    /// Moves along the direction. Returns the norms of what is left: roots of the sums of squares, and the largest residual.
+    /// Moves along the direction. Returns the norms of residual and violation: roots of the sums of squares.
     fn step_along_direction(&mut self, step: f64, datum: Metre) -> ResidualNorms {
         let terms = self.terms;
         let sums = self.all(|block| block.step_along_direction(step, datum, &terms), ResidualNorms::and);
         ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
-    /// After some outer steps without progress: back to a feasible pressure, from which an exact line search lowers the
-    /// energy. It makes the iteration safe where the predicted sets cycle. Returns whether it had to.
+    /// The globalisation: after some outer steps without progress back to a feasible pressure, from which an exact line search
+    /// lowers the energy. It makes the iteration safe where the predicted sets cycle. Returns whether
+    /// it had to.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> bool {
         if norm < PROGRESS * self.best {
             self.best = norm;
             self.stagnations = 0;
             self.cg_exit = CG_EXIT.min(CG_EXIT_GROWTH * self.cg_exit);
-            self.caution = (CAUTION_REDUCTION * self.caution).max(1.0);
+            self.compliance_factor = (COMPLIANCE_REDUCTION * self.compliance_factor).max(1.0);
             return false;
         }
         self.stagnations += 1;
         self.cg_exit = (self.cg_exit / CG_EXIT_DIVISOR).max(MIN_CG_EXIT);
-        self.caution *= CAUTION_GROWTH;
+        self.compliance_factor *= COMPLIANCE_GROWTH;
         if self.stagnations < MAX_STAGNATIONS {
             return false;
         }

@@ -1,4 +1,5 @@
-//! Normal and tangential problems in turn, each for the tractions of the other.
+//! Normal and tangential problem in turn, each under the tractions of the other: a block Gauss–Seidel iteration
+//! (Panagiotopoulos 1975), under-relaxed where they influence each other.
 
 use std::borrow::Cow;
 
@@ -7,43 +8,50 @@ use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::bodies::Bodies;
 use crate::solver::friction::shear::{Answer, Rigid, ShearSolver, Task};
-use crate::solver::friction::yielding::{bounds_beside, carried, shear_limits};
+use crate::solver::friction::yielding::{bounds_under_shear, shear_limits, start_within};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
 use crate::solver::residual::{Residual, residual, scale};
 use crate::solver::watch::Within;
 use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
 use crate::units::Metre;
 
-/// Residual of the first round where pressure and shear influence each other.
-const FIRST: f64 = 3e-2;
-/// Each round is solved to so much of the residual that the last one left.
-const SHARPER: f64 = 0.1;
-/// The last round is solved to so much of the tolerance.
-const LAST: f64 = 0.5;
-/// After a round that has not lowered the residual the next one takes up half as much of the change of the normal
-/// displacement under shear, but no less than this; after one that has, [`RISE`] times as much.
-const MIN_SHARE: f64 = 0.2;
-const RISE: f64 = 1.2;
+/// Tolerance of the first round where pressure and shear influence each other.
+const FIRST_TOLERANCE: f64 = 3e-2;
+/// Each round is solved to this share of the residual that the one before has left.
+const TOLERANCE_REDUCTION: f64 = 0.1;
+/// No round is solved to less than this share of the tolerance of the answer.
+const MIN_TOLERANCE_SHARE: f64 = 0.5;
+/// The factor by which a round that has not lowered the residual reduces the relaxation: the share of the change of the
+/// normal displacement under shear that the next round takes up.
+const RELAXATION_REDUCTION: f64 = 0.5;
+/// The factor by which a round that has lowered the residual raises the relaxation, up to 1.
+const RELAXATION_GROWTH: f64 = 1.2;
+/// The least relaxation.
+const MIN_RELAXATION: f64 = 0.2;
+/// A round converges slowly that leaves more than this share of the residual before it.
+const SLOW_CONTRACTION: f64 = 0.5;
 /// Rounds after which the iteration is given up.
 const MAX_ROUNDS: usize = 200;
 
-/// Where an increment begins.
+/// The state in which an increment begins.
 #[derive(Default)]
 pub(super) struct Start {
-    /// A pressure near the answer, the bounds that it has, and the shear beside it.
+    /// A pressure near the answer.
     pub(super) pressure: Option<Field>,
+    /// The bounds of that pressure.
     pub(super) bounds: Option<Bounds>,
+    /// The shear beside it.
     pub(super) shear: Option<[Field; 2]>,
-    /// s₀.
+    /// The slip s₀ before the increment, m.
     pub(super) slip: Option<[Field; 2]>,
 }
 
-/// Solves one increment. The `virgin` bounds are those of cells without shear, in sliding those beside the shear.
+/// Solves one increment. The bounds `unsheared` are those of cells without shear, in sliding those that the shear leaves.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
     initial_gap: &Field,
-    virgin: Bounds,
+    unsheared: Bounds,
     friction: Friction,
     loading: Loading,
     start: Start,
@@ -52,42 +60,53 @@ pub(super) fn alternate(
 ) -> Result<FrictionalSolution> {
     let shape = initial_gap.raw_dim();
     let slides = matches!(loading.tangential, Tangential::Sliding(_));
-    let softens = friction.softens(virgin.upper().min()) && !slides;
+    let grows_junctions = friction.grows_junctions(unsheared.upper().min()) && !slides;
     let mut increment = Increment {
         bodies: Bodies { operator, coupling: friction.coupling, convolutions: 0.0 },
         initial_gap,
         friction,
-        softens,
+        grows_junctions,
         loading,
         slip_before: start.slip,
         params,
         watch: &Within(watch),
-        virgin: &virgin,
+        unsheared: &unsheared,
         solver: None,
         stats: Stats::default(),
     };
     let mut pressure = start.pressure;
-    let mut bounds = start.bounds.unwrap_or_else(|| virgin.clone());
-    let mut lift = start.shear.as_ref().and_then(|shear| increment.bodies.lift(shear));
+    let mut bounds = start.bounds.unwrap_or_else(|| unsheared.clone());
+    let mut shear_displacement =
+        start.shear.as_ref().and_then(|shear| increment.bodies.normal_displacement(shear));
     let mut shear = start.shear.unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
-    let mut softer = pressure.as_ref().and_then(|pressure| increment.softer(pressure, &shear));
-    let alternates = increment.bodies.shear_lifts() || softens;
-    let mut tolerance = if alternates { FIRST.max(LAST * params.tolerance) } else { params.tolerance };
-    let (mut last, mut share, mut sharpen) = (f64::INFINITY, 1.0, 1.0);
+    let mut combined = pressure.as_ref().and_then(|pressure| increment.combined_bounds(pressure, &shear));
+    let alternates = increment.bodies.shear_displaces_normally() || grows_junctions;
+    let mut tolerance = if alternates {
+        FIRST_TOLERANCE.max(MIN_TOLERANCE_SHARE * params.tolerance)
+    } else {
+        params.tolerance
+    };
+    let (mut last, mut relaxation, mut tightening) = (f64::INFINITY, 1.0, 1.0);
     for _ in 0..MAX_ROUNDS {
-        let mut normal = increment.press(lift.as_ref(), pressure.as_ref(), softer, &mut bounds, tolerance)?;
-        let untouched = normal.stats.iterations == 0;
-        let limit = shear_limits(&friction, virgin.upper(), softens, &normal.pressure);
-        let answer = increment.push(&normal, &limit, &shear, tolerance)?;
+        let mut normal = increment.solve_normal_problem(
+            shear_displacement.as_ref(),
+            pressure.as_ref(),
+            combined,
+            &mut bounds,
+            tolerance,
+        )?;
+        let start_met_tolerance = normal.stats.iterations == 0;
+        let limit = shear_limits(&friction, unsheared.upper(), grows_junctions, &normal.pressure);
+        let answer = increment.solve_tangential_problem(&normal, &limit, &shear, tolerance)?;
         shear = answer.shear;
-        let supposed = lift;
-        lift = increment.bodies.lift(&shear);
-        if let Some(lift) = &lift {
-            normal.displacement += lift;
+        let assumed = shear_displacement;
+        shear_displacement = increment.bodies.normal_displacement(&shear);
+        if let Some(u) = &shear_displacement {
+            normal.displacement += u;
         }
-        softer = increment.softer(&normal.pressure, &shear);
+        combined = increment.combined_bounds(&normal.pressure, &shear);
         if alternates {
-            let state = increment.residual(&normal, softer.as_ref().unwrap_or(&bounds));
+            let state = increment.residual(&normal, combined.as_ref().unwrap_or(&bounds));
             (normal.residual, normal.approach) = (state.eta, state.approach);
         }
         normal.residual = normal.residual.max(answer.residual);
@@ -96,33 +115,41 @@ pub(super) fn alternate(
             return Ok(increment.finish(normal, bounds, limit, shear, answer.rigid));
         }
         let reached = normal.residual;
-        share = if reached < last { f64::min(RISE * share, 1.0) } else { f64::max(0.5 * share, MIN_SHARE) };
-        if untouched && (reached > LAST * last || !softens) {
-            // Good enough by its own displacement, which may be much more than what the shear leaves of it.
-            sharpen *= SHARPER;
+        relaxation = if reached < last {
+            f64::min(RELAXATION_GROWTH * relaxation, 1.0)
+        } else {
+            f64::max(RELAXATION_REDUCTION * relaxation, MIN_RELAXATION)
+        };
+        if start_met_tolerance && (reached > SLOW_CONTRACTION * last || !grows_junctions) {
+            // The normal problem has accepted its start, by a share of its own displacement, which may be much more than what
+            // the shear leaves of it.
+            tightening *= TOLERANCE_REDUCTION;
         }
         last = reached;
-        if let (Some(lift), Some(supposed)) = (&mut lift, supposed) {
-            *lift = &supposed + share * (&*lift - &supposed);
+        if let (Some(u), Some(assumed)) = (&mut shear_displacement, assumed) {
+            *u = &assumed + relaxation * (&*u - &assumed);
         }
-        tolerance = sharpen * (SHARPER * reached).min(FIRST).max(LAST * params.tolerance);
+        tolerance = tightening
+            * (TOLERANCE_REDUCTION * reached)
+                .min(FIRST_TOLERANCE)
+                .max(MIN_TOLERANCE_SHARE * params.tolerance);
         pressure = Some(normal.pressure);
     }
     let (iterations, tolerance) = (increment.stats.iterations, params.tolerance);
     Err(Error::NotConverged { iterations, residual: last, tolerance })
 }
 
-/// What stays the same from round to round, and what they cost.
+/// An increment of the loading: what stays the same from round to round, and what the rounds have cost.
 struct Increment<'a> {
     bodies: Bodies<'a>,
     initial_gap: &'a Field,
-    /// Of cells without shear.
-    virgin: &'a Bounds,
+    /// Bounds of the pressure of cells without shear.
+    unsheared: &'a Bounds,
     friction: Friction,
-    /// Whether the shear takes from the pressure of plastic cells.
-    softens: bool,
+    /// Whether shear takes from the pressure of plastic cells, and their junctions grow.
+    grows_junctions: bool,
     loading: Loading,
-    /// s₀.
+    /// The slip s₀ before the increment, m.
     slip_before: Option<[Field; 2]>,
     params: &'a Params,
     watch: &'a dyn Watch,
@@ -131,31 +158,32 @@ struct Increment<'a> {
 }
 
 impl Increment<'_> {
-    /// The bounds that the `shear` leaves to the pressure, where it takes from them.
-    fn softer(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Bounds> {
-        self.softens.then(|| bounds_beside(&self.friction, self.virgin, pressure, shear))
+    /// The bounds of a `pressure` beside a `shear`, where junctions grow.
+    fn combined_bounds(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Bounds> {
+        self.grows_junctions.then(|| bounds_under_shear(&self.friction, self.unsheared, pressure, shear))
     }
 
-    /// The pressure beside a shear that lifts the surface and leaves it `softer` bounds.
-    fn press(
+    /// Solves the normal problem beside a shear that displaces the surface normally by `shear_displacement`, and leaves its
+    /// pressure the `combined` bounds.
+    fn solve_normal_problem(
         &mut self,
-        lift: Option<&Field>,
+        shear_displacement: Option<&Field>,
         pressure: Option<&Field>,
-        softer: Option<Bounds>,
+        combined: Option<Bounds>,
         bounds: &mut Bounds,
         tolerance: f64,
     ) -> Result<Solution> {
-        let lifted = lift.map(|lift| self.initial_gap + lift);
-        let gap = lifted.as_ref().unwrap_or(self.initial_gap);
+        let displaced = shear_displacement.map(|u| self.initial_gap + u);
+        let gap = displaced.as_ref().unwrap_or(self.initial_gap);
         let params = Params { tolerance, ..*self.params };
-        let start = match (pressure, softer) {
-            (Some(pressure), Some(softer)) => {
-                let start = carried(pressure, bounds, &softer);
-                *bounds = softer;
+        let start = match (pressure, combined) {
+            (Some(pressure), Some(combined)) => {
+                let start = start_within(pressure, bounds, &combined);
+                *bounds = combined;
                 Some(Cow::Owned(start))
             }
             (start, _) => {
-                *bounds = self.virgin.clone();
+                *bounds = self.unsheared.clone();
                 start.map(Cow::Borrowed)
             }
         };
@@ -173,8 +201,8 @@ impl Increment<'_> {
         Ok(solution)
     }
 
-    /// The shear under a pressure.
-    fn push(
+    /// Solves the tangential problem under the pressure of a `normal` one.
+    fn solve_tangential_problem(
         &mut self,
         normal: &Solution,
         limit: &Field,
@@ -198,8 +226,8 @@ impl Increment<'_> {
 
     /// How far the pressure is from equilibrium beside the shear that it has led to.
     fn residual(&self, normal: &Solution, bounds: &Bounds) -> Residual {
-        // Of cells that come off their upper bounds by a little the multiplier of the load knows nothing.
-        let approach = match self.softens {
+        // The multiplier of the load does not see cells that come off their upper bounds by a little.
+        let approach = match self.grows_junctions {
             true => Some(normal.approach),
             false => self.loading.normal.approach(),
         };
@@ -252,7 +280,7 @@ impl Increment<'_> {
     }
 }
 
-/// What a residual of the tangential problem is a share of.
+/// The displacement of which the residual of the tangential problem is a share.
 fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator) -> Metre {
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
@@ -263,7 +291,7 @@ fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator)
     if scale > 0.0 { scale } else { 1.0 }
 }
 
-/// Δs where the bodies touch.
+/// The slip Δs of the increment where the bodies touch, 0 elsewhere.
 fn slip(
     pressure: &Field,
     rigid: [Metre; 2],
@@ -280,7 +308,7 @@ fn slip(
     })
 }
 
-/// 1 where |q + Δs/c| ≤ g > 0.
+/// The cells that stick: 1 where |q + Δs/c| ≤ g > 0, else 0.
 fn stick(shear: &[Field; 2], slip: &[Field; 2], limit: &Field, compliance: f64) -> Field {
     let mut stick = limit.clone();
     let predicted = |axis: usize| &shear[axis] + &slip[axis] / compliance;

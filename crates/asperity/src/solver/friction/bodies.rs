@@ -1,42 +1,44 @@
-//! The two bodies as they displace each other, coupled as is asked for.
+//! The displacements of two bodies under pressure and shear, with the coupling that is asked for.
 
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::Coupling;
 
-/// The two bodies, coupled as is asked for.
+/// Two bodies that displace each other by pressure and shear, with the coupling that is asked for.
 pub(super) struct Bodies<'a> {
     pub(super) operator: &'a mut dyn CoupledOperator,
     pub(super) coupling: Coupling,
-    /// Of coupling terms and whole displacements.
+    /// Convolutions spent on coupling terms and on whole displacements.
     pub(super) convolutions: f64,
 }
 
 impl Bodies<'_> {
-    pub(super) fn shear_lifts(&self) -> bool {
-        self.coupling.lifts(self.operator.couples())
+    /// Whether shear displaces the surface normally.
+    pub(super) fn shear_displaces_normally(&self) -> bool {
+        self.coupling.shear_displaces_normally(self.operator.couples())
     }
 
-    fn pressure_slips(&self) -> bool {
-        self.coupling.slips(self.operator.couples())
+    /// Whether pressure displaces the surface tangentially.
+    fn pressure_displaces_tangentially(&self) -> bool {
+        self.coupling.pressure_displaces_tangentially(self.operator.couples())
     }
 
-    /// Normal displacement under shear.
-    pub(super) fn lift(&mut self, shear: &[Field; 2]) -> Option<Field> {
-        if !self.shear_lifts() {
+    /// Normal displacement of the surface under shear alone; none where the two are not coupled.
+    pub(super) fn normal_displacement(&mut self, shear: &[Field; 2]) -> Option<Field> {
+        if !self.shear_displaces_normally() {
             return None;
         }
-        let mut lift = self.operator.grid().zeros();
-        self.operator.apply([Some(&shear[0]), Some(&shear[1]), None], [None, None, Some(&mut lift)]);
+        let mut displacement = self.operator.grid().zeros();
+        self.operator.apply([Some(&shear[0]), Some(&shear[1]), None], [None, None, Some(&mut displacement)]);
         self.convolutions += 1.0;
-        Some(lift)
+        Some(displacement)
     }
 
     /// The slip that there would be without shear, but for the rigid displacement: −u(0, p) − s₀.
     pub(super) fn free_slip(&mut self, pressure: &Field, before: Option<&[Field; 2]>) -> [Field; 2] {
         let grid = *self.operator.grid();
         let mut slip = [grid.zeros(), grid.zeros()];
-        if self.pressure_slips() {
+        if self.pressure_displaces_tangentially() {
             let [x, y] = slip.each_mut();
             self.operator.apply([None, None, Some(pressure)], [Some(x), Some(y), None]);
             self.convolutions += 1.0;
@@ -54,7 +56,7 @@ impl Bodies<'_> {
     pub(super) fn displacement(&mut self, shear: &[Field; 2], pressure: &Field) -> [Field; 2] {
         let grid = *self.operator.grid();
         let mut u = [grid.zeros(), grid.zeros()];
-        let pressure = self.pressure_slips().then_some(pressure);
+        let pressure = self.pressure_displaces_tangentially().then_some(pressure);
         let [x, y] = u.each_mut();
         self.operator.apply([Some(&shear[0]), Some(&shear[1]), pressure], [Some(x), Some(y), None]);
         self.convolutions += 1.0;

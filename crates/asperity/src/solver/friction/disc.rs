@@ -3,22 +3,27 @@
 /// A vector in the plane of the surface.
 pub(super) type Vector = [f64; 2];
 
+/// The sum of two vectors.
 pub(super) fn add(a: Vector, b: Vector) -> Vector {
     [a[0] + b[0], a[1] + b[1]]
 }
 
+/// The difference a − b.
 pub(super) fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1]]
 }
 
+/// A vector by a factor.
 pub(super) fn times(factor: f64, a: Vector) -> Vector {
     [factor * a[0], factor * a[1]]
 }
 
+/// The scalar product.
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
+/// The magnitude of a vector.
 pub(super) fn length(a: Vector) -> f64 {
     a[0].hypot(a[1])
 }
@@ -29,7 +34,7 @@ pub(super) fn onto_disc(a: Vector, radius: f64) -> Vector {
     if length <= radius { a } else { times(radius / length, a) }
 }
 
-/// A symmetric matrix: xx, xy, yy.
+/// A symmetric 2 × 2 matrix by its components xx, xy, yy.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Symmetric([f64; 3]);
 
@@ -39,18 +44,20 @@ impl Symmetric {
         Self([factor, 0.0, factor])
     }
 
-    /// `factor` times `a aᵀ`.
-    pub(super) fn square(factor: f64, a: Vector) -> Self {
+    /// `factor` times the outer product `a aᵀ`.
+    pub(super) fn outer_product(factor: f64, a: Vector) -> Self {
         Self([factor * a[0] * a[0], factor * a[0] * a[1], factor * a[1] * a[1]])
     }
 
+    /// The sum of two matrices.
     pub(super) fn and(self, other: Self) -> Self {
         Self(std::array::from_fn(|n| self.0[n] + other.0[n]))
     }
 
-    /// The solution x of `A x = b` of a positive semidefinite A; along a direction that A does not know, x is short.
+    /// The solution x of `A x = b` of a positive semidefinite A, regularised by [`REGULARISATION`] of its trace: along a null
+    /// direction of A, x is short.
     pub(super) fn solve(self, b: Vector) -> Vector {
-        let least = 1e-12 * (self.0[0] + self.0[2]);
+        let least = REGULARISATION * (self.0[0] + self.0[2]);
         let [xx, xy, yy] = [self.0[0] + least, self.0[1], self.0[2] + least];
         let determinant = xx * yy - xy * xy;
         if determinant > 0.0 {
@@ -61,50 +68,60 @@ impl Symmetric {
     }
 }
 
+/// Share of the trace that is added to the diagonal of a matrix before it is solved.
+const REGULARISATION: f64 = 1e-12;
+/// Newton steps after which [`offset_for_sum`] takes its offset as it is.
+const MAX_STEPS: usize = 100;
+/// Error of the sum, as a share of the magnitudes added up in it, that is as good as none.
+const SUM_ACCURACY: f64 = 1e-13;
+/// Step lengths tried along Newton's direction: where nearly all cells slip alike the full step is far too long.
+const STEP_LENGTHS: [f64; 2] = [1.0, 0.1];
+/// Armijo's constant: a step must lower the function by this share of what its slope promises.
+const SUFFICIENT_DECREASE: f64 = 1e-4;
+/// Units of rounding in a comparison of two values of the function.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// The offset e at which Σ P(yᵢ + e) is `wanted`, P the projection [`onto_disc`] of radius gᵢ: it exists where |`wanted`| is
 /// less than Σ gᵢ. `cells` are y and g of each, `start` an offset nearby.
 ///
-/// The sum is the gradient of the convex function Σ ½|v|² (in the disc), g|v| − ½g² (outside): Newton's iteration, and
-/// where that fails the step of least energy of a paraboloid above it, as Weiszfeld's.
+/// The sum is the gradient of a convex function, that of [`Objective`]: its minimum by Newton's iteration with a sufficient
+/// decrease, and where that fails by the step to the minimum of a quadratic majorant, as in Weiszfeld's iteration.
 pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     cells: impl Fn() -> I,
     wanted: Vector,
     start: Vector,
 ) -> Vector {
-    const MOST: usize = 100;
-    const ACCURACY: f64 = 1e-13;
     let at = |offset: Vector| {
-        let mut sums = Sums {
-            energy: -dot(wanted, offset),
-            excess: times(-1.0, wanted),
-            slope: Symmetric::default(),
-            weight: 0.0,
-            size: length(wanted),
-            rounding: length(wanted) * length(offset),
+        let mut objective = Objective {
+            value: -dot(wanted, offset),
+            gradient: times(-1.0, wanted),
+            hessian: Symmetric::default(),
+            majorant: 0.0,
+            gradient_magnitude: length(wanted),
+            value_magnitude: length(wanted) * length(offset),
         };
         for (y, g) in cells() {
-            sums.add(add(y, offset), g);
+            objective.add(add(y, offset), g);
         }
-        sums
+        objective
     };
     let mut offset = start;
     let mut here = at(offset);
-    for _ in 0..MOST {
-        if length(here.excess) <= ACCURACY * here.size {
+    for _ in 0..MAX_STEPS {
+        if length(here.gradient) <= SUM_ACCURACY * here.gradient_magnitude {
             break;
         }
-        let newton = here.slope.solve(times(-1.0, here.excess));
-        let descends = |(_, there): &(Vector, Sums), share: f64| {
-            let rounding = 4.0 * f64::EPSILON * (here.rounding + there.rounding);
-            there.energy <= here.energy + 1e-4 * share * dot(newton, here.excess) + rounding
+        let newton = here.hessian.solve(times(-1.0, here.gradient));
+        let descends = |(_, there): &(Vector, Objective), step: f64| {
+            let rounding = ROUNDING * (here.value_magnitude + there.value_magnitude);
+            there.value <= here.value + SUFFICIENT_DECREASE * step * dot(newton, here.gradient) + rounding
         };
         let to = |step: Vector| (add(offset, step), at(add(offset, step)));
-        // Where nearly all cells slip alike Newton's step is far too long.
-        let by_newton = [1.0, 0.1].into_iter().map(|share| (to(times(share, newton)), share));
-        let found = by_newton.into_iter().find(|(next, share)| descends(next, *share));
+        let by_newton = STEP_LENGTHS.into_iter().map(|step| (to(times(step, newton)), step));
+        let found = by_newton.into_iter().find(|(next, step)| descends(next, *step));
         let (next, there) = match found {
             Some((next, _)) => next,
-            None => to(times(-1.0 / here.weight, here.excess)),
+            None => to(times(-1.0 / here.majorant, here.gradient)),
         };
         if next == offset {
             break;
@@ -114,36 +131,40 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     offset
 }
 
-/// What the cells come to at an offset.
-struct Sums {
-    energy: f64,
-    /// Σ P(y + e) − wanted.
-    excess: Vector,
-    /// Its derivative.
-    slope: Symmetric,
-    /// Σ min(1, g/|v|), above that derivative: a step by it never fails.
-    weight: f64,
-    /// Magnitude of what is added up in the excess, and in the energy.
-    size: f64,
-    rounding: f64,
+/// The convex function Σ φ(yᵢ + e) − `wanted`·e of an offset e, with φ(v) = ½|v|² in the disc and g|v| − ½g² outside, whose
+/// gradient is Σ P(yᵢ + e) − `wanted`.
+struct Objective {
+    /// The value of the function.
+    value: f64,
+    /// Its gradient Σ P(y + e) − wanted.
+    gradient: Vector,
+    /// Its Hessian.
+    hessian: Symmetric,
+    /// Curvature Σ min(1, g/|v|) of a quadratic majorant: a step by it never fails.
+    majorant: f64,
+    /// Sum of the magnitudes that the gradient adds up.
+    gradient_magnitude: f64,
+    /// Sum of the magnitudes that the value adds up.
+    value_magnitude: f64,
 }
 
-impl Sums {
+impl Objective {
+    /// Adds the part of a cell with v = y + e and this radius.
     fn add(&mut self, v: Vector, radius: f64) {
         let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
-        let (energy, inside, slope) = if length <= radius {
+        let (value, projected, hessian) = if length <= radius {
             (0.5 * length * length, v, Symmetric::identity(1.0))
         } else {
             let share = radius / length;
             let across = [-v[1] / length, v[0] / length];
-            (radius * (length - 0.5 * radius), times(share, v), Symmetric::square(share, across))
+            (radius * (length - 0.5 * radius), times(share, v), Symmetric::outer_product(share, across))
         };
-        self.energy += energy;
-        self.excess = add(self.excess, inside);
-        self.slope = self.slope.and(slope);
-        self.weight += if length <= radius { 1.0 } else { radius / length };
-        self.size += length.min(radius);
-        self.rounding += energy;
+        self.value += value;
+        self.gradient = add(self.gradient, projected);
+        self.hessian = self.hessian.and(hessian);
+        self.majorant += if length <= radius { 1.0 } else { radius / length };
+        self.gradient_magnitude += length.min(radius);
+        self.value_magnitude += value;
     }
 }
 

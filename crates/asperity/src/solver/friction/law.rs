@@ -1,4 +1,4 @@
-//! How much shear a cell bears.
+//! The law of friction: the most shear that a cell bears under its pressure.
 
 use crate::choice::choice;
 use crate::error::{Result, check, check_in};
@@ -13,7 +13,7 @@ pub enum Coupling {
     Full,
     /// Goodman's approximation: pressure displaces tangentially, shear leaves the pressure alone.
     Goodman,
-    /// Neither, as for identical bodies.
+    /// No coupling, as between identical bodies: pressure displaces normally, shear tangentially.
     None,
 }
 
@@ -21,12 +21,12 @@ choice!(Coupling: "full" => Full, "goodman" => Goodman, "none" => None);
 
 impl Coupling {
     /// Whether shear displaces the surface normally.
-    pub(super) fn lifts(self, couples: bool) -> bool {
+    pub(super) fn shear_displaces_normally(self, couples: bool) -> bool {
         self == Self::Full && couples
     }
 
     /// Whether pressure displaces the surface tangentially.
-    pub(super) fn slips(self, couples: bool) -> bool {
+    pub(super) fn pressure_displaces_tangentially(self, couples: bool) -> bool {
         self != Self::None && couples
     }
 }
@@ -84,7 +84,7 @@ impl Friction {
         Self { junction_growth, ..self }
     }
 
-    /// The same, if its numbers have a meaning.
+    /// The same law, if its numbers have a meaning.
     pub(crate) fn checked(self) -> Result<Self> {
         check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
         check_in(
@@ -109,8 +109,8 @@ impl Friction {
         if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
     }
 
-    /// Whether shear makes plastic cells bear less pressure.
-    pub(super) fn softens(&self, hardness: Pascal) -> bool {
+    /// Whether the junctions of bodies of that hardness grow: shear makes their plastic cells bear less pressure.
+    pub(super) fn grows_junctions(&self, hardness: Pascal) -> bool {
         self.junction_growth > 0.0 && self.coefficient > 0.0 && hardness.is_finite()
     }
 
@@ -140,7 +140,7 @@ impl Friction {
 
     /// The most pressure that a cell of that hardness bears that slides.
     pub fn sliding_cap(&self, hardness: Pascal) -> Pascal {
-        if !self.softens(hardness) {
+        if !self.grows_junctions(hardness) {
             return hardness;
         }
         let coulomb = hardness / (1.0 + self.junction_growth * self.coefficient.powi(2)).sqrt();

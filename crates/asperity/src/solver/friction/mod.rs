@@ -20,7 +20,7 @@ use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
 use alternate::{Start, alternate};
 
-/// What is prescribed in the plane, along x and y.
+/// The displacement, force or direction of sliding that is prescribed in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tangential {
     /// Rigid-body displacement D of the upper body against the lower one, from the beginning of the loading.
@@ -34,9 +34,9 @@ pub enum Tangential {
 /// Bodies that slide over each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sliding {
-    /// Their friction.
+    /// Friction of the bodies.
     pub friction: Friction,
-    /// Where the upper body slides to, a unit vector.
+    /// Direction in which the upper body slides, a unit vector.
     pub direction: [f64; 2],
 }
 
@@ -47,17 +47,17 @@ impl Sliding {
     }
 
     /// Whether the shear displaces these bodies normally.
-    pub(crate) fn lifts(&self, couples: bool) -> bool {
-        self.friction.coefficient > 0.0 && self.friction.coupling.lifts(couples)
+    pub(crate) fn shear_displaces_normally(&self, couples: bool) -> bool {
+        self.friction.coefficient > 0.0 && self.friction.coupling.shear_displaces_normally(couples)
     }
 }
 
-/// What is prescribed at the end of an increment.
+/// What is prescribed of a contact at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
-    /// In the normal direction.
+    /// What is prescribed in the normal direction.
     pub normal: Control,
-    /// In the plane.
+    /// What is prescribed in the plane.
     pub tangential: Tangential,
 }
 
@@ -70,14 +70,14 @@ pub struct FrictionalSolution {
     pub normal: Solution,
     /// Shear tractions q along x and y on the lower body, Pa.
     pub shear: [Field; 2],
-    /// Most shear that each cell bears, Pa.
+    /// The most shear g that each cell bears, Pa.
     pub shear_limit: Field,
     /// Tangential displacement u along x and y, lower minus upper body, m.
     pub displacement: [Field; 2],
     /// Rigid-body displacement D of the upper body against the lower one; from the end of the sliding, after sliding.
     pub rigid_displacement: [Metre; 2],
     /// Slip of the upper surface over the lower one in this increment along x and y, m; 0 where they do not touch, and in
-    /// gross sliding, where it is not bounded.
+    /// gross sliding, where it is arbitrary.
     pub slip: [Field; 2],
     /// 1 where the bodies touch and stick, |q + Δs/c| ≤ g, else 0.
     pub stick: Field,
@@ -103,7 +103,7 @@ impl FrictionalSolution {
 
     /// Energy ΔA Σ ½(g₀ + g)|Δs| over the cells that slip, which friction took in this increment: g₀ is the most shear that
     /// a cell bore `before` it, g the most that it bears after it. Without a state before, g alone: as if the load had come
-    /// before the shift.
+    /// before the slip.
     ///
     /// A cell slips at its limit only, so this is exact, however large the increment, where pressures stay and the slip keeps
     /// its direction. Where pressures change with the slip it is of the second order in the increment, and
@@ -214,6 +214,7 @@ pub(crate) fn solve_sliding(
     alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch)
 }
 
+/// Whether what is prescribed in the plane has a meaning.
 fn validate(tangential: &Tangential) -> Result<()> {
     match *tangential {
         Tangential::Displacement(displacement) => displacement.into_iter().try_for_each(|d| {
@@ -229,7 +230,7 @@ fn validate(tangential: &Tangential) -> Result<()> {
     }
 }
 
-/// c, displacement of a cell per unit shear on itself, in the mean of the directions.
+/// The displacement c of a cell per unit shear on itself, in the mean of the directions.
 fn self_compliance(operator: &dyn CoupledOperator) -> f64 {
     let influence = operator.self_influence();
     0.5 * (influence.xx + influence.yy)

@@ -8,10 +8,10 @@ use crate::solver::watch::Within;
 use crate::solver::{Bounds, Control, Params, Watch};
 use crate::units::Newton;
 
-/// What is prescribed of steady rolling. The contact moves towards +x over both bodies.
+/// Steady rolling as it is prescribed. The contact moves towards +x over both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
-    /// In the plane.
+    /// What is prescribed in the plane: creepage or force.
     pub creep: Creep,
     /// Spin φ, 1/m: angular velocity of the upper body against the lower one over the rolling velocity, about z through the
     /// middle of the grid, positive from +x towards +y.
@@ -37,13 +37,13 @@ pub struct RollingSolution {
     pub creepage: [f64; 2],
 }
 
-/// Residual of the first steps.
-const FIRST: f64 = 1e-3;
-/// Each step is solved to so much of the change of the last one.
-const SHARPER: f64 = 0.1;
+/// Tolerance on the residual in the first steps.
+const FIRST_TOLERANCE: f64 = 1e-3;
+/// Each step is solved to this share of the change of the shear in the one before.
+const TOLERANCE_REDUCTION: f64 = 0.1;
 
-/// Solves the steady state of bodies that roll along x under friction: the bodies' gap
-/// stays, and their material passes through it.
+/// Solves the steady state of bodies that roll along x under friction: their gap stays, and their material passes
+/// through it.
 ///
 /// In the time in which the contact moves on by a cell, material that was a cell ahead arrives, and slips by
 ///
@@ -56,7 +56,7 @@ const SHARPER: f64 = 0.1;
 /// Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
-/// Those of [`solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
+/// Those of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -108,7 +108,7 @@ pub(crate) fn solve_rolling_watched(
         let within = Within(watch);
         solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, &params, &within)
     };
-    let mut tolerance = FIRST.max(params.tolerance);
+    let mut tolerance = FIRST_TOLERANCE.max(params.tolerance);
     let mut state = solve(Tangential::Force([0.0; 2]), None, tolerance)?;
     let mut stats = state.normal.stats;
     let most = MAX_LENGTHS * initial_gap.nrows();
@@ -123,7 +123,8 @@ pub(crate) fn solve_rolling_watched(
         let change = change(&next, &state);
         watch.iteration(change, params.tolerance);
         let steady = change < params.tolerance && tolerance <= params.tolerance;
-        tolerance = (SHARPER * change).clamp(params.tolerance, FIRST.max(params.tolerance));
+        tolerance =
+            (TOLERANCE_REDUCTION * change).clamp(params.tolerance, FIRST_TOLERANCE.max(params.tolerance));
         state = next;
         if steady {
             state.normal.stats = stats;
@@ -141,7 +142,7 @@ pub(crate) fn solve_rolling_watched(
 /// Cells of rolling after which the iteration is given up, in lengths of the grid.
 const MAX_LENGTHS: usize = 50;
 
-/// Values of the next column, of the last for the last (periodic: of the first).
+/// Each column of a field replaced by the next one; the last stays, or is followed by the first where the field repeats.
 fn a_cell_ahead(field: &Field, boundary: Boundary) -> Field {
     let last = field.nrows() - 1;
     let ahead = |i: usize| match (i < last, boundary.repeats(0)) {
@@ -166,7 +167,7 @@ impl FrictionalSolution {
     }
 }
 
-/// Largest change of the shear, as a share of the largest.
+/// Largest change of the shear from one state to the next, as a share of the largest shear.
 fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
     let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
     let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));

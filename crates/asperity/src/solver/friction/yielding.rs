@@ -1,47 +1,48 @@
-//! What the shear of a yielding cell leaves to its pressure.
+//! The combined stress of plastic cells: the pressure that their shear leaves them, and the shear that they bear.
 
 use crate::grid::{CellValues, Field};
 use crate::solver::Bounds;
 use crate::solver::friction::Friction;
 
-/// The bounds that the `shear` leaves to the `pressure` of cells with the `virgin` ones: see [`Friction::cap`].
-pub(super) fn bounds_beside(
+/// The bounds of a `pressure` beside a `shear` where junctions grow, by [`Friction::cap`] from the bounds `unsheared` of
+/// cells without shear.
+pub(super) fn bounds_under_shear(
     friction: &Friction,
-    virgin: &Bounds,
+    unsheared: &Bounds,
     pressure: &Field,
     shear: &[Field; 2],
 ) -> Bounds {
     let mut upper = pressure.clone();
     let cells = upper.iter_mut().zip(&shear[0]).zip(&shear[1]).enumerate();
     for (cell, ((p, x), y)) in cells {
-        let hardness = virgin.upper().at(cell);
+        let hardness = unsheared.upper().at(cell);
         *p = friction.within(hardness).cap(hardness, *p, x.hypot(*y));
     }
-    Bounds::up_to(upper).above(virgin.lower().clone())
+    Bounds::up_to(upper).above(unsheared.lower().clone())
 }
 
-/// A pressure near the answer within the `next` bounds: the cells that are capped by these `bounds` go along with them.
-pub(super) fn carried(pressure: &Field, bounds: &Bounds, next: &Bounds) -> Field {
-    let mut carried = pressure.clone();
-    for (cell, p) in carried.iter_mut().enumerate() {
+/// A start for the `next` bounds from a pressure within the last `bounds`: capped cells move to their new upper bounds.
+pub(super) fn start_within(pressure: &Field, bounds: &Bounds, next: &Bounds) -> Field {
+    let mut start = pressure.clone();
+    for (cell, p) in start.iter_mut().enumerate() {
         if bounds.caps(cell, *p) {
             *p = next.upper().at(cell);
         }
     }
-    carried
+    start
 }
 
-/// The most shear that each cell bears under its pressure. Where the shear `softens` it is no more than the cell bears
-/// without pressure.
+/// The most shear that each cell bears under its pressure. Under friction that `grows_junctions` it is no more than a cell of that
+/// `hardness` bears without pressure.
 pub(super) fn shear_limits(
     friction: &Friction,
-    virgin: &CellValues,
-    softens: bool,
+    hardness: &CellValues,
+    grows_junctions: bool,
     pressure: &Field,
 ) -> Field {
     let mut limits = pressure.clone();
     for (cell, p) in limits.iter_mut().enumerate() {
-        let friction = if softens { friction.within(virgin.at(cell)) } else { *friction };
+        let friction = if grows_junctions { friction.within(hardness.at(cell)) } else { *friction };
         *p = friction.shear_limit(*p);
     }
     limits

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use super::document::{Document, join};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::units::{self, Dimension, MOST_OF_ANY, NUMBERS};
+use crate::units::{self, Dimension, MAX_COUNT, NUMBERS};
 
 /// A table `[path]`.
 pub(super) struct Table<'a> {
@@ -294,7 +294,7 @@ impl<'a> Entry<'a> {
     /// [`whole`](Self::whole), as a number of things in memory.
     pub(super) fn count(&self, least: usize) -> Result<usize> {
         match usize::try_from(self.whole(least as u64)?) {
-            Ok(count) if count <= MOST_OF_ANY => Ok(count),
+            Ok(count) if count <= MAX_COUNT => Ok(count),
             _ => Err(self.unexpected("a whole number of at most 10⁹", None)),
         }
     }

@@ -63,9 +63,9 @@ pub struct StageSpec {
     pub increments: usize,
 }
 
-/// How a static contact is computed.
+/// The loading path of a static contact: what is prescribed, one state after another.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Course {
+pub enum LoadingPath {
     /// Loaded stage after stage.
     Stages(Vec<Stage>),
     /// One contact in steady rolling.
@@ -88,7 +88,7 @@ impl FrictionSpec {
     }
 }
 
-impl Course {
+impl LoadingPath {
     /// What rolls steadily.
     pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
         let (one, points) = match self {
@@ -101,12 +101,12 @@ impl Course {
 }
 
 impl Case {
-    /// The course of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
+    /// The loading path of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
     /// `[motion]`.
     ///
     /// Without friction a first stage is a single increment: pressed for the first time, a contact does not depend on its
     /// steps.
-    pub fn course(&self, apparent_area: SquareMetre) -> Option<Course> {
+    pub fn loading_path(&self, apparent_area: SquareMetre) -> Option<LoadingPath> {
         if self.motion.is_some() {
             return None;
         }
@@ -115,16 +115,16 @@ impl Case {
         let normal = self.contact.prescribed.control(apparent_area);
         if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
             let point = |rolling| Point { control: normal, rolling: Some(rolling) };
-            return Some(Course::Sweep(rolling.map(point).collect()));
+            return Some(LoadingPath::Sweep(rolling.map(point).collect()));
         }
         let rolling = rolling.next();
         if let Some(sweep) = &self.contact.sweep {
             let point =
                 |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
-            return Some(Course::Sweep(sweep.prescribed().map(point).collect()));
+            return Some(LoadingPath::Sweep(sweep.prescribed().map(point).collect()));
         }
         if let Some(rolling) = rolling {
-            return Some(Course::Rolling(rolling));
+            return Some(LoadingPath::Rolling(rolling));
         }
         let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
@@ -139,12 +139,12 @@ impl Case {
             }
             stages.push(Stage { loading, increments: stage.increments });
         }
-        Some(Course::Stages(stages))
+        Some(LoadingPath::Stages(stages))
     }
 
     /// Whether it is a static contact at one point after another.
     pub fn is_swept(&self) -> bool {
-        matches!(self.course(1.0), Some(Course::Sweep(_)))
+        matches!(self.loading_path(1.0), Some(LoadingPath::Sweep(_)))
     }
 }
 

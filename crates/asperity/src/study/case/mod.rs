@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 use self::document::Document;
-pub use self::friction::{Course, FrictionSpec, InPlane, StageSpec};
+pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
 pub use self::source::{Layer, Source, TopographySpec};
@@ -147,7 +147,7 @@ pub struct MotionSpec {
     pub load_tolerance: f64,
 }
 
-/// A [`Control`] without its value.
+/// The control of a motion without its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ControlKind {
     /// The mean load of a pass.
@@ -203,7 +203,7 @@ pub struct Output {
 }
 
 /// The largest case file that is read.
-const MOST_BYTES: u64 = 4 << 20;
+const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
     /// Whether a body is coated.
@@ -217,7 +217,7 @@ impl Case {
     /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
     pub fn load(path: &Path) -> Result<Self> {
         let failed = |source| Error::File { path: path.to_owned(), source };
-        let text = regular::read(path, "a case file", MOST_BYTES).map_err(failed)?;
+        let text = regular::read(path, "a case file", MAX_CASE_BYTES).map_err(failed)?;
         let text = String::from_utf8(text).map_err(|_| {
             failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
         })?;

@@ -15,7 +15,7 @@ use super::{
     Prescribed, Source, StageSpec, StrategyKind, TopographySpec,
 };
 use crate::error::Result;
-use crate::grid::MOST_CELLS;
+use crate::grid::MAX_CELLS;
 use crate::material::{self, Coating, Material};
 use crate::motion::{PlasticUpdate, Strategy};
 use crate::solver::Coupling;
@@ -26,14 +26,17 @@ use crate::surface::{
 };
 use crate::units::Dimension;
 
+/// The expected text of a shape.
 const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
 
+/// The expected text of one length or two.
 const LENGTHS: &str = "a length above 0 such as \"0.25 um\", or two";
 
 pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
+    /// The tables and keys of the root of a case file.
     const ROOT: [&str; 9] =
         ["title", "lower", "upper", "contact", "friction", "history", "motion", "subsurface", "output"];
     root.known(&ROOT, |key| belongs(key, ""))?;
@@ -290,7 +293,7 @@ fn level(entry: &Entry<'_>) -> Result<Level> {
         return Ok(level);
     }
     let choices = Level::WORDS.map(|word| (word, Level::None));
-    let hint = || format!("the order of a polynomial is from 0 to {}", Level::HIGHEST_ORDER);
+    let hint = || format!("the order of a polynomial is from 0 to {}", Level::MAX_ORDER);
     match entry.text() {
         Ok(text) if text.starts_with("polynomial") => {
             Err(entry.unexpected("a polynomial such as \"polynomial-3\"", Some(hint())))
@@ -592,7 +595,7 @@ fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
     let shape: [usize; 2] = entry.array(SHAPE, whole)?;
     match shape[0].checked_mul(shape[1]) {
         Some(0) => Err(entry.unexpected(SHAPE, None)),
-        Some(cells) if cells <= MOST_CELLS => Ok(shape),
+        Some(cells) if cells <= MAX_CELLS => Ok(shape),
         _ => Err(entry.unexpected("a grid of at most 2³² cells", None)),
     }
 }

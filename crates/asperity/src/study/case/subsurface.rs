@@ -44,12 +44,12 @@ pub enum Side {
 choice!(Side: "lower" => Lower, "upper" => Upper);
 
 /// Beyond this many planes nobody looks at them.
-const MOST_LAYERS: usize = 10_000;
+const MAX_LAYERS: usize = 10_000;
 
 pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpec> {
     known_in(table)?;
     let layers = |entry: Entry<'_>| match entry.count(1)? {
-        layers if layers <= MOST_LAYERS => Ok(layers),
+        layers if layers <= MAX_LAYERS => Ok(layers),
         _ => Err(entry.unexpected("at most 10000", None)),
     };
     let position = |entry: &Entry<'_>| entry.array("a position [x, y] of two lengths", length);

@@ -71,7 +71,7 @@ pub(super) fn creepages(entry: Entry<'_>) -> Result<Vec<[f64; 2]>> {
 }
 
 /// The most points of a sweep.
-const MOST_POINTS: usize = 10_000;
+const MAX_POINTS: usize = 10_000;
 
 /// A list of values of N components, or a table of `from`, `to`, `points` and `spacing`; `by_ratio`: by default in equal
 /// ratios.
@@ -87,7 +87,7 @@ fn values<'a, const N: usize>(
     if !entry.is_table() {
         let values = if entry.is_array() { entry.list(&expected, read)? } else { Vec::new() };
         return match values.len() {
-            1..=MOST_POINTS => Ok(values),
+            1..=MAX_POINTS => Ok(values),
             0 => Err(entry.unexpected(&expected, None)),
             _ => Err(entry.unexpected("at most 10000 values", None)),
         };
@@ -97,7 +97,7 @@ fn values<'a, const N: usize>(
     let [from, to] = [table.required("from", example)?, table.required("to", example)?];
     let points = table.required("points", "9")?;
     let (first, last, count) = (read(&from)?, read(&to)?, points.count(2)?);
-    if count > MOST_POINTS {
+    if count > MAX_POINTS {
         return Err(points.unexpected("a whole number of at most 10000", None));
     }
     let spacings = [("log", true), ("linear", false)];

@@ -32,6 +32,7 @@ impl Paraboloid {
     /// The paraboloid nearest to `gap`; none where it tells less than nine tenths of the gap's variance about a plane: a
     /// gap that is rough rather than curved.
     pub(in crate::study) fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
+        /// Least share of the gap's variance that a paraboloid explains.
         const DOMINATES: f64 = 0.9;
         let shape = [gap.nrows(), gap.ncols()];
         // On a full grid these six are orthogonal: 1, x, y, x² − its mean, y² − its mean, xy.

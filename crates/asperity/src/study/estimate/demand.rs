@@ -8,7 +8,7 @@ use crate::material::Compliances;
 use crate::motion::{PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Coupling, Friction, Method, Sliding};
-use crate::study::case::{Body, Case, ControlKind, Course, Layer, Source};
+use crate::study::case::{Body, Case, ControlKind, Layer, LoadingPath, Source};
 use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
 use crate::units::Second;
@@ -183,10 +183,15 @@ impl Sizes<'_> {
     /// Whether tractions along all directions are computed.
     fn is_coupled(&self) -> bool {
         let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
-        let lifts = |friction| {
-            self.compliances().is_some_and(|compliances| sliding(friction).lifts(compliances.coupling != 0.0))
+        let shear_displaces_normally = |friction| {
+            self.compliances().is_some_and(|compliances| {
+                sliding(friction).shear_displaces_normally(compliances.coupling != 0.0)
+            })
         };
-        self.case.friction.as_ref().is_some_and(|friction| self.case.motion.is_none() || lifts(friction.law))
+        self.case
+            .friction
+            .as_ref()
+            .is_some_and(|friction| self.case.motion.is_none() || shear_displaces_normally(friction.law))
     }
 
     /// The work, in units of a cell times the binary logarithm of the cells of its contact.
@@ -216,9 +221,9 @@ impl Sizes<'_> {
             }
             (None, friction) => {
                 let [nx, ny] = self.facing();
-                match case.course(nx * ny * self.lower.cell_area()) {
-                    Some(Course::Rolling(_)) => ROLLING * boundary * digits * all,
-                    Some(Course::Stages(stages)) => {
+                match case.loading_path(nx * ny * self.lower.cell_area()) {
+                    Some(LoadingPath::Rolling(_)) => ROLLING * boundary * digits * all,
+                    Some(LoadingPath::Stages(stages)) => {
                         let increments: usize = stages.iter().map(|stage| stage.increments).sum();
                         let unlike =
                             self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
@@ -228,7 +233,7 @@ impl Sizes<'_> {
                         });
                         increments as f64 * (normal + shear * boundary * digits) * all
                     }
-                    Some(Course::Sweep(points)) => {
+                    Some(LoadingPath::Sweep(points)) => {
                         let point = |point: &Point| match point.rolling {
                             Some(_) => ROLLING * boundary * digits,
                             None => normal,
@@ -270,6 +275,7 @@ const MAKING: f64 = 6.0;
 
 /// Seconds for a cell and a bit of the logarithm: the least of some convolutions, on this machine as it is now.
 fn unit_of_effort() -> Second {
+    /// Cells along each axis of the convolutions that are timed.
     const SIDE: usize = 128;
     /// What a solve takes of the time of a double convolution, for each of its own.
     const SHARE: f64 = 1.4;

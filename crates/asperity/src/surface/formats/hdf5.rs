@@ -89,12 +89,12 @@ impl Set {
 
     /// The numbers of a file of so many bytes.
     fn values(&self, bytes: usize) -> Outcome<Field> {
-        /// Deflate makes no more bytes of one.
-        const MOST: usize = 1032;
+        /// The most bytes that deflate makes of one.
+        const MAX_INFLATION: usize = 1032;
         let sizes = self.dataset.shape().map_err(container)?;
         let [nx, ny] = sizes[..] else { return Err(Defect::Missing("two dimensions")) };
         let count = cells(&[nx, ny])?;
-        let limit = MAX_CELLS.min(bytes.saturating_mul(MOST));
+        let limit = MAX_CELLS.min(bytes.saturating_mul(MAX_INFLATION));
         if count == 0 || count > limit {
             return Err(Defect::TooLarge { cells: count as u128, limit });
         }
@@ -111,21 +111,21 @@ impl Set {
 
 /// Adds the paths of the matrices of real numbers in a group, and in those in it.
 fn matrices(group: &Group, path: &str, visited: &mut usize, found: &mut Vec<String>) {
-    // Groups may hold each other.
-    const MOST: usize = 1 << 12;
+    /// Bounds the groups visited, the matrices found and the length of a path: groups may hold each other.
+    const MAX_ENTRIES: usize = 1 << 12;
     *visited += 1;
     let mut names = group.datasets().unwrap_or_default();
     names.sort_unstable();
     for name in names {
-        if found.len() < MOST && group.dataset(&name).is_ok_and(|dataset| is_matrix(&dataset)) {
+        if found.len() < MAX_ENTRIES && group.dataset(&name).is_ok_and(|dataset| is_matrix(&dataset)) {
             found.push(format!("{path}/{name}"));
         }
     }
     let mut groups = group.groups().unwrap_or_default();
     groups.sort_unstable();
     for name in groups {
-        if *visited < MOST
-            && path.len() < MOST
+        if *visited < MAX_ENTRIES
+            && path.len() < MAX_ENTRIES
             && let Ok(group) = group.group(&name)
         {
             matrices(&group, &format!("{path}/{name}"), visited, found);

@@ -148,8 +148,8 @@ impl Scale {
 
 /// The numbers of an array of this shape, and the bytes of one.
 fn unpacked(array: &[u8], shape: [usize; 2]) -> Outcome<(Vec<u8>, usize)> {
-    /// Deflate makes no more bytes of one.
-    const MOST: usize = 1032;
+    /// The most bytes that deflate makes of one.
+    const MAX_INFLATION: usize = 1032;
     let cells = shape[0] * shape[1];
     let count = part(array, &[1]).and_then(u32_of).ok_or(Defect::Missing("size of an array"))?;
     if count as usize != cells {
@@ -160,7 +160,7 @@ fn unpacked(array: &[u8], shape: [usize; 2]) -> Outcome<(Vec<u8>, usize)> {
     let mut blocks = super::binary::Cursor::new(blocks, Order::Little, "the blocks");
     let bytes = usize::try_from(blocks.u64()?).unwrap_or(usize::MAX);
     let size = bytes / cells;
-    let most = blocks.rest().len().saturating_mul(MOST);
+    let most = blocks.rest().len().saturating_mul(MAX_INFLATION);
     if bytes % cells != 0 || bytes > most {
         let (found, expected) = (bytes.to_string(), "that of its numbers");
         return Err(Defect::Value { what: "the bytes of an array", found, expected });

@@ -467,6 +467,7 @@ fn finite(height: Metre) -> Metre {
 /// Heights stored with x fastest, as almost every instrument does: `heights` writes those that follow a number of others.
 fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
     // A tile at a time, which stays in the first cache while it is turned; columns that are begun are filled first.
+    /// Side of a tile.
     const TILE: usize = 32;
     let [nx, ny] = shape;
     let mut field = Field::zeros(shape);

@@ -72,14 +72,14 @@ struct Items<'a> {
 impl<'a> Items<'a> {
     /// Takes in the items of a container.
     fn read(&mut self, mut items: Cursor<'a>, path: &str, depth: usize) -> Outcome<()> {
-        const DEEPEST: usize = 32;
+        const MAX_DEPTH: usize = 32;
         while !items.rest().is_empty() {
             let name = name(&mut items)?;
             let kind = items.u8()?;
             match kind {
                 0x7f => break,
-                0x46 | 0x47 | 0x7d if depth == DEEPEST => {
-                    let found = format!("more than {DEEPEST} deep");
+                0x46 | 0x47 | 0x7d if depth == MAX_DEPTH => {
+                    let found = format!("more than {MAX_DEPTH} deep");
                     return Err(Defect::Value {
                         what: "a container",
                         found,

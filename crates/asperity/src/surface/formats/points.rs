@@ -27,7 +27,7 @@ pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
     }
     let cells = x.count.checked_mul(y.count).filter(|cells| *cells <= MAX_CELLS)?;
     let complete = points == cells;
-    let enough = points >= FEWEST && (2 * points >= cells || points >= 4 * x.count.max(y.count));
+    let enough = points >= MIN_POINTS && (2 * points >= cells || points >= 4 * x.count.max(y.count));
     if points > cells || !(complete || enough) {
         return None;
     }
@@ -44,7 +44,7 @@ pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
 }
 
 /// Points from which on it is no chance that they lie on a grid with gaps.
-const FEWEST: usize = 6;
+const MIN_POINTS: usize = 6;
 
 /// An error if the columns of `table` are coordinates and heights of points that are no map.
 pub(super) fn refuse_points(table: &Field) -> Result<(), Defect> {

@@ -64,6 +64,7 @@ pub(super) struct Translation {
 
 impl Translation {
     fn new(heights: HeightDistribution) -> Result<Self> {
+        /// Intervals of the table of correlations.
         const INTERVALS: usize = 4096;
         let curve = Johnson::new(heights.ssk, heights.sku)?;
         let shares = curve.shares();

@@ -117,6 +117,7 @@ struct Average {
 impl Average {
     /// The trapezoidal rule, which converges faster than any power for what is smooth on the scale of the step.
     fn new() -> Self {
+        /// Step of the rule, in standard deviations.
         const STEP: f64 = 1.0 / 16.0;
         // Fourth powers of exp(x g), x ≤ 1.3, have their weight near g = 4 x.
         const REACH: i32 = (14.0 / STEP) as i32;

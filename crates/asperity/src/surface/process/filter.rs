@@ -82,16 +82,18 @@ fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Fi
 fn robust(gaussian: &Gaussian, z: &Field) -> Field {
     /// The constant of the standard: 3 times the ratio of standard deviation and median of |r| of Gaussian heights.
     const BIWEIGHT: f64 = 4.4478;
-    const SETTLED: f64 = 1e-3;
-    const MOST: usize = 50;
+    /// Relative change of the scale at which the iteration has converged.
+    const TOLERANCE: f64 = 1e-3;
+    /// Iterations after which the mean is taken as it is.
+    const MAX_ITERATIONS: usize = 50;
     let mut smooth = gaussian.mean(z, |_| 1.0, None);
     let mut last = f64::INFINITY;
-    for _ in 0..MOST {
+    for _ in 0..MAX_ITERATIONS {
         let mut distances: Vec<f64> =
             z.iter().zip(&smooth).filter(|(z, _)| !z.is_nan()).map(|(z, s)| (z - s).abs()).collect();
         let c = BIWEIGHT * median(&mut distances);
         // Most of the surface lies on the smooth one already: nothing is left to part.
-        if (last - c).abs() <= SETTLED * c || c <= f64::EPSILON {
+        if (last - c).abs() <= TOLERANCE * c || c <= f64::EPSILON {
             break;
         }
         last = c;

@@ -25,7 +25,7 @@ pub enum Level {
     Plane,
     /// A full polynomial of the second order: 1, x, y, x², xy, y².
     Quadratic,
-    /// All xᵃyᵇ with a + b up to the order, 0 to [`Level::HIGHEST_ORDER`].
+    /// All xᵃyᵇ with a + b up to the order, 0 to [`Level::MAX_ORDER`].
     Polynomial(usize),
     /// A sphere, convex or concave, see [`Topography::best_sphere`].
     Sphere,
@@ -35,7 +35,7 @@ pub enum Level {
 
 impl Level {
     /// The highest order of a polynomial. It has 153 terms.
-    pub const HIGHEST_ORDER: usize = 16;
+    pub const MAX_ORDER: usize = 16;
 
     /// What [`Level::from_str`] reads, for messages.
     pub const WORDS: [&str; 7] = ["none", "mean", "plane", "quadratic", "polynomial-3", "sphere", "cylinder"];
@@ -60,7 +60,7 @@ impl fmt::Display for Level {
 #[error(
     "expected one of {}; the order of a polynomial is from 0 to {}",
     Level::WORDS.join(", "),
-    Level::HIGHEST_ORDER
+    Level::MAX_ORDER
 )]
 pub struct LevelError;
 
@@ -78,7 +78,7 @@ impl FromStr for Level {
             _ => {
                 let order = text.strip_prefix("polynomial-").ok_or(LevelError)?;
                 let order = order.parse().map_err(|_| LevelError)?;
-                if order > Self::HIGHEST_ORDER {
+                if order > Self::MAX_ORDER {
                     return Err(LevelError);
                 }
                 Self::Polynomial(order)
@@ -99,7 +99,7 @@ impl Topography {
     /// A term that the samples do not determine (x on a single column, say) is left out of the fit.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if the order of a polynomial is above [`Level::HIGHEST_ORDER`].
+    /// [`crate::Error::OutOfRange`] if the order of a polynomial is above [`Level::MAX_ORDER`].
     pub fn level(mut self, level: Level) -> Result<Self> {
         self.remove(level)?;
         Ok(self)
@@ -113,7 +113,7 @@ impl Topography {
             Level::Plane => 1,
             Level::Quadratic => 2,
             Level::Polynomial(order) => {
-                let good = order <= Level::HIGHEST_ORDER;
+                let good = order <= Level::MAX_ORDER;
                 check("level", order as f64, good, "a polynomial of an order from 0 to 16")?;
                 order
             }
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_any_order_is_removed_to_round_off_by_that_order_and_not_by_the_one_below() {
-        for order in 1..=Level::HIGHEST_ORDER {
+        for order in 1..=Level::MAX_ORDER {
             let n = order as i32;
             // x and y from −1 to 1, all terms of the highest degree.
             let mut surface = with_heights(|x, y| {

@@ -10,6 +10,7 @@ use crate::grid::Field;
 /// polynomial through all, where there are fewer), so that the spline is right to the fourth order up to the rim.
 /// De Boor, A Practical Guide to Splines (1978), ch. IV.
 pub(super) fn slopes(field: &Field, axis: Axis) -> Field {
+    /// Coefficients of the one-sided derivative at the end, from one to four samples.
     const ENDS: [&[f64]; 4] =
         [&[0.0], &[-1.0, 1.0], &[-1.5, 2.0, -0.5], &[-11.0 / 6.0, 3.0, -1.5, 1.0 / 3.0]];
     // Line by line along x; the other axis is turned there and back.

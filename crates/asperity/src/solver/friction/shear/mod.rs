@@ -1,4 +1,4 @@
-//! The tangential problem: shear tractions that hold the surfaces where they stick, under given pressures.
+//! The tangential problem: shear tractions that slip_compliance the surfaces where they stick, under given pressures.
 
 mod state;
 
@@ -15,29 +15,44 @@ use crate::units::{Metre, SquareMetre};
 
 use state::{Freedom, State};
 
-/// How much softer than a cell alone the contact is taken to be when it is divided: what slips far moves its neighbours
-/// too. With 1 nearly all of a smooth contact on a fine grid is at first taken to slip, and the division swings.
-const CAUTION: f64 = 8.0;
-/// Conjugate gradient steps on one division into stick and slip, at the most.
+/// The compliance by which stick and slip are predicted, as a multiple of that of a cell alone: the least value of the
+/// complementarity parameter of a primal–dual active set. What slips far moves its neighbours too: with 1 nearly all of a
+/// smooth contact on a fine grid is at first predicted to slip, and the prediction swings.
+const COMPLIANCE_FACTOR: f64 = 8.0;
+/// With each outer step without progress the factor is multiplied by this.
+const COMPLIANCE_GROWTH: f64 = 2.0;
+/// With each outer step that has made progress the factor is multiplied by this, down to [`COMPLIANCE_FACTOR`].
+const COMPLIANCE_REDUCTION: f64 = 0.5;
+/// An outer step has made progress when it leaves less than this share of the least residual so far.
+const PROGRESS: f64 = 0.7;
+/// Outer steps without progress, one after another, of which one more ends in projected gradient steps.
+const MAX_STAGNATIONS: usize = 4;
+/// After the projected gradient steps the least residual is taken to be so much larger: the next outer step may lose a little.
+const BEST_AFTER_GRADIENT: f64 = 2.0;
+/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
+const TOLERANCE_REDUCTION: f64 = 0.3;
+/// Conjugate gradient steps on one prediction of stick and slip, at the most.
 const MAX_CG_STEPS: usize = 60;
-/// They are left when the equations are below so many times the violation of the limits.
+/// Conjugate gradients end when their residual is below so many times the violation of the limits.
 const CG_EXIT: f64 = 3.0;
-/// They are left when the equations are below so much of what they were.
-const REDUCTION: f64 = 2e-2;
-/// The equations are met when they are below so much of what is asked of the answer.
-const NEARLY: f64 = 0.5;
-/// Held so many times as strongly as by its own compliance, a cell hardly turns: it is left to itself.
-const FIRM: f64 = 3.0;
-/// Steps along the projected gradient at a time.
-const DESCENTS: usize = 5;
+/// Conjugate gradients end when their residual is below this share of the first one.
+const CG_REDUCTION: f64 = 2e-2;
+/// Conjugate gradients end when their largest residual is below this share of what is asked of the answer.
+const CG_TOLERANCE: f64 = 0.5;
+/// A slipping cell whose [`Freedom::slip_compliance`] is more than so many times its own compliance hardly turns: its block
+/// of the Newton matrix is taken to be diagonal.
+const DIAGONAL_DOMINANCE: f64 = 3.0;
+/// Projected gradient steps, one after another.
+const GRADIENT_STEPS: usize = 5;
 
-/// What is asked: |q| ≤ g in each cell, and where it is less the slip s = D + b − T q is zero; where it is not, s points
+/// The tangential problem: |q| ≤ g in each cell, and where it is less the slip s = D + b − T q is zero; where it is not, s points
 /// along q. It minimises ½ qᵀTq − qᵀ(D + b) over the discs.
 pub(super) struct Task<'a> {
-    /// g.
+    /// The most shear g that each cell bears, Pa.
     pub(super) limit: &'a Field,
-    /// b: the slip without shear, but for the rigid displacement D.
+    /// The slip b without shear, but for the rigid-body displacement D, m.
     pub(super) free_slip: &'a [Field; 2],
+    /// What is prescribed of the rigid bodies.
     pub(super) control: Rigid,
     /// A displacement: the residual is a share of it.
     pub(super) scale: Metre,
@@ -45,35 +60,40 @@ pub(super) struct Task<'a> {
     pub(super) tolerance: f64,
 }
 
-/// What is prescribed of the rigid bodies.
+/// What is prescribed of the rigid bodies in the plane.
 #[derive(Clone, Copy)]
 pub(super) enum Rigid {
-    /// D.
+    /// The rigid-body displacement D.
     Displacement(Vector),
-    /// Σ q ΔA.
+    /// The tangential force ΔA Σ q.
     Force(Vector),
 }
 
-/// The tractions that are asked for.
+/// The solution of a tangential problem.
 pub(super) struct Answer {
+    /// The shear tractions q, Pa.
     pub(super) shear: [Field; 2],
-    /// D.
+    /// The rigid-body displacement D.
     pub(super) rigid: Vector,
     /// max|φ| as a share of the scale, φ = c (q − P(q + s/c)) with P the projection onto the discs.
     pub(super) residual: f64,
 }
 
-/// Solves tangential problems on one grid, by a semismooth Newton iteration: a division of the contact into cells that
-/// stick, and cells that slip and may only turn; then preconditioned conjugate gradients on these freedoms. The tractions
-/// are brought into their discs when the next division is made.
+/// Solves tangential problems on one grid, by a semismooth Newton iteration: a prediction of the cells that stick, and of
+/// those that slip, whose shear may only turn; then preconditioned conjugate gradients on these freedoms. The projection of
+/// the tractions onto their discs is deferred to the next prediction.
 pub(super) struct ShearSolver {
     cell_area: SquareMetre,
-    /// c, displacement of a cell per unit shear on itself.
+    /// The displacement c of a cell per unit shear on itself.
     compliance: f64,
     preconditioner: Preconditioner,
+    /// The cells that the preconditioner couples, as free ones.
     sets: Sets,
+    /// Residual and preconditioned residual along one axis, in single precision.
     single: [Vec<f32>; 2],
+    /// Shear on the grid that is convolved.
     loaded: [Field; 2],
+    /// Displacement of the grid under that shear.
     response: [Field; 2],
     pub(super) stats: Stats,
 }
@@ -109,47 +129,52 @@ impl ShearSolver {
             task.limit.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
         let mut state = State::new(task, start, cells, self.cell_area)?;
         self.loaded.iter_mut().for_each(|field| field.fill(0.0));
-        state.response = self.respond(operator, &state.cells, &state.shear);
-        let (mut best, mut strikes, mut caution, mut sharpen): (f64, usize, f64, f64) =
-            (f64::INFINITY, 0, CAUTION, 1.0);
+        state.response = self.convolve(operator, &state.cells, &state.shear);
+        let (mut best, mut stagnations, mut factor, mut tightening): (f64, usize, f64, f64) =
+            (f64::INFINITY, 0, COMPLIANCE_FACTOR, 1.0);
         loop {
             go_on(watch)?;
             state.find_rigid_displacement(self.compliance);
             let mut residual = state.residual(self.compliance) / task.scale;
-            if residual < sharpen * task.tolerance {
+            if residual < tightening * task.tolerance {
                 if state.project() {
-                    state.response = self.respond(operator, &state.cells, &state.shear);
+                    state.response = self.convolve(operator, &state.cells, &state.shear);
                     state.find_rigid_displacement(self.compliance);
                     residual = state.residual(self.compliance) / task.scale;
                 }
                 if residual < task.tolerance {
                     return Ok(state.into_answer(task.limit.raw_dim(), residual));
                 }
-                sharpen *= 0.3;
+                tightening *= TOLERANCE_REDUCTION;
             }
             if self.stats.convolutions as usize >= max_convolutions {
                 let (iterations, tolerance) = (self.stats.iterations, task.tolerance);
                 return Err(Error::NotConverged { iterations, residual, tolerance });
             }
-            if residual < 0.7 * best {
-                (best, strikes, caution) = (residual, 0, (0.5 * caution).max(CAUTION));
+            if residual < PROGRESS * best {
+                (best, stagnations) = (residual, 0);
+                factor = (COMPLIANCE_REDUCTION * factor).max(COMPLIANCE_FACTOR);
             } else {
-                (strikes, caution) = (strikes + 1, 2.0 * caution);
+                (stagnations, factor) = (stagnations + 1, COMPLIANCE_GROWTH * factor);
             }
-            if strikes > 4 {
-                self.descend(operator, &mut state);
-                (best, strikes, caution) = (2.0 * best, 0, CAUTION);
+            if stagnations > MAX_STAGNATIONS {
+                self.projected_gradient(operator, &mut state);
+                (best, stagnations, factor) = (BEST_AFTER_GRADIENT * best, 0, COMPLIANCE_FACTOR);
                 self.stats.restarts += 1;
                 continue;
             }
-            state.divide(caution * self.compliance);
-            self.lift(operator, &mut state);
-            self.conjugate_gradients(operator, &mut state, NEARLY * sharpen * task.tolerance * task.scale);
+            state.predict_freedoms(factor * self.compliance);
+            self.step_to_rims(operator, &mut state);
+            self.conjugate_gradients(
+                operator,
+                &mut state,
+                CG_TOLERANCE * tightening * task.tolerance * task.scale,
+            );
         }
     }
 
-    /// T q of the cells.
-    fn respond(
+    /// Computes the displacement T q of the cells under a shear on them, by one convolution.
+    fn convolve(
         &mut self,
         operator: &mut dyn CoupledOperator,
         cells: &[usize],
@@ -166,10 +191,10 @@ impl ShearSolver {
         cells.iter().map(|cell| [u[*cell], v[*cell]]).collect()
     }
 
-    /// Brings the cells that slip to the rims of their discs, in the direction of their slip; those that are free bear
-    /// what that leaves of the force.
-    fn lift(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
-        let mut lift: Vec<Vector> = state
+    /// Takes the cells predicted to slip to the rims of their discs, in the direction of their slip; under force control all
+    /// freedoms bear what that changes of the force.
+    fn step_to_rims(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
+        let mut direction: Vec<Vector> = state
             .cells()
             .map(|(freedom, q, limit)| match freedom {
                 Freedom::Stick => [0.0; 2],
@@ -180,54 +205,54 @@ impl ShearSolver {
             })
             .collect();
         if let Some(wanted) = state.wanted {
-            let sum = state.shear.iter().zip(&lift).fold([0.0; 2], |s, (q, d)| add(s, add(*q, *d)));
+            let sum = state.shear.iter().zip(&direction).fold([0.0; 2], |s, (q, d)| add(s, add(*q, *d)));
             let each = state.mobility().solve(minus(wanted, sum));
-            lift.iter_mut().zip(&state.freedom).for_each(|(d, f)| *d = add(*d, f.part(each)));
+            direction.iter_mut().zip(&state.freedom).for_each(|(d, f)| *d = add(*d, f.part(each)));
         }
-        if lift.iter().any(|d| *d != [0.0; 2]) {
-            let response = self.respond(operator, &state.cells, &lift);
-            state.advance(1.0, &lift, &response);
+        if direction.iter().any(|d| *d != [0.0; 2]) {
+            let response = self.convolve(operator, &state.cells, &direction);
+            state.advance(1.0, &direction, &response);
         }
     }
 
-    /// Preconditioned conjugate gradients on the freedoms of the division, to the largest residual `wanted` or until the
-    /// limits are violated more.
+    /// Preconditioned conjugate gradients on the predicted freedoms, to the largest residual `wanted` or until the limits are
+    /// violated more.
     fn conjugate_gradients(&mut self, operator: &mut dyn CoupledOperator, state: &mut State, wanted: f64) {
-        let free = state.freedom.iter().map(|f| !self.is_firm(f));
+        let free = state.freedom.iter().map(|f| !self.is_diagonal(f));
         let mut is_free = vec![false; self.single[0].len()];
         state.cells.iter().zip(free).for_each(|(cell, free)| is_free[*cell] = free);
         self.sets.free_where(is_free.into_iter());
         self.preconditioner.adapt(&self.sets);
 
-        let mut residual = state.equations();
+        let mut residual = state.newton_residual();
         let mut direction = vec![[0.0; 2]; residual.len()];
         let mut product_before = f64::INFINITY;
-        let size = |residual: &[Vector]| residual.iter().map(|r| dot(*r, *r)).sum::<f64>().sqrt();
-        let first = size(&residual);
+        let norm = |residual: &[Vector]| residual.iter().map(|r| dot(*r, *r)).sum::<f64>().sqrt();
+        let first = norm(&residual);
         for _ in 0..MAX_CG_STEPS {
-            let left = size(&residual);
+            let left = norm(&residual);
             let largest = residual.iter().map(|r| length(*r)).fold(0.0, f64::max);
             if largest < wanted
-                || left < REDUCTION * first
+                || left < CG_REDUCTION * first
                 || left < CG_EXIT * state.violation(self.compliance)
             {
                 break;
             }
             let z = self.precondition(state, &residual);
             let product: f64 = z.iter().zip(&residual).map(|(z, r)| dot(*z, *r)).sum();
-            let conjugate = product / product_before;
+            let beta = product / product_before;
             product_before = product;
-            direction.iter_mut().zip(&z).for_each(|(d, z)| *d = add(*z, times(conjugate, *d)));
-            let response = self.respond(operator, &state.cells, &direction);
-            let stiffness = |freedom: &Freedom, d: &Vector, response: &Vector| {
-                add(freedom.part(*response), times(freedom.hold(), *d))
+            direction.iter_mut().zip(&z).for_each(|(d, z)| *d = add(*z, times(beta, *d)));
+            let response = self.convolve(operator, &state.cells, &direction);
+            let newton_matrix = |freedom: &Freedom, d: &Vector, response: &Vector| {
+                add(freedom.part(*response), times(freedom.slip_compliance(), *d))
             };
             let applied: Vec<Vector> = state
                 .freedom
                 .iter()
                 .zip(&direction)
                 .zip(&response)
-                .map(|((freedom, d), response)| stiffness(freedom, d, response))
+                .map(|((freedom, d), response)| newton_matrix(freedom, d, response))
                 .collect();
             let curvature: f64 = direction.iter().zip(&applied).map(|(d, a)| dot(*d, *a)).sum();
             if !(curvature > 0.0 && product > 0.0) {
@@ -241,6 +266,8 @@ impl ShearSolver {
         }
     }
 
+    /// Computes the preconditioned residual: by the preconditioner of the normal problem along each axis, scaled on both sides
+    /// by the [`ShearSolver::weight`], and by the diagonal where that dominates.
     fn precondition(&mut self, state: &State, residual: &[Vector]) -> Vec<Vector> {
         let mut z = vec![[0.0; 2]; residual.len()];
         let [mut r, mut out] = std::mem::take(&mut self.single);
@@ -256,35 +283,36 @@ impl ShearSolver {
         }
         self.single = [r, out];
         for ((freedom, z), r) in state.freedom.iter().zip(&mut z).zip(residual) {
-            *z = match self.is_firm(freedom) {
+            *z = match self.is_diagonal(freedom) {
                 false => freedom.part(*z),
-                true => times(1.0 / (self.compliance + freedom.hold()), *r),
+                true => times(1.0 / (self.compliance + freedom.slip_compliance()), *r),
             };
         }
         state.balance(&mut z);
         z
     }
 
-    /// How much softer than its own compliance a held cell is, as a root.
+    /// The diagonal scaling of a cell that slips: the root of its own compliance over that with its slip compliance.
     fn weight(&self, freedom: &Freedom) -> f64 {
-        1.0 / (1.0 + freedom.hold() / self.compliance).sqrt()
+        1.0 / (1.0 + freedom.slip_compliance() / self.compliance).sqrt()
     }
 
-    fn is_firm(&self, freedom: &Freedom) -> bool {
-        freedom.hold() > FIRM * self.compliance
+    /// Whether the block of a cell in the Newton matrix is taken to be diagonal.
+    fn is_diagonal(&self, freedom: &Freedom) -> bool {
+        freedom.slip_compliance() > DIAGONAL_DOMINANCE * self.compliance
     }
 
-    /// One step that never fails: from the tractions in their discs, along the projected gradient, to the least energy.
-    fn descend(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
+    /// Projected gradient steps with an exact line search, from the tractions in their discs: the energy falls with each.
+    fn projected_gradient(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if state.project() {
-            state.response = self.respond(operator, &state.cells, &state.shear);
+            state.response = self.convolve(operator, &state.cells, &state.shear);
         }
-        for _ in 0..DESCENTS {
+        for _ in 0..GRADIENT_STEPS {
             state.find_rigid_displacement(self.compliance);
             let direction: Vec<Vector> = (0..state.shear.len())
                 .map(|k| minus(state.projected(k, self.compliance), state.shear[k]))
                 .collect();
-            let response = self.respond(operator, &state.cells, &direction);
+            let response = self.convolve(operator, &state.cells, &direction);
             let slope: f64 = (0..direction.len()).map(|k| dot(state.slip(k), direction[k])).sum();
             let curvature: f64 = direction.iter().zip(&response).map(|(d, t)| dot(*d, *t)).sum();
             if !(slope > 0.0 && curvature > 0.0) {

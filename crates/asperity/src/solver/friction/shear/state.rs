@@ -1,4 +1,4 @@
-//! The cells in contact and how they may move.
+//! The cells in contact, and the freedoms of their shear in a Newton step.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -8,20 +8,23 @@ use crate::solver::friction::disc::{
 use crate::solver::friction::shear::{Answer, Rigid, Task};
 use crate::units::{Metre, SquareMetre};
 
-/// Shear below this share of its limit is not on the rim.
-const INSIDE: f64 = 1.0 - 1e-12;
+/// Shear below this share of its limit is inside its disc, not on the rim.
+const INSIDE_RIM: f64 = 1.0 - 1e-12;
+/// Relative error of the sum of the shear that a projection may leave.
+const SUM_ACCURACY: f64 = 1e-12;
 
-/// How a cell may move.
+/// How the shear of a cell may change in a Newton step.
 #[derive(Clone, Copy)]
 pub(super) enum Freedom {
-    /// In both directions.
+    /// In both directions: the cell sticks.
     Stick,
-    /// Along the rim of its disc.
+    /// Along the rim of its disc: the cell slips.
     Slip {
-        /// Direction of the rim.
+        /// Unit vector along the rim.
         rim: Vector,
-        /// |s|/g > 0, m/Pa: how strongly the slip holds the direction of the shear.
-        hold: f64,
+        /// Slip over shear |s|/g > 0, m/Pa: the diagonal term of the Newton matrix that comes of the condition that the slip
+        /// points along the shear.
+        slip_compliance: f64,
     },
 }
 
@@ -34,33 +37,40 @@ impl Freedom {
         }
     }
 
+    /// The projector onto these directions.
     fn projector(&self) -> Symmetric {
         match self {
             Self::Stick => Symmetric::identity(1.0),
-            Self::Slip { rim, .. } => Symmetric::square(1.0, *rim),
+            Self::Slip { rim, .. } => Symmetric::outer_product(1.0, *rim),
         }
     }
 
-    pub(super) fn hold(&self) -> f64 {
+    /// The slip compliance of a cell that slips; 0 of one that sticks.
+    pub(super) fn slip_compliance(&self) -> f64 {
         match self {
             Self::Stick => 0.0,
-            Self::Slip { hold, .. } => *hold,
+            Self::Slip { slip_compliance, .. } => *slip_compliance,
         }
     }
 }
 
-/// The cells in contact, by number.
+/// The shear of the cells in contact, and their displacement.
 pub(super) struct State {
+    /// Flat indices of the cells.
     pub(super) cells: Vec<usize>,
+    /// The most shear g that each bears.
     limit: Vec<f64>,
+    /// The slip b without shear, but for the rigid-body displacement.
     free_slip: Vec<Vector>,
-    /// Σ q under force control.
+    /// The sum Σ q under force control.
     pub(super) wanted: Option<Vector>,
     /// Rigid-body displacement D.
     rigid: Vector,
+    /// The shear q of each cell.
     pub(super) shear: Vec<Vector>,
-    /// T q.
+    /// The displacement T q of the cells under their shear.
     pub(super) response: Vec<Vector>,
+    /// The predicted freedom of each cell.
     pub(super) freedom: Vec<Freedom>,
 }
 
@@ -97,42 +107,44 @@ impl State {
         })
     }
 
+    /// The freedom of each cell, its shear and its limit.
     pub(super) fn cells(&self) -> impl Iterator<Item = (&Freedom, Vector, f64)> {
         self.freedom.iter().zip(&self.shear).zip(&self.limit).map(|((f, q), g)| (f, *q, *g))
     }
 
-    /// s = D + b − T q.
+    /// The slip s = D + b − T q of a cell.
     pub(super) fn slip(&self, k: usize) -> Vector {
         minus(add(self.rigid, self.free_slip[k]), self.response[k])
     }
 
-    /// q + s/c.
-    fn predicted(&self, k: usize, compliance: f64) -> Vector {
+    /// The proposed shear q + s/c of a cell, in or outside its disc.
+    fn proposed(&self, k: usize, compliance: f64) -> Vector {
         add(self.shear[k], times(1.0 / compliance, self.slip(k)))
     }
 
+    /// The proposed shear of a cell, projected onto its disc.
     pub(super) fn projected(&self, k: usize, compliance: f64) -> Vector {
-        onto_disc(self.predicted(k, compliance), self.limit[k])
+        onto_disc(self.proposed(k, compliance), self.limit[k])
     }
 
-    /// Under force control: the D at which the projections bear the force.
+    /// Under force control, sets the rigid-body displacement D to that at which the projected shear bears the force.
     pub(super) fn find_rigid_displacement(&mut self, compliance: f64) {
         let Some(wanted) = self.wanted else { return };
         let start = times(1.0 / compliance, self.rigid);
         self.rigid = [0.0; 2];
-        let cells = || (0..self.cells.len()).map(|k| (self.predicted(k, compliance), self.limit[k]));
+        let cells = || (0..self.cells.len()).map(|k| (self.proposed(k, compliance), self.limit[k]));
         let offset = offset_for_sum(cells, wanted, start);
         self.rigid = times(compliance, offset);
     }
 
-    /// max|φ|.
+    /// The complementarity residual max|φ|, φ = c (q − P(q + s/c)), of the cells.
     pub(super) fn residual(&self, compliance: f64) -> Metre {
         let phi = |k| compliance * length(minus(self.shear[k], self.projected(k, compliance)));
         // What is not a number is no answer, though a maximum would pass over it.
         (0..self.cells.len()).map(phi).fold(0.0, |m, phi| if phi > m || phi.is_nan() { phi } else { m })
     }
 
-    /// Brings the tractions into their discs; whether any had to move.
+    /// Projects the tractions onto their discs, and under force control onto the force. Returns whether any has changed.
     pub(super) fn project(&mut self) -> bool {
         let mut moved = false;
         for (q, limit) in self.shear.iter_mut().zip(&self.limit) {
@@ -141,13 +153,14 @@ impl State {
             *q = inside;
         }
         if let Some(wanted) = self.wanted {
-            // What the rims have taken away the cells within bear: those on them stay there.
-            let within: Vec<usize> =
-                (0..self.shear.len()).filter(|k| length(self.shear[*k]) < INSIDE * self.limit[*k]).collect();
+            // The cells inside their rims bear the difference; those on them stay there.
+            let within: Vec<usize> = (0..self.shear.len())
+                .filter(|k| length(self.shear[*k]) < INSIDE_RIM * self.limit[*k])
+                .collect();
             let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
             let missing = minus(wanted, sum);
             let size = self.shear.iter().map(|q| length(*q)).sum::<f64>();
-            if length(missing) > 1e-12 * size {
+            if length(missing) > SUM_ACCURACY * size {
                 let theirs = within.iter().fold(missing, |sum, k| add(sum, self.shear[*k]));
                 let cells = || within.iter().map(|k| (self.shear[*k], self.limit[*k]));
                 let offset = offset_for_sum(cells, theirs, [0.0; 2]);
@@ -160,41 +173,41 @@ impl State {
         moved
     }
 
-    /// Which cells stick and which slip, as one step of the diagonal tells.
-    pub(super) fn divide(&mut self, compliance: f64) {
+    /// Predicts which cells stick and which slip, from one diagonal Newton step with this compliance.
+    pub(super) fn predict_freedoms(&mut self, compliance: f64) {
         for k in 0..self.cells.len() {
-            let y = self.predicted(k, compliance);
+            let y = self.proposed(k, compliance);
             let (length, limit) = (length(y), self.limit[k]);
             self.freedom[k] = if length <= limit {
                 Freedom::Stick
             } else {
                 Freedom::Slip {
                     rim: [-y[1] / length, y[0] / length],
-                    hold: compliance * (length / limit - 1.0),
+                    slip_compliance: compliance * (length / limit - 1.0),
                 }
             };
         }
     }
 
-    /// What is left of the equations of the freedoms, but for the rigid displacement under force control.
-    pub(super) fn equations(&self) -> Vec<Vector> {
+    /// The residual of the Newton equations along the freedoms, under force control without its net force.
+    pub(super) fn newton_residual(&self) -> Vec<Vector> {
         let mut left: Vec<Vector> = (0..self.cells.len())
             .map(|k| {
                 let freedom = &self.freedom[k];
-                let held = times(freedom.hold(), self.shear[k]);
-                freedom.part(minus(self.slip(k), held))
+                let along_shear = times(freedom.slip_compliance(), self.shear[k]);
+                freedom.part(minus(self.slip(k), along_shear))
             })
             .collect();
         self.balance(&mut left);
         left
     }
 
-    /// Σ of the freedoms' projectors.
+    /// The sum of the projectors of all freedoms: the shear sum per unit vector added to all cells.
     pub(super) fn mobility(&self) -> Symmetric {
         self.freedom.iter().fold(Symmetric::default(), |sum, f| sum.and(f.projector()))
     }
 
-    /// Under force control: takes out of `values`, which obey the freedoms, what would change the force.
+    /// Under force control, projects `values` along the freedoms onto those that leave the force as it is.
     pub(super) fn balance(&self, values: &mut [Vector]) {
         if self.wanted.is_some() {
             let sum = values.iter().fold([0.0; 2], |sum, v| add(sum, *v));
@@ -203,7 +216,7 @@ impl State {
         }
     }
 
-    /// Root of the sum of squares of what sticking cells bear beyond their limit, as a displacement.
+    /// Norm of the violation of the limits: of what sticking cells bear beyond theirs, as a displacement.
     pub(super) fn violation(&self, compliance: f64) -> Metre {
         let beyond = self.cells().map(|(freedom, q, limit)| match freedom {
             Freedom::Stick => (length(q) - limit).max(0.0),
@@ -212,6 +225,7 @@ impl State {
         compliance * beyond.map(|b| b * b).sum::<f64>().sqrt()
     }
 
+    /// Moves by `step` times a direction, whose displacement is `response`.
     pub(super) fn advance(&mut self, step: f64, direction: &[Vector], response: &[Vector]) {
         self.shear.iter_mut().zip(direction).for_each(|(q, d)| *q = add(*q, times(step, *d)));
         self.response.iter_mut().zip(response).for_each(|(t, r)| *t = add(*t, times(step, *r)));
