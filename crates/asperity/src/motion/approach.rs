@@ -21,6 +21,9 @@ const UNCERTAINTY: f64 = 0.1;
 /// Trials to the wanted residual that come as near to the load as that can tell, and not within the tolerance, after which the
 /// next of them is taken: on which side of the load they are is not known, and no bracket closes.
 const MAX_UNCERTAIN_TRIALS: usize = 8;
+/// Trials one after the other that do not halve the least error of the load, after which the bracket is halved instead: the
+/// secant is that of a jump.
+const MAX_STALLED_TRIALS: usize = 3;
 /// Relative error of the load after a secant step, in products of the errors of the two trials before it.
 const SECANT_ERROR: f64 = 4.0;
 
@@ -74,9 +77,10 @@ impl Search {
         let Guess { mut approach, mut slope } = first;
         approach = approach.min(self.limit.approach);
         let (mut was_rough, mut rough_misled) = (false, false);
-        let (mut low, mut high) = (self.touch, f64::INFINITY);
+        let mut bracket = Bracket::beyond(self.touch);
         let mut before: Option<(Metre, f64)> = None;
         let (mut excess_before, mut below, mut uncertain) = (1.0, 0.0f64, 0);
+        let (mut least_excess, mut stalled) = (f64::INFINITY, 0);
         for trials in 1..=MAX_TRIALS {
             let (load, outcome) = trial(approach, residual)?;
             let excess = load / self.load - 1.0;
@@ -85,14 +89,23 @@ impl Search {
             }
             let at_limit = approach >= self.limit.approach && excess < 0.0;
             let is_rough = residual > self.residual;
-            if std::mem::replace(&mut was_rough, is_rough) && !is_rough && excess.abs() > MAX_RESIDUAL {
-                // The rough answers before it promised that this one meets the load: from here on without them.
-                (rough_misled, low, high, before, below) = (true, self.touch, f64::INFINITY, None, 0.0);
+            if std::mem::replace(&mut was_rough, is_rough) != is_rough {
+                (least_excess, stalled) = (f64::INFINITY, 0);
+                if !is_rough && excess.abs() > MAX_RESIDUAL {
+                    // The rough answers before it promised that this one meets the load: from here on without them.
+                    (rough_misled, before, below) = (true, None, 0.0);
+                    (bracket, slope) = (Bracket::beyond(self.touch), first.slope);
+                }
             }
-            let exhausted = high.is_finite()
-                && high - low
-                    <= BRACKET_ROUNDING * self.resolution.max(f64::EPSILON * low.abs().max(high.abs()));
             let tells_no_side = excess.abs() <= UNCERTAINTY * residual;
+            if !tells_no_side && excess.abs() > self.tolerance {
+                let refuted = bracket.narrow(Bound { approach, residual }, excess < 0.0);
+                if refuted {
+                    // A rougher answer told the wrong side of the load: from here on without them.
+                    (rough_misled, slope, least_excess) = (true, first.slope, f64::INFINITY);
+                }
+            }
+            let exhausted = bracket.is_exhausted(self.resolution);
             uncertain += usize::from(tells_no_side && !is_rough);
             let as_near_as_it_gets = tells_no_side && uncertain > MAX_UNCERTAIN_TRIALS;
             if excess.abs() <= self.tolerance || exhausted || at_limit || as_near_as_it_gets {
@@ -100,47 +113,44 @@ impl Search {
                     residual = self.residual;
                     continue;
                 }
-                if exhausted && !rough_misled && excess.abs() > self.tolerance {
-                    // Rough answers may have closed the bracket on the wrong side of the load: once more without them.
-                    (rough_misled, low, high, before, below) = (true, self.touch, f64::INFINITY, None, 0.0);
-                    continue;
-                }
                 if at_limit && -excess > self.tolerance {
                     let Limit { approach, cause } = self.limit;
                     return Err(Error::BeyondPass { load: self.load, most: load, approach, cause });
                 }
                 if excess.abs() > self.tolerance.max(MAX_LOAD_ERROR * self.residual) {
+                    if let Some(bound) = bracket.bound_rougher_than(self.residual) {
+                        approach = bound.approach;
+                        continue;
+                    }
                     return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
+                // The slope of a jump, on which a bracket closes, leads nowhere.
+                let slope = if exhausted { first.slope } else { slope };
                 return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
-            }
-            if !tells_no_side {
-                if excess < 0.0 {
-                    low = low.max(approach);
-                } else {
-                    high = high.min(approach);
-                }
             }
             let logarithm = (load / self.load).ln();
             if let Some((other, value)) = before {
-                let secant = (logarithm - value) / (approach - other);
-                if secant.is_finite() && secant > 0.0 {
+                let change = logarithm - value;
+                let secant = change / (approach - other);
+                // The slope of a change that no residual tells is noise.
+                if secant.is_finite() && secant > 0.0 && change.abs() > UNCERTAINTY * self.residual {
                     slope = secant;
                 }
             }
             if logarithm.is_finite() {
                 before = Some((approach, logarithm));
             }
+            stalled = if excess.abs() < 0.5 * least_excess { 0 } else { stalled + 1 };
+            least_excess = least_excess.min(excess.abs());
+            let wanted = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
             let newton = approach - logarithm / slope;
-            approach = if low < newton && newton < high && newton.is_finite() {
-                newton
-            } else if high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                approach + 1.0 / slope
+            (approach, residual) = match bracket.bound_passed(newton) {
+                None if stalled < MAX_STALLED_TRIALS || bracket.middle().is_none() => (newton, wanted),
+                // A rougher trial than this one may have set the bound on the wrong side of the load.
+                Some(bound) if bound.residual > residual => (bound.approach, wanted.min(residual)),
+                _ => (bracket.middle().unwrap_or(approach + 1.0 / slope), wanted),
             };
             approach = approach.min(self.limit.approach);
-            residual = if rough_misled { self.residual } else { self.residual_for(excess, excess_before) };
             excess_before = excess;
         }
         Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
@@ -155,6 +165,73 @@ impl Search {
             return self.residual;
         }
         excess.abs().clamp(self.residual, MAX_RESIDUAL.max(self.residual))
+    }
+}
+
+/// The approaches between which the load is met, as far as trials tell.
+struct Bracket {
+    touch: Bound,
+    low: Bound,
+    high: Bound,
+}
+
+/// An end of a bracket.
+#[derive(Clone, Copy)]
+struct Bound {
+    approach: Metre,
+    /// The residual η of the trial that missed the load there; 0 where none is needed to know.
+    residual: f64,
+}
+
+impl Bracket {
+    const OPEN: Bound = Bound { approach: f64::INFINITY, residual: 0.0 };
+
+    /// All approaches beyond the first touch.
+    fn beyond(touch: Metre) -> Self {
+        let touch = Bound { approach: touch, residual: 0.0 };
+        Self { touch, low: touch, high: Self::OPEN }
+    }
+
+    /// Takes a trial as a bound, `below` the load wanted or above it; whether it refutes the bound of a rougher one.
+    fn narrow(&mut self, bound: Bound, below: bool) -> bool {
+        let refuted;
+        if below {
+            refuted = bound.approach >= self.high.approach;
+            *self = Self { low: bound, high: if refuted { Self::OPEN } else { self.high }, ..*self };
+        } else {
+            refuted = bound.approach <= self.low.approach;
+            *self = Self { low: if refuted { self.touch } else { self.low }, high: bound, ..*self };
+        }
+        refuted
+    }
+
+    /// The bound at or beyond which an approach lies; the upper one of what is no number.
+    fn bound_passed(&self, approach: Metre) -> Option<Bound> {
+        if approach <= self.low.approach {
+            Some(self.low)
+        } else if approach < self.high.approach {
+            None
+        } else {
+            Some(self.high)
+        }
+    }
+
+    /// The approach half-way between two bounds.
+    fn middle(&self) -> Option<Metre> {
+        let middle = 0.5 * (self.low.approach + self.high.approach);
+        middle.is_finite().then_some(middle)
+    }
+
+    /// A bound set by a trial to a residual above this.
+    fn bound_rougher_than(&self, residual: f64) -> Option<Bound> {
+        [self.low, self.high].into_iter().find(|bound| bound.residual > residual)
+    }
+
+    /// Whether it holds no more approaches to try, where these do not differ below the `resolution`.
+    fn is_exhausted(&self, resolution: Metre) -> bool {
+        let [low, high] = [self.low.approach, self.high.approach];
+        let rounding = resolution.max(f64::EPSILON * low.abs().max(high.abs()));
+        high.is_finite() && high - low <= BRACKET_ROUNDING * rounding
     }
 }
 
@@ -228,6 +305,27 @@ mod tests {
         let trial = |delta: f64, eta: f64| Ok((if eta > 1e-6 { rough(delta) } else { delta }, ()));
         let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, MAX_RESIDUAL, trial).unwrap();
         assert!((found.guess.approach - 2.0).abs() < 1e-5, "{:?}", found.guess);
+    }
+
+    #[test]
+    fn a_rough_answer_on_the_wrong_side_of_the_load_closes_no_bracket() {
+        // A rough trial before it bears 1 % less than there is, and stands below the load: it is at 2.
+        let trial = |delta: f64, eta: f64| {
+            let short = if eta > 1e-6 && delta > 2.0 { 0.01 } else { 0.0 };
+            Ok((delta * (1.0 - short), ()))
+        };
+        let found = search(1e-4).run(Guess { approach: 2.016, slope: 0.5 }, 1e-2, trial).unwrap();
+        assert!((found.guess.approach - 2.0).abs() < 3e-4, "{:?}", found.guess);
+        assert!(found.trials < 10, "{} trials", found.trials);
+    }
+
+    #[test]
+    fn a_bracket_that_closes_on_a_jump_hands_on_no_slope_of_it() {
+        // It jumps at 2 to the load wanted, within what is accepted of an exhausted bracket.
+        let curve = |delta: f64| if delta < 2.0 { 0.9 * delta } else { delta + 1e-4 };
+        let first = Guess { approach: 1.9, slope: 0.5 };
+        let found = search(1e-9).run(first, 1e-6, |delta, _| Ok((curve(delta), ()))).unwrap();
+        assert_eq!(found.guess.slope, first.slope, "{:?}", found.guess);
     }
 
     #[test]

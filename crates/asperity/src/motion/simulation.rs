@@ -211,24 +211,30 @@ impl Simulation {
             resolution: self.resolution(),
             limit: self.limit(),
         };
+        let mut closed = false;
         let found = search.run(guess, residual, |approach, residual| {
             let control = Control::Approach(approach);
             let outcome = solver.solve_roughly(&self.pair, control, (residual, &self.params), &earlier)?;
             solver.progress.trial += 1;
+            closed |= outcome.contacts.iter().any(|contact| self.leaves_mean_free(contact));
             earlier.insert(0, outcome.contacts.clone());
             earlier.truncate(2);
             Ok((outcome.mean_load(), outcome))
         });
         let found = found.map_err(|error| match error {
-            // A load that jumps: where a position comes into full contact with the pressure below the hardness.
-            Error::LoadNotReached { load, below: most, approach, .. }
-                if self.boundary == Boundary::PERIODIC =>
-            {
+            // A load that jumps where a position comes into full contact with the pressure below the hardness.
+            Error::LoadNotReached { load, below: most, approach, .. } if most > 0.0 && closed => {
                 Error::BeyondPass { load, most, approach, cause: LoadLimit::FullContact }
             }
             other => other,
         })?;
         Ok((found.outcome, Some(found.guess), found.trials))
+    }
+
+    /// Whether the pressure of a contact determines no approach: all cells touch elastically, and their mean displacement is free.
+    fn leaves_mean_free(&self, contact: &Contact) -> bool {
+        let cells = self.pair.grid(contact.position.columns).cells();
+        self.boundary.leaves_mean_free() && contact.pressure.len() == cells && contact.plastic.is_empty()
     }
 
     /// The position with the most columns, at two loads near its share of the pass-mean load.
