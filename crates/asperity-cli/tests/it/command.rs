@@ -8,6 +8,8 @@ use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::support::{change, ok, refused, stderr};
+
 #[test]
 fn every_command_has_help_with_an_exit_code() {
     let help = ok(&run(Path::new("."), "--help"));
@@ -395,7 +397,7 @@ fn check_counts_the_positions_and_weighs_the_load() {
     {
         assert!(page.contains(part), "{part}: {page}");
     }
-    change(folder.path(), "p/case.toml", "load = \"0.2 N\"", "load = \"21 N\"");
+    change(&folder.path().join("p/case.toml"), "load = \"0.2 N\"", "load = \"21 N\"");
     let output = run(folder.path(), "check p/case.toml");
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("exceeds the plastic limit"), "{}", stderr(&output));
@@ -406,8 +408,8 @@ fn check_counts_the_positions_and_weighs_the_load() {
 fn check_warns_of_a_coarse_mesh_of_steep_and_of_soft_surfaces() {
     let folder = folder();
     ok(&run(folder.path(), "example paper --out p"));
-    change(folder.path(), "p/case.toml", "cutoff = \"12 um\"", "cutoff = \"3 um\"");
-    change(folder.path(), "p/case.toml", "sq = \"55 nm\"", "sq = \"1 um\"");
+    change(&folder.path().join("p/case.toml"), "cutoff = \"12 um\"", "cutoff = \"3 um\"");
+    change(&folder.path().join("p/case.toml"), "sq = \"55 nm\"", "sq = \"1 um\"");
     let output = run(folder.path(), "check p/case.toml");
     ok(&output);
     for part in ["warning: the mesh is coarse for the lower", "steep", "most of the contact will be plastic"]
@@ -421,7 +423,7 @@ fn check_tells_what_friction_will_take_and_what_it_cannot_hold() {
     let folder = folder();
     ok(&run(folder.path(), "example friction --out f"));
     let check = |from: &str, to: &str| {
-        change(folder.path(), "f/case.toml", from, to);
+        change(&folder.path().join("f/case.toml"), from, to);
         run(folder.path(), "check f/case.toml")
     };
     let said = |output: &Output, parts: &[&str]| {
@@ -468,7 +470,7 @@ fn check_tells_what_friction_will_take_and_what_it_cannot_hold() {
 fn a_mistake_is_shown_at_its_line_with_a_hint() {
     let folder = folder();
     ok(&run(folder.path(), "example quickstart --out q"));
-    change(folder.path(), "q/case.toml", "hardness = \"2.8 GPa\"", "hardness = \"2.8 GPb\"");
+    change(&folder.path().join("q/case.toml"), "hardness = \"2.8 GPa\"", "hardness = \"2.8 GPb\"");
     let error = refused(&run(folder.path(), "check q/case.toml"));
     assert!(error.starts_with("error: unknown unit 'GPb' in 'hardness'"), "{error}");
     assert!(error.contains("q/case.toml:15:12") && error.contains("hint: did you mean `GPa`?"), "{error}");
@@ -479,18 +481,18 @@ fn surfaces_that_do_not_fit_are_told_how_to() {
     let folder = folder();
     let at = |arguments: &str| run(folder.path(), arguments);
     ok(&at("example measured --out m"));
-    change(folder.path(), "m/case.toml", "pitch = \"1 um\"", "pitch = \"0.5 um\"");
+    change(&folder.path().join("m/case.toml"), "pitch = \"1 um\"", "pitch = \"0.5 um\"");
     let error = refused(&at("check m/case.toml"));
     assert!(error.contains("different pitches: lower 1 µm × 1 µm, upper 0.5 µm × 0.5 µm"), "{error}");
     assert!(error.contains("hint: set `pitch = \"1 um\"` in [upper.topography]"), "{error}");
     assert!(error.contains("m/case.toml:27"), "{error}");
 
-    change(folder.path(), "m/case.toml", "pitch = \"0.5 um\"", "pitch = \"1 um\"");
-    change(folder.path(), "m/case.toml", "shape = [64, 128]", "shape = [64, 100]");
+    change(&folder.path().join("m/case.toml"), "pitch = \"0.5 um\"", "pitch = \"1 um\"");
+    change(&folder.path().join("m/case.toml"), "shape = [64, 128]", "shape = [64, 100]");
     let error = refused(&at("check m/case.toml"));
     assert!(error.contains("numbers of cells along y: lower 96 × 128, upper 64 × 100"), "{error}");
     assert!(error.contains("hint: set `window = [0, 0, 96, 100]` in [lower.topography]"), "{error}");
-    change(folder.path(), "m/case.toml", "window = [0, 0, 96, 128]", "window = [0, 0, 96, 100]");
+    change(&folder.path().join("m/case.toml"), "window = [0, 0, 96, 128]", "window = [0, 0, 96, 100]");
     ok(&at("check m/case.toml"));
 
     // Two files over one extent: as many cells as the other has.
@@ -510,8 +512,7 @@ fn a_static_contact_needs_one_length_too() {
     let folder = folder();
     ok(&run(folder.path(), "example hertz --out h"));
     change(
-        folder.path(),
-        "h/case.toml",
+        &folder.path().join("h/case.toml"),
         "form = \"flat\"\nshape = [128, 128]",
         "form = \"flat\"\nshape = [130, 128]",
     );
@@ -609,27 +610,4 @@ fn folder() -> TempDir {
 fn run(folder: &Path, arguments: &str) -> Output {
     let mut command = Command::cargo_bin("asperity").unwrap();
     command.current_dir(folder).args(arguments.split_whitespace()).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// What is on stdout after success.
-fn ok(output: &Output) -> String {
-    assert!(output.status.success(), "{}", stderr(output));
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-/// What is on stderr after exit code 2.
-fn refused(output: &Output) -> String {
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
-    stderr(output)
-}
-
-fn change(folder: &Path, file: &str, from: &str, to: &str) {
-    let path = folder.join(file);
-    let text = fs::read_to_string(&path).unwrap();
-    assert!(text.contains(from), "{from}");
-    fs::write(path, text.replace(from, to)).unwrap();
 }

@@ -6,12 +6,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use asperity::io::fields::Fields;
 use asperity::study::{self, Case, Existing};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+
+use crate::support::files;
 
 /// An example, changed.
 struct Variant {
@@ -226,8 +228,8 @@ fn computed(variant: &Variant, example: &Path) -> SeriesByName {
 /// All numbers of the results in a folder, but for times and residuals, which are noise, and warm starts.
 fn numbers(folder: &Path) -> SeriesByName {
     let mut series = SeriesByName::new();
-    for path in files(folder) {
-        let name = path.strip_prefix(folder).unwrap().display().to_string();
+    for name in files(folder) {
+        let path = folder.join(&name);
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("csv") => add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series),
             Some("h5") if !name.contains("warm-start") => add_fields(&name, &path, &mut series),
@@ -241,12 +243,6 @@ fn numbers(folder: &Path) -> SeriesByName {
     }
     series.retain(|name, _| !name.ends_with("wall_time_s") && !name.ends_with("residual"));
     series
-}
-
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    paths.into_iter().flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
 fn add_table(name: &str, text: &str, series: &mut SeriesByName) {

@@ -6,3 +6,4 @@ mod documents;
 mod run;
 #[cfg(unix)]
 mod survival;
+mod support;

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use asperity::io::fields::{Fields, StoredField};
@@ -16,6 +16,8 @@ use asperity::study::{Results, pressure_name, traction_name};
 use asperity::surface::ReadOptions;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+
+use crate::support::{asperity, change, files, ok, refused, send, spawn, stderr, wait_for};
 
 // ---- what a run leaves -----------------------------------------------------------------------------------
 
@@ -591,9 +593,9 @@ fn dissimilar_bodies_slide_alike_on_any_number_of_threads_and_after_a_break() {
     for name in ["steps.csv", "fields/pass-0002.h5", "figures/friction.png"] {
         assert!(bytes(&format!("one/{name}")) == bytes(&format!("two/{name}")), "{name} differs");
     }
-    change(&folder, "passes = 2", "passes = 1");
+    change(&folder.path().join("case.toml"), "passes = 2", "passes = 1");
     ok(&run(&folder, "case.toml --out parts"));
-    change(&folder, "passes = 1", "passes = 2");
+    change(&folder.path().join("case.toml"), "passes = 1", "passes = 2");
     ok(&run(&folder, "case.toml --out parts --resume"));
     assert_same_passes(&folder.path().join("parts"), &folder.path().join("one"));
 }
@@ -745,9 +747,9 @@ fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
 fn more_passes_are_appended_to_finished_ones() {
     let folder = folder_with("case.toml", &moving(3, 4));
     ok(&run(&folder, "case.toml --out whole"));
-    change(&folder, "passes = 3", "passes = 1");
+    change(&folder.path().join("case.toml"), "passes = 3", "passes = 1");
     ok(&run(&folder, "case.toml --out parts"));
-    change(&folder, "passes = 1", "passes = 3");
+    change(&folder.path().join("case.toml"), "passes = 1", "passes = 3");
     let table = ok(&run(&folder, "case.toml --out parts --resume"));
     assert_eq!(table.lines().count(), 7, "{table}");
     assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
@@ -772,11 +774,11 @@ fn every_motion_goes_on_with_the_same_bits() {
             moving(3, 4).replace("20 mN", "10 mN").replace("stride = 4", &format!("stride = 4, {keys}"));
         let folder = folder_with("case.toml", &(case + tables));
         ok(&run(&folder, "case.toml --out whole"));
-        change(&folder, "passes = 3", "passes = 1");
+        change(&folder.path().join("case.toml"), "passes = 3", "passes = 1");
         ok(&run(&folder, "case.toml --out parts"));
-        change(&folder, "passes = 1", "passes = 2");
+        change(&folder.path().join("case.toml"), "passes = 1", "passes = 2");
         ok(&run(&folder, "case.toml --out parts --resume"));
-        change(&folder, "passes = 2", "passes = 3");
+        change(&folder.path().join("case.toml"), "passes = 2", "passes = 3");
         ok(&run(&folder, "case.toml --out parts --resume --threads 1"));
         assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
     }
@@ -855,16 +857,16 @@ fn the_fields_of_results_are_topographies() {
 fn a_motion_without_what_its_next_pass_begins_with_is_not_resumed() {
     let folder = folder_with("case.toml", &moving(1, 8));
     ok(&run(&folder, "case.toml --out out"));
-    change(&folder, "20 mN", "21 mN");
+    change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     ok(&run(&folder, "case.toml --out other"));
-    change(&folder, "21 mN", "20 mN");
+    change(&folder.path().join("case.toml"), "21 mN", "20 mN");
     let name = "fields/warm-start-0001.h5";
     let [path, other] = ["out", "other"].map(|results| folder.path().join(results).join(name));
     let whole = fs::read(&path).unwrap();
     // Nothing is left to do: what is not needed is not missed.
     fs::remove_file(&path).unwrap();
     ok(&run(&folder, "case.toml --out out --resume"));
-    change(&folder, "passes = 1", "passes = 2");
+    change(&folder.path().join("case.toml"), "passes = 1", "passes = 2");
     let refused_for = |defect: &str| {
         let error = refused(&run(&folder, "case.toml --out out --resume"));
         assert!(error.starts_with(&format!("error: out/{name}{defect}\n")), "{error}");
@@ -883,7 +885,7 @@ fn the_results_of_another_case_are_not_resumed() {
     let folder = folder_with("case.toml", &moving(1, 8));
     ok(&run(&folder, "case.toml --out out"));
     let before = files(&folder.path().join("out"));
-    change(&folder, "20 mN", "21 mN");
+    change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     let error = refused(&run(&folder, "case.toml --out out --resume"));
     assert!(error.starts_with("error: out holds the results of another case"), "{error}");
     assert!(error.contains("hint: "), "{error}");
@@ -936,7 +938,7 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
 fn stopped_and_resumed(signal: &str, code: Option<i32>) {
     let folder = folder_with("case.toml", &moving(100_000, 4));
     let out = folder.path().join("out");
-    let mut child = spawn(&folder, "case.toml --out out");
+    let mut child = spawn(&folder, "run case.toml --out out");
     wait_for(&mut child, &out.join("passes.csv"));
     send(signal, &child);
     let output = child.wait_with_output().unwrap();
@@ -945,7 +947,8 @@ fn stopped_and_resumed(signal: &str, code: Option<i32>) {
         // A row for each pass that is there.
         let rows = table_of(&out.join("passes.csv"), &PASS_COLUMNS).len();
         assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 4 + rows);
-        assert!(stderr(&output).ends_with("error: interrupted\nhint: continue with `--resume`\n"));
+        let told = stderr(&output);
+        assert!(told.ends_with("error: interrupted\nhint: continue with `--resume`\n"), "{told}");
     }
     assert!(!out.join("summary.json").exists() && !out.join("figures").exists());
 
@@ -966,7 +969,7 @@ fn stopped_and_resumed(signal: &str, code: Option<i32>) {
         .unwrap();
     fs::write(out.join("fields/.asperity-half"), "half").unwrap();
 
-    change(&folder, "passes = 100000", &format!("passes = {}", done + 2));
+    change(&folder.path().join("case.toml"), "passes = 100000", &format!("passes = {}", done + 2));
     ok(&run(&folder, "case.toml --out out --resume"));
     ok(&run(&folder, "case.toml --out whole"));
     assert_same_passes(&out, &folder.path().join("whole"));
@@ -981,7 +984,7 @@ fn a_static_contact_is_interrupted_at_once() {
         "load = \"20 mN\"\nmethod = \"polonsky-keer\"\ntolerance = 1e-15\nboundary = \"free\"",
     );
     let folder = folder_with("ball.toml", &slow);
-    let mut child = spawn(&folder, "ball.toml --out out");
+    let mut child = spawn(&folder, "run ball.toml --out out");
     wait_for(&mut child, &folder.path().join("out/.lock"));
     std::thread::sleep(Duration::from_millis(100));
     let began = Instant::now();
@@ -1095,87 +1098,12 @@ fn run(folder: &TempDir, arguments: &str) -> Output {
     asperity(folder, &format!("run {arguments}"))
 }
 
-fn asperity(folder: &TempDir, arguments: &str) -> Output {
-    command(folder, arguments).output().unwrap()
-}
-
-fn spawn(folder: &TempDir, arguments: &str) -> Child {
-    command(folder, &format!("run {arguments}"))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
-
-fn command(folder: &TempDir, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.current_dir(folder).args(arguments.split_whitespace());
-    command
-}
-
-/// Waits until a running process has written `file`.
-fn wait_for(child: &mut Child, file: &Path) {
-    let began = Instant::now();
-    while !file.exists() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote {}", file.display());
-        if began.elapsed() > Duration::from_secs(120) {
-            child.kill().unwrap();
-            panic!("{} is not there after two minutes", file.display());
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().unwrap();
-    assert!(sent.success());
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// What is on stdout after success.
-#[track_caller]
-fn ok(output: &Output) -> String {
-    assert!(output.status.success(), "{}", stderr(output));
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-/// What is on stderr after exit code 2, with nothing on stdout.
-#[track_caller]
-fn refused(output: &Output) -> String {
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
-    assert!(output.stdout.is_empty());
-    stderr(output)
-}
-
 /// Whether a message is the one promised, in which … stands for a number that is nothing but rounding.
 fn as_promised(promised: &str, message: &str) -> bool {
     match promised.split_once('…') {
         Some((before, after)) => message.starts_with(before) && message.ends_with(after),
         None => message == promised,
     }
-}
-
-fn change(folder: &TempDir, from: &str, to: &str) {
-    let path = folder.path().join("case.toml");
-    let text = fs::read_to_string(&path).unwrap();
-    assert!(text.contains(from), "{from}");
-    fs::write(path, text.replace(from, to)).unwrap();
-}
-
-/// Paths of all files beneath, relative to `folder`.
-fn files(folder: &Path) -> BTreeSet<String> {
-    fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() { visit(&path, found) } else { found.push(path) }
-        }
-    }
-    let mut found = Vec::new();
-    visit(folder, &mut found);
-    found.iter().map(|path| path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned()).collect()
 }
 
 fn summary(directory: &Path) -> Value {

@@ -3,12 +3,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
+
+use crate::support::{asperity, change, files, ok, refused, send, spawn, stderr, wait_for};
 
 // ---- directories -----------------------------------------------------------------------------------------
 
@@ -90,7 +92,7 @@ fn a_second_run_in_one_directory_is_refused_as_long_as_the_first_lives() {
     assert!(first.try_wait().unwrap().is_none(), "the first goes on");
     first.kill().unwrap();
     first.wait().unwrap();
-    change(&folder, "passes = 100000", "passes = 1");
+    change(&folder.path().join("case.toml"), "passes = 100000", "passes = 1");
     ok(&asperity(&folder, "run case.toml --out out --resume"));
 }
 
@@ -128,11 +130,11 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
     };
     surface(1);
     let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
-    change(&folder, generate, "file = \"a.npy\", pitch = \"1 um\"");
+    change(&folder.path().join("case.toml"), generate, "file = \"a.npy\", pitch = \"1 um\"");
     ok(&asperity(&folder, "run case.toml --out out"));
-    change(&folder, "20 mN", "21 mN");
+    change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     ok(&asperity(&folder, "run case.toml --out other"));
-    change(&folder, "21 mN", "20 mN");
+    change(&folder.path().join("case.toml"), "21 mN", "20 mN");
     let whole = contents(&path("out"));
     let restore = || {
         for (name, bytes) in &whole {
@@ -178,12 +180,12 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
         rows.lines().enumerate().filter(|(n, _)| *n != 1).map(|(_, row)| row).collect();
     fs::write(path("out/passes.csv"), without_first.join("\n") + "\n").unwrap();
     refused_for("passes.csv does not number its passes");
-    change(&folder, "20 mN", "21 mN");
+    change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     refused_for("out holds the results of another case: 'contact.load' was 0.02, now it is 0.021");
-    change(&folder, "21 mN", "20 mN");
+    change(&folder.path().join("case.toml"), "21 mN", "20 mN");
 
     // Neither title nor number of passes is another case.
-    change(&folder, "passes = 2", "passes = 3");
+    change(&folder.path().join("case.toml"), "passes = 2", "passes = 3");
     let case = fs::read_to_string(path("case.toml")).unwrap();
     fs::write(path("case.toml"), format!("title = \"named\"\n{case}")).unwrap();
     ok(&resume());
@@ -309,7 +311,7 @@ fn what_is_no_file_is_named_as_what_it_is_and_waited_for_by_nobody() {
         }
     }
     let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
-    change(&folder, generate, "file = \"a.npy\", pitch = \"1 um\"");
+    change(&folder.path().join("case.toml"), generate, "file = \"a.npy\", pitch = \"1 um\"");
     let error = refused(&asperity(&folder, "check case.toml"));
     assert!(error.starts_with("error: a.npy: is a pipe (FIFO), expected a topography file"), "{error}");
     let error = refused(&asperity(&folder, "surface info a.npy"));
@@ -608,71 +610,13 @@ fn folder_with(case: &str) -> TempDir {
     folder
 }
 
-fn asperity(folder: &TempDir, arguments: &str) -> Output {
-    command(folder, arguments).output().unwrap()
-}
-
-fn command(folder: &TempDir, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
-    command.current_dir(folder).args(arguments.split_whitespace());
-    command
-}
-
-fn spawn(folder: &TempDir, arguments: &str) -> Child {
-    command(folder, arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-}
-
-/// Waits until a running process has written `file`.
-fn wait_for(child: &mut Child, file: &Path) {
-    let began = Instant::now();
-    while !file.exists() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it wrote {}", file.display());
-        assert!(began.elapsed() < Duration::from_secs(120), "{} is not there", file.display());
-        std::thread::sleep(Duration::from_millis(2));
-    }
-}
-
-fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().unwrap();
-    assert!(sent.success());
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-#[track_caller]
-fn ok(output: &Output) {
-    assert!(output.status.success(), "{:?}: {}", output.status, stderr(output));
-}
-
-/// What is on stderr after exit code 2, with nothing on stdout.
-#[track_caller]
-fn refused(output: &Output) -> String {
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
-    assert!(output.stdout.is_empty());
-    stderr(output)
-}
-
-fn change(folder: &TempDir, from: &str, to: &str) {
-    let path = folder.path().join("case.toml");
-    let text = fs::read_to_string(&path).unwrap();
-    assert!(text.contains(from), "{from}");
-    fs::write(path, text.replace(from, to)).unwrap();
-}
-
 /// Every file beneath, by its path relative to `folder`.
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() { visit(&path, found) } else { found.push(path) }
-        }
-    }
-    let mut found = Vec::new();
-    visit(folder, &mut found);
-    let name = |path: &PathBuf| path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned();
-    found.iter().map(|path| (name(path), fs::read(path).unwrap())).collect()
+    let read = |name: String| {
+        let bytes = fs::read(folder.join(&name)).unwrap();
+        (name, bytes)
+    };
+    files(folder).into_iter().map(read).collect()
 }
 
 /// Makes `folder` of such files.
@@ -681,10 +625,6 @@ fn write_all(folder: &Path, files: &BTreeMap<String, Vec<u8>>) {
         fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();
         fs::write(folder.join(name), bytes).unwrap();
     }
-}
-
-fn files(folder: &Path) -> BTreeSet<String> {
-    contents(folder).into_keys().collect()
 }
 
 fn temporary(folder: &Path) -> Vec<String> {
