@@ -98,11 +98,14 @@ impl Solver<'_> {
                 params,
                 self.watch,
             );
-            let mut contact = contact.map_err(|source| Error::AtPosition {
-                pass: self.progress.pass,
-                position: index + 1,
-                positions: self.positions.len(),
-                source: Box::new(source),
+            let mut contact = contact.map_err(|source| match source {
+                Error::Interrupted => source,
+                source => Error::AtPosition {
+                    pass: self.progress.pass,
+                    position: index + 1,
+                    positions: self.positions.len(),
+                    source: Box::new(source),
+                },
             })?;
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;

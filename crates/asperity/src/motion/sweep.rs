@@ -97,10 +97,9 @@ pub fn sweep(
             };
             Ok((record(boundary, normal.as_mut(), index, &contact, params)?, contact))
         };
-        let (record, contact) = solve().map_err(|source| Error::AtPoint {
-            point: index,
-            points: points.len(),
-            source: Box::new(source),
+        let (record, contact) = solve().map_err(|source| match source {
+            Error::Interrupted => source,
+            source => Error::AtPoint { point: index, points: points.len(), source: Box::new(source) },
         })?;
         let (solved, positions, load) = (index, points.len(), record.load);
         records.push(record);

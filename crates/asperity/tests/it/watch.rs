@@ -1,9 +1,11 @@
-//! Who looks on at a contact at rest sees it go on, and can stop it within an iteration.
+//! Who looks on at a contact sees it go on, and can stop it within an iteration.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::material::Material;
-use asperity::motion::{Pair, Progress, Watch, load_in_stages, press, roll};
+use asperity::motion::{
+    Motion, Pair, Point, Progress, Simulation, Strategy, Watch, load_in_stages, press, roll, sweep,
+};
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Creep, Friction, Loading, Method, Params, Rolling, Tangential};
 use asperity::surface::{Amplitude, SelfAffine};
@@ -92,6 +94,32 @@ fn friction_and_rolling_stop_within_an_increment() {
         let asked = patient.asked.load(Ordering::Relaxed);
         assert!(patient.told.load(Ordering::Relaxed) > 0 && asked > 5, "{n}: asked {asked} times");
         for most in [1, asked / 2, asked - 2] {
+            let stopped = run(n, &Patience::new(most));
+            assert!(matches!(stopped, Err(Error::Interrupted)), "{n}, {most} of {asked}: {stopped:?}");
+        }
+    }
+}
+
+#[test]
+fn motions_and_sweeps_that_stop_within_a_solution_say_so_alone() {
+    let pair = pair(12);
+    let load = Control::Load(1e8 * pair.lower_grid().area());
+    let params = Params::default().with_method(Method::ActiveSet);
+    let moved = |watch: &Patience| {
+        let motion = Motion::new(Strategy::Overlap, load).with_stride(4);
+        Simulation::new(pair.clone(), Boundary::FREE, motion, params)?.run(watch, &mut [])
+    };
+    let points = [Point { control: load, rolling: None }; 2];
+    let swept = |watch: &Patience| {
+        sweep(&pair, Boundary::FREE, None, &points, &params, Vec::new(), watch, &mut ()).map(|_| ())
+    };
+    let run = |n: usize, watch: &Patience| if n == 0 { moved(watch) } else { swept(watch) };
+    for n in [0, 1] {
+        let patient = Patience::new(usize::MAX);
+        run(n, &patient).unwrap();
+        let asked = patient.asked.load(Ordering::Relaxed);
+        assert!(asked > 5, "{n}: asked {asked} times");
+        for most in 0..asked - 2 {
             let stopped = run(n, &Patience::new(most));
             assert!(matches!(stopped, Err(Error::Interrupted)), "{n}, {most} of {asked}: {stopped:?}");
         }
