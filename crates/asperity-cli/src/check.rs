@@ -6,7 +6,7 @@ use asperity::Choice;
 use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity::study::case::{Boundary, LoadingPath, Mount, Side, StrategyKind};
-use asperity::study::{Bodies, Case, Demand, Estimate, Plan, Prepared, bodies, estimate};
+use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -16,7 +16,7 @@ use crate::report::{Outcome, clipped, note, print};
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = Case::load(&arguments.case)?;
     let demand = machine::demand(&case)?;
-    let bodies = bodies(&case)?;
+    let bodies = bodies(&case, Given::default())?;
     let estimate = estimate(&case, &bodies)?;
     print(&text(&case, &bodies, &estimate, &demand))?;
     for warning in estimate.warnings.iter().chain(&estimate.foreseen) {

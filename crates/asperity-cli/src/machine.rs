@@ -1,13 +1,12 @@
 //! The machine: how much memory there is, and whether it suffices.
 
-use asperity::study::Case;
-use asperity::study::{self, Demand};
+use asperity::study::{self, Case, Demand, Given};
 use asperity::{Error, Result};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// What the case takes on all threads, an error if there is not so much.
 pub(crate) fn demand(case: &Case) -> Result<Demand> {
-    let demand = study::demand(case, rayon::current_num_threads())?;
+    let demand = study::demand(case, &Given::default(), rayon::current_num_threads())?;
     demand.fits(available())?;
     Ok(demand)
 }
@@ -19,7 +18,7 @@ pub(crate) fn holds(needed: f64) -> Result<()> {
 }
 
 /// Bytes that can be had: of memory and swap, of those of the container, of the address space (`ulimit -v`).
-fn available() -> f64 {
+pub fn available() -> f64 {
     let memory = MemoryRefreshKind::nothing().with_ram().with_swap();
     let system = System::new_with_specifics(RefreshKind::nothing().with_memory(memory));
     let system = sysinfo::IS_SUPPORTED_SYSTEM.then_some(system);

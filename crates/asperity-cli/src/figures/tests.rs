@@ -144,7 +144,7 @@ fn has_all_its_figures(text: &str) -> bool {
     let folder = tempfile::tempdir().unwrap();
     let Ok(case) = Case::parse(text, Path::new("case.toml"), folder.path()) else { return false };
     let directory = folder.path().join("results");
-    if study::run(&case, &directory, Existing::Keep, &()).is_err() {
+    if study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).is_err() {
         return false;
     }
     let paths = draw(&Results::open(&directory).unwrap(), &Wanted::default(), &|| false)

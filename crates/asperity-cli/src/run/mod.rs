@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
     let display = Display::new(arguments.quiet, &case, stop.clone());
-    let outcome = study::run(&case, &directory, existing, &display);
+    let outcome = study::run(&case, study::Given::default(), &directory, existing, &display);
     let printed = display.end();
     // The directory stays this run's until the figures are there.
     let (summary, writer) = outcome?;

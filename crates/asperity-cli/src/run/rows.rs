@@ -117,7 +117,7 @@ impl Rows {
 pub(super) fn planes(case: &Case) -> &'static str {
     let has_mean_zero = |source: &Source, levelled: bool| match source {
         Source::Form { .. } => false,
-        Source::File { .. } => levelled,
+        Source::File { .. } | Source::Given { .. } => levelled,
         _ => true,
     };
     let all = [&case.lower, &case.upper].iter().all(|body| {

@@ -7,4 +7,4 @@ pub(crate) mod regular; // regular files, read as a whole
 pub mod vti; // fields for ParaView
 
 pub use atomic::{replace, sweep};
-pub(crate) use digest::sha256;
+pub(crate) use digest::{sha256, sha256_of};

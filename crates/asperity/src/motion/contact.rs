@@ -122,7 +122,7 @@ impl Contact {
     }
 
     /// Plastic interference w of each cell in contact, in the order of the pressures; 0 where a cell does not yield.
-    pub(super) fn interference(&self) -> Vec<Metre> {
+    pub fn interference(&self) -> Vec<Metre> {
         let mut plastic = self.plastic.iter().peekable();
         let of = |(cell, _): &(u32, Pascal)| plastic.next_if(|(at, _)| at == cell).map_or(0.0, |(_, w)| *w);
         self.pressure.iter().map(of).collect()

@@ -54,11 +54,6 @@ pub struct Touching<'a> {
     pub sliding_distance: Metre,
 }
 
-/// No volume lost to a law.
-pub(super) fn nothing_lost(law: &dyn Law) -> LostVolume {
-    LostVolume { law: law.name().to_owned(), whole: [0.0; 2], interior: [0.0; 2] }
-}
-
 /// Applies `laws` to a `pair` after contacts on frozen bodies, which slide over a distance from each to the next. Returns what
 /// each law took, added to the `lost` so far.
 pub(super) fn apply(
@@ -90,12 +85,17 @@ pub(super) fn apply(
         laws.iter().zip(&mut sums).for_each(|(law, sums)| law.add(pair, &touching, sums));
     }
     for ((law, sums), lost) in laws.iter().zip(&sums).zip(lost) {
-        let [lower, upper] = law.advance(pair, sums, 1.0);
-        pair.lower.heights -= &lower;
-        pair.upper.heights += &upper;
-        for (body, height) in [lower, upper].iter().enumerate() {
-            lost.whole[body] += pair.cell_area() * height.sum();
-            lost.interior[body] += pair.cell_area() * interiors[body].of(height).sum();
-        }
+        let depth = law.advance(pair, sums, 1.0);
+        remove(pair, &depth, interiors, lost);
+    }
+}
+
+/// Takes a `depth` off each cell of the lower and of the upper body, m, and adds its volume to what is `lost`.
+pub(super) fn remove(pair: &mut Pair, depth: &[Field; 2], interiors: &[Interior; 2], lost: &mut LostVolume) {
+    pair.lower.heights -= &depth[0];
+    pair.upper.heights += &depth[1];
+    for (body, depth) in depth.iter().enumerate() {
+        lost.whole[body] += pair.cell_area() * depth.sum();
+        lost.interior[body] += pair.cell_area() * interiors[body].of(depth).sum();
     }
 }

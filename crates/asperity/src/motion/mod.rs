@@ -35,7 +35,7 @@ pub use record::{
 };
 pub use report::{Output, PassReport};
 pub use rim::Interior;
-pub use simulation::Simulation;
+pub use simulation::{Simulation, SolvedPass};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
 pub use sweep::{Point, SweepOutput, sweep};
@@ -215,7 +215,7 @@ impl Motion {
     }
 
     /// Distance over which bodies of that pitch slide over each other from one position to the next.
-    pub(crate) fn sliding_distance(&self, pitch: Metre) -> Metre {
+    pub fn sliding_distance(&self, pitch: Metre) -> Metre {
         let step = self.stride as f64 * pitch;
         match self.strategy {
             Strategy::Overlap => step,

@@ -115,7 +115,7 @@ impl Solver<'_> {
             Ok(contact)
         };
         let mut after = pair.clone();
-        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| law::nothing_lost(law.as_ref())).collect();
+        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
         let distance = self.motion.sliding_distance(pair.pitch()[0]);
         let mut change = |after: &mut Pair, contacts: &[Contact]| {
             law::apply(self.laws, after, contacts, distance, self.interiors, &mut lost);

@@ -263,6 +263,13 @@ pub struct LostVolume {
     pub interior: [CubicMetre; 2],
 }
 
+impl LostVolume {
+    /// Nothing lost to the law of that name.
+    pub fn nothing(law: &str) -> Self {
+        Self { law: law.to_owned(), whole: [0.0; 2], interior: [0.0; 2] }
+    }
+}
+
 impl PassRecord {
     /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 where there is no such law.
     pub fn lost(&self, law: &str) -> [CubicMetre; 2] {

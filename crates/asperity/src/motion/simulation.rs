@@ -6,12 +6,12 @@ use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;
 use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::contact::Contact;
-use crate::motion::law::Law;
+use crate::motion::law::{self, Law};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::plastic::PlasticFlow;
-use crate::motion::record::{PassRecord, StepRecord};
+use crate::motion::record::{LostVolume, PassRecord, StepRecord};
 use crate::motion::report::{Output, PassReport};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
@@ -20,7 +20,7 @@ use crate::motion::watch::{Progress, Watch};
 use crate::motion::{LoadControl, Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Control, Coupling, Params};
-use crate::units::{Dimension, Metre, Newton};
+use crate::units::{Dimension, Metre, Newton, Second};
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -38,6 +38,53 @@ pub struct Simulation {
     passes_done: usize,
     /// The state in which the next pass begins.
     warm: WarmStart,
+}
+
+/// A pass that is solved, and not yet [finished](Simulation::finish).
+pub struct SolvedPass {
+    outcome: Pass,
+    steps: Vec<StepRecord>,
+    guess: Option<Guess>,
+    trials: usize,
+    wall_time: Second,
+    interiors: [Interior; 2],
+}
+
+impl SolvedPass {
+    /// The contacts of the pass, position by position.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.outcome.contacts
+    }
+
+    /// The positions of the pass in numbers.
+    pub fn steps(&self) -> &[StepRecord] {
+        &self.steps
+    }
+
+    /// The bodies as the pass leaves them.
+    pub fn pair(&self) -> &Pair {
+        &self.outcome.pair
+    }
+
+    /// The pass in numbers, as they are now.
+    pub fn record(&self) -> PassRecord {
+        let record = summarise(&self.outcome, &self.interiors, &self.steps);
+        PassRecord { outer_iterations: self.trials, wall_time_s: self.wall_time, ..record }
+    }
+
+    /// Takes a `depth` off each cell of the lower and of the upper body, m, below 0 where a cell grows; its volume is lost to
+    /// the law of that name, in snake case.
+    ///
+    /// # Panics
+    /// If a depth has another shape than its body.
+    pub fn remove(&mut self, law: &str, depth: &[Field; 2]) {
+        let Pass { pair, lost, .. } = &mut self.outcome;
+        let known = lost.iter().position(|lost| lost.law == law).unwrap_or_else(|| {
+            lost.push(LostVolume::nothing(law));
+            lost.len() - 1
+        });
+        law::remove(pair, depth, &self.interiors, &mut lost[known]);
+    }
 }
 
 impl Simulation {
@@ -112,6 +159,11 @@ impl Simulation {
         &self.pair
     }
 
+    /// How the bodies move.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
     /// The positions of a pass.
     pub fn positions(&self) -> &[Position] {
         &self.positions
@@ -120,39 +172,52 @@ impl Simulation {
     /// Runs the passes that are left.
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`], and those of the
-    /// outputs.
+    /// Those of [`Simulation::solve`], and those of the outputs.
     pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
         while self.passes_done < self.motion.passes {
-            let began = Instant::now();
-            let pass = self.passes_done + 1;
-            let (outcome, guess, trials) = self.solve_pass(pass, watch)?;
-            let steps: Vec<StepRecord> = outcome
-                .contacts
-                .iter()
-                .enumerate()
-                .map(|(k, c)| c.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1]))
-                .collect();
-            let mut record = summarise(&outcome, &self.interiors, &steps, pass);
-            record.outer_iterations = trials;
-            record.wall_time_s = began.elapsed().as_secs_f64();
-            for output in outputs.iter_mut() {
-                let (contacts, pair) = (&outcome.contacts, &outcome.pair);
-                let sliding = self.motion.sliding();
-                output.pass(&PassReport {
-                    record: &record,
-                    steps: &steps,
-                    contacts,
-                    pair,
-                    sliding,
-                    guess,
-                })?;
-            }
-            self.warm = WarmStart::new(guess, &outcome.contacts);
-            self.pair = outcome.pair;
-            self.passes_done = pass;
-            watch.pass(&record);
+            let pass = self.solve(watch)?;
+            self.finish(pass, watch, outputs)?;
         }
+        Ok(())
+    }
+
+    /// Solves the next pass and lets the laws change its bodies. It counts once it is [finished](Simulation::finish).
+    ///
+    /// # Errors
+    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
+        let began = Instant::now();
+        let pass = self.passes_done + 1;
+        let (outcome, guess, trials) = self.solve_pass(pass, watch)?;
+        let step = |(k, contact): (usize, &Contact)| {
+            contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1])
+        };
+        let steps = outcome.contacts.iter().enumerate().map(step).collect();
+        let wall_time = began.elapsed().as_secs_f64();
+        Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors: self.interiors.clone() })
+    }
+
+    /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
+    ///
+    /// # Errors
+    /// Those of the outputs; the pass then does not count.
+    pub fn finish(
+        &mut self,
+        pass: SolvedPass,
+        watch: &dyn Watch,
+        outputs: &mut [&mut dyn Output],
+    ) -> Result<()> {
+        let record = pass.record();
+        let SolvedPass { outcome: Pass { contacts, pair, .. }, steps, guess, .. } = pass;
+        for output in outputs.iter_mut() {
+            let sliding = self.motion.sliding();
+            let (record, steps, contacts, pair) = (&record, &steps, &contacts, &pair);
+            output.pass(&PassReport { record, steps, contacts, pair, sliding, guess })?;
+        }
+        self.warm = WarmStart::new(guess, &contacts);
+        self.pair = pair;
+        self.passes_done = record.pass;
+        watch.pass(&record);
         Ok(())
     }
 
@@ -373,13 +438,13 @@ fn interiors(pair: &Pair, boundary: Boundary, motion: &Motion, rim: f64) -> [Int
 }
 
 /// The record of a pass, a row of `passes.csv`, but for the number of approaches tried and the time.
-fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord], pass: usize) -> PassRecord {
+fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) -> PassRecord {
     let pair = &outcome.pair;
     let mean_columns = steps.iter().map(|s| s.overlap_columns as f64).sum::<f64>() / steps.len() as f64;
     let mean = |value: fn(&StepRecord) -> f64| steps.iter().map(value).sum::<f64>() / steps.len() as f64;
     let most = |value: fn(&StepRecord) -> f64| steps.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
     PassRecord {
-        pass,
+        pass: steps[0].pass,
         approach: mean(|s| s.approach),
         mean_load: mean(|s| s.load),
         mean_tangential_force: mean(|s| s.tangential_force),

@@ -249,7 +249,9 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     {
         coarse(name, body, &mut warnings);
         warnings.extend(thin(name, case, body.topography.grid().pitch));
-        if matches!(spec.source, Source::File { .. }) && spec.preparation.level == Level::None {
+        if matches!(spec.source, Source::File { .. } | Source::Given { .. })
+            && spec.preparation.level == Level::None
+        {
             tilted(name, body, &mut warnings);
         }
         let shifts = matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
@@ -593,7 +595,7 @@ mod tests {
     fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
         let estimate = |control: &str, load: &str| {
             let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
-            super::estimate(&case, &bodies(&case).unwrap())
+            super::estimate(&case, &bodies(&case, crate::study::Given::default()).unwrap())
         };
         // A column of 4 mm² bears 4 kN; seven positions share 15 columns.
         let limit = estimate("pass-load", "load = 1").unwrap().plastic_limit;

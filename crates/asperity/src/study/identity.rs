@@ -25,7 +25,7 @@ pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
             topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
         }
         let digest = body.origin.as_ref().map(|origin| origin.sha256.clone());
-        if let (Source::File { .. }, Some(digest)) = (&spec.source, digest) {
+        if let (Source::File { .. } | Source::Given { .. }, Some(digest)) = (&spec.source, digest) {
             topography["sha256"] = digest.into();
         }
         if let (Some(digest), Some(map)) = (&body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
@@ -46,7 +46,10 @@ pub(super) fn of(case: &Value) -> String {
 pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
     for key in FILES {
         let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
-        let file = |case: &Value| case.pointer(key)?.get("file").cloned();
+        let file = |case: &Value| {
+            let table = case.pointer(key)?;
+            table.get("file").or(table.get("given")).cloned()
+        };
         if let (Some(_), Some(path)) = (file(before), file(now))
             && digest(before) != digest(now)
         {

@@ -4,10 +4,13 @@
 //! what is to be expected, [`run()`] does all of it and leaves a [`Results`] directory with a [`Summary`].
 
 pub mod case; // case.toml, checked to the key
+mod given; // surfaces in memory that a case names
 mod estimate; // what a case will take, and what to be wary of
 mod identity; // what a run is known by, to resume it
 mod loading; // increments of a loading, kept one by one
+mod passes; // a motion, pass after pass
 mod prepare; // from a case to the two surfaces that meet
+mod rest; // a static contact
 mod results; // the results directory
 mod review; // what to be wary of in a result
 mod run; // from a case to its results
@@ -19,9 +22,12 @@ mod warm_start; // where the next pass begins
 
 pub use case::Case;
 pub use estimate::{Demand, Estimate, demand, estimate};
+pub use given::Given;
 pub use identity::resolved;
 pub use loading::LoadingWriter;
-pub use prepare::{Bodies, Origin, Prepared, bodies, exact_pitch, grids};
+pub use passes::Passes;
+pub use prepare::{Bodies, Made, Origin, Prepared, bodies, exact_pitch, grids, topography, topography_spec};
+pub use rest::{NamedField, Rest, RestFields, rest};
 pub use results::{Existing, PassWriter, Results, Writer, cap_name, pressure_name, traction_name};
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use super::case::{Body, Case, Hardness, Mount, Source, TopographySpec};
+use super::case::document::Document;
+use super::case::{Body, Case, Hardness, Mount, Source, TopographySpec, topography_alone};
+use super::given::Given;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Grid};
-use crate::io::sha256;
+use crate::io::{sha256, sha256_of};
 use crate::motion::Strategy;
 use crate::surface::{self, Findings, LengthUnit, Preparation, ReadOptions, Resample, Scan, Topography};
 use crate::units::{self, Dimension, Metre};
@@ -57,15 +59,60 @@ pub struct Origin {
     pub sha256: String,
 }
 
-/// Reads or makes both topographies of `case` and prepares them as [`TopographySpec`] says.
+impl Origin {
+    /// Of heights that the caller gives under a name.
+    fn of_given(name: &str, topography: &Topography) -> Self {
+        let Grid { shape, pitch } = *topography.grid();
+        let numbers = pitch.into_iter().chain(topography.heights().iter().copied());
+        let sha256 = sha256_of(numbers);
+        Self { format: "given", channel: name.to_owned(), is_underside: false, shape, sha256 }
+    }
+}
+
+/// A topography that stands alone, prepared; heights that nothing fills are undefined.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Made {
+    /// The heights.
+    pub topography: Topography,
+    /// What they were read from; none if they were made.
+    pub origin: Option<Origin>,
+    /// What was missing, what was removed.
+    pub findings: Findings,
+}
+
+/// Reads or makes the topography that a table `[topography]` in `text` describes, which has the keys of
+/// `[lower.topography]` in a case file. The files it names are looked for in `folder`.
+///
+/// # Errors
+/// [`Error::Case`] at the key that is to blame, as of [`bodies`].
+pub fn topography(text: &str, folder: &Path, mut given: Given) -> Result<Made> {
+    let (spec, document) = topography_alone(text, folder)?;
+    if let Some(key) = spec.lacks().next() {
+        let message = format!("missing key '{key}': what is made alone has no other body to take it from");
+        return Err(document.error_at(&format!("topography.{key}"), message, None));
+    }
+    made(Place { document: &document, table: "topography", spec: &spec }, None, &mut given)
+}
+
+/// The topography that a table `[topography]` in `text` describes, checked as far as the text alone can tell.
+///
+/// # Errors
+/// [`Error::Case`].
+pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
+    topography_alone(text, folder).map(|(spec, _)| spec)
+}
+
+/// Reads or makes both topographies of `case`, or takes those that are `given`, and prepares them as [`TopographySpec`] says.
 ///
 /// # Errors
 /// [`Error::Case`] at the key that is to blame: a file that cannot be read, a parameter without meaning on this grid,
 /// missing heights that nothing fills, and surfaces that do not fit together. They must have one pitch and one number
 /// of cells along y; where nothing moves, and where both are shifted, also along x.
-pub fn bodies(case: &Case) -> Result<Bodies> {
+pub fn bodies(case: &Case, mut given: Given) -> Result<Bodies> {
     let grid_of = |body: &Prepared| *body.topography.grid();
-    let [lower, mut upper] = in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other))?;
+    let [lower, mut upper] =
+        in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other, &mut given))?;
     let fit = Fit { case, bodies: [&lower, &upper] };
     fit.check_pitches()?;
     let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
@@ -80,15 +127,15 @@ pub fn bodies(case: &Case) -> Result<Bodies> {
 ///
 /// # Errors
 /// [`Error::Case`] as of [`bodies`], for files and for steps of the preparation that have no meaning on their grid.
-pub fn grids(case: &Case) -> Result<[Grid; 2]> {
-    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other))
+pub fn grids(case: &Case, given: &Given) -> Result<[Grid; 2]> {
+    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other, given))
 }
 
 /// What is made of both bodies, in the second place of the one that takes its shape or pitch from the other.
 fn in_turn<T>(
     case: &Case,
     grid_of: impl Fn(&T) -> Grid,
-    make: impl Fn(&str, &Body, Option<Grid>) -> Result<T>,
+    mut make: impl FnMut(&str, &Body, Option<Grid>) -> Result<T>,
 ) -> Result<[T; 2]> {
     if case.lower.topography.lacks().next().is_some() {
         let upper = make("upper", &case.upper, None)?;
@@ -101,14 +148,19 @@ fn in_turn<T>(
     }
 }
 
-fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Grid> {
-    let at = Place { case, body: name };
+fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>, given: &Given) -> Result<Grid> {
+    let table = topography_of(name);
     let spec = &body.topography;
+    let at = Place { document: case.document(), table: &table, spec };
     let (grid, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
             let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
-            let (topography, _, preparation) = measured(at, path, scan, sha256, spec)?;
+            let (topography, _, preparation) = measured(at, path, scan, sha256)?;
             (*topography.grid(), preparation)
+        }
+        Source::Given { name } => {
+            let topography = given.topography(name).map_err(|error| at.giving(error))?;
+            (*topography.grid(), with_pitch(at, topography.grid().pitch)?)
         }
         Source::Generate { .. } | Source::Form { .. } => {
             (spec.made_on(other).map_err(|error| at.parameter(error))?, spec.preparation)
@@ -117,32 +169,24 @@ fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Gri
     preparation.grid(grid).map_err(|error| at.preparing(error))
 }
 
-fn prepared(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result<Prepared> {
-    let at = Place { case, body: name };
-    let spec = &body.topography;
-    let made = || spec.made_on(other);
-    let (topography, origin, preparation) = match &spec.source {
-        Source::File { path, channel, unit } => {
-            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
-            let (topography, origin, preparation) = measured(at, path, scan, sha256, spec)?;
-            (Ok(topography), Some(origin), preparation)
-        }
-        Source::Generate { generate, seed, .. } => {
-            (made().and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
-        }
-        Source::Form { form, .. } => (made().and_then(|grid| form.on(&grid)), None, spec.preparation),
-    };
-    let topography = topography.map_err(|error| at.parameter(error))?;
-    let samples =
-        preparation.window.map_or(topography.grid().cells(), |[_, _, nx, ny]| nx.saturating_mul(ny));
-    let (mut topography, findings) = preparation.apply(topography).map_err(|error| at.preparing(error))?;
+/// The table of the topography of a body.
+fn topography_of(body: &str) -> String {
+    format!("{body}.topography")
+}
+
+fn prepared(
+    case: &Case,
+    name: &str,
+    body: &Body,
+    other: Option<Grid>,
+    given: &mut Given,
+) -> Result<Prepared> {
+    let table = topography_of(name);
+    let at = Place { document: case.document(), table: &table, spec: &body.topography };
+    let Made { topography, origin, findings } = made(at, other, given)?;
     if topography.undefined() > 0 {
-        return Err(at.missing(&findings, samples));
-    }
-    for (n, layer) in spec.plus.iter().enumerate() {
-        let added =
-            layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
-        topography = topography.plus(&added)?;
+        let shape = origin.as_ref().map_or(topography.grid().shape, |origin| origin.shape);
+        return Err(at.missing(&findings, shape));
     }
     at.measurable(&topography)?;
     let of_file = || match &origin {
@@ -154,36 +198,82 @@ fn prepared(case: &Case, name: &str, body: &Body, other: Option<Grid>) -> Result
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    let (hardness, hardness_sha256) = hardness(at, body, topography.grid(), mount)?;
+    let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
     Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
 }
 
-/// What the cells of a body on `grid` bear, and the digest of the file that tells.
-fn hardness(at: Place<'_>, body: &Body, grid: &Grid, mount: Mount) -> Result<(CellValues, Option<String>)> {
-    let map = match &body.hardness {
-        Hardness::Uniform(value) => return Ok((CellValues::Uniform(*value), None)),
-        Hardness::Map(map) => map,
+/// What is described at a place, after all its steps, on what it lacks from the `other` body.
+fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given) -> Result<Made> {
+    let spec = at.spec;
+    let grid = || spec.made_on(other);
+    let (topography, origin, preparation) = match &spec.source {
+        Source::File { path, channel, unit } => {
+            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            let (topography, origin, preparation) = measured(at, path, scan, sha256)?;
+            (Ok(topography), Some(origin), preparation)
+        }
+        Source::Given { name } => {
+            let topography = given.take_topography(name).map_err(|error| at.giving(error))?;
+            let preparation = with_pitch(at, topography.grid().pitch)?;
+            let origin = Origin::of_given(name, &topography);
+            (Ok(topography), Some(origin), preparation)
+        }
+        Source::Generate { generate, seed, .. } => {
+            (grid().and_then(|grid| generate.generate(&grid, *seed)), None, spec.preparation)
+        }
+        Source::Form { form, .. } => (grid().and_then(|grid| form.on(&grid)), None, spec.preparation),
     };
-    let error = |key: &str, message: String, hint: Option<String>| {
-        at.case.error_at(&format!("{}.hardness.{key}", at.body), message, hint)
-    };
-    let (scan, sha256) = read(&map.path, map.channel.as_deref(), None).map_err(|source| {
-        error(if map.channel.is_some() { "channel" } else { "file" }, source.to_string(), None)
-    })?;
-    let file = map.path.display();
-    if scan.unit == LengthUnit::Known {
-        let hint = "give a file of numbers alone, such as npy or csv".to_owned();
-        return Err(error("file", format!("{file} holds lengths, expected a hardness"), Some(hint)));
+    let topography = topography.map_err(|error| at.parameter(error))?;
+    let (mut topography, findings) = preparation.apply(topography).map_err(|error| at.preparing(error))?;
+    for (n, layer) in spec.plus.iter().enumerate() {
+        let added =
+            layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
+        topography = topography.plus(&added)?;
     }
-    let (found, expected) = (scan.heights.dim(), (grid.shape[0], grid.shape[1]));
+    Ok(Made { topography, origin, findings })
+}
+
+/// What the cells of a body on `grid` bear, and the digest of the file that tells.
+fn hardness(
+    case: &Case,
+    name: &str,
+    body: &Body,
+    grid: &Grid,
+    mount: Mount,
+    given: &mut Given,
+) -> Result<(CellValues, Option<String>)> {
+    let error = |key: &str, message: String, hint: Option<String>| {
+        case.error_at(&format!("{name}.hardness.{key}"), message, hint)
+    };
+    let (mut values, sha256, file, key) = match &body.hardness {
+        Hardness::Uniform(value) => return Ok((CellValues::Uniform(*value), None)),
+        Hardness::Map(map) => {
+            let (scan, sha256) = read(&map.path, map.channel.as_deref(), None).map_err(|source| {
+                error(if map.channel.is_some() { "channel" } else { "file" }, source.to_string(), None)
+            })?;
+            let file = map.path.display().to_string();
+            if scan.unit == LengthUnit::Known {
+                let hint = "give a file of numbers alone, such as npy or csv".to_owned();
+                return Err(error("file", format!("{file} holds lengths, expected a hardness"), Some(hint)));
+            }
+            (scan.heights * map.unit, sha256, file, "file")
+        }
+        Hardness::Given(map) => {
+            let values = given
+                .take_hardness(&map.name)
+                .map_err(|source| error("given", source.to_string(), source.hint()))?;
+            let sha256 = sha256_of(values.iter().copied());
+            (values, sha256, format!("the hardness of the {name} body"), "given")
+        }
+    };
+    let (found, expected) = (values.dim(), (grid.shape[0], grid.shape[1]));
     if found != expected {
         let message = format!(
             "{file} has {} × {} values, the body as it is prepared {} × {} cells",
             found.0, found.1, expected.0, expected.1
         );
-        return Err(error("file", message, Some("a map has a value for each cell".to_owned())));
+        return Err(error(key, message, Some("a map has a value for each cell".to_owned())));
     }
-    let mut values = scan.heights * map.unit;
     if let Some(((i, j), &value)) =
         values.indexed_iter().find(|(_, value)| !Dimension::Pressure.range().holds(**value))
     {
@@ -197,7 +287,7 @@ fn hardness(at: Place<'_>, body: &Body, grid: &Grid, mount: Mount) -> Result<(Ce
             true => "give the unit of its numbers, for example `unit = \"GPa\"`",
             false => "every cell has a hardness; for one that never yields give more than any pressure",
         };
-        return Err(error("file", message, Some(hint.to_owned())));
+        return Err(error(key, message, Some(hint.to_owned())));
     }
     if mount == Mount::TurnedOver {
         values.invert_axis(ndarray::Axis(0));
@@ -220,25 +310,15 @@ fn measured(
     path: &Path,
     scan: Scan,
     sha256: String,
-    spec: &TopographySpec,
 ) -> Result<(Topography, Origin, Preparation)> {
+    let spec = at.spec;
     let is_underside = scan.is_underside();
     let Scan { format, channel, pitch: carried, heights, .. } = scan;
     let shape = [heights.nrows(), heights.ncols()];
-    let mut preparation = spec.preparation;
-    if let (Some(pitch), Some(carried)) = (spec.pitch, carried) {
-        if preparation.resample.is_some() {
-            return Err(at.error(
-                "resample",
-                format!(
-                    "both 'resample' and 'pitch' are given, but the file has its own pitch, {}",
-                    lengths(carried)
-                ),
-                Some("leave one of them out: each resamples the heights".to_owned()),
-            ));
-        }
-        preparation.resample = Some(Resample::Pitch(pitch));
-    }
+    let preparation = match carried {
+        Some(carried) => with_pitch(at, carried)?,
+        None => spec.preparation,
+    };
     let pitch = carried.or(spec.pitch).ok_or_else(|| {
         at.error(
             "file",
@@ -251,16 +331,40 @@ fn measured(
     Ok((topography, Origin { format, channel, is_underside, shape, sha256 }, preparation))
 }
 
-/// Where the mistakes of one body's topography are shown.
+/// The steps for heights that have a pitch of their own, `carried`: to another one they are resampled.
+fn with_pitch(at: Place<'_>, carried: [Metre; 2]) -> Result<Preparation> {
+    let spec = at.spec;
+    let Some(pitch) = spec.pitch else { return Ok(spec.preparation) };
+    if spec.preparation.resample.is_some() {
+        return Err(at.error(
+            "resample",
+            format!(
+                "both 'resample' and 'pitch' are given, but the heights have their own pitch, {}",
+                lengths(carried)
+            ),
+            Some("leave one of them out: each resamples the heights".to_owned()),
+        ));
+    }
+    Ok(Preparation { resample: Some(Resample::Pitch(pitch)), ..spec.preparation })
+}
+
+/// Where the mistakes of one topography are shown.
 #[derive(Clone, Copy)]
 struct Place<'a> {
-    case: &'a Case,
-    body: &'a str,
+    document: &'a Document,
+    /// The topography's table, dotted.
+    table: &'a str,
+    spec: &'a TopographySpec,
 }
 
 impl Place<'_> {
     fn error(&self, key: &str, message: String, hint: Option<String>) -> Error {
-        self.case.error_at(&format!("{}.topography.{key}", self.body), message, hint)
+        self.document.error_at(&format!("{}.{key}", self.table), message, hint)
+    }
+
+    /// A name under which nothing is given.
+    fn giving(&self, error: Error) -> Error {
+        self.error("given", error.to_string(), error.hint())
     }
 
     /// A file that could not be read: what its reader said, at the key that names the file or its channel.
@@ -281,14 +385,16 @@ impl Place<'_> {
     }
 
     /// Heights that nothing fills.
-    fn missing(&self, findings: &Findings, samples: usize) -> Error {
+    fn missing(&self, findings: &Findings, shape: [usize; 2]) -> Error {
+        let [_, _, nx, ny] = self.spec.preparation.window.unwrap_or([0, 0, shape[0], shape[1]]);
+        let samples = nx.saturating_mul(ny);
         let missing = findings.undefined + findings.spikes;
         let spikes = match findings.spikes {
             0 => String::new(),
             spikes => format!(", {spikes} of them removed as spikes"),
         };
         self.error(
-            "file",
+            self.source(),
             format!("{missing} of {samples} heights of {} are missing{spikes}", self.file()),
             Some("set `fill = \"harmonic\"`, a membrane over each hole, or `fill = \"nearest\"`".to_owned()),
         )
@@ -303,14 +409,19 @@ impl Place<'_> {
         }
         let [highest, most] = [highest, range.most].map(|z| units::format(z, Dimension::Length));
         let message = format!("heights reach {highest}, expected magnitudes up to {most}");
-        Err(self.error("file", message, Some("check the units".to_owned())))
+        Err(self.error(self.source(), message, Some("check the units".to_owned())))
     }
 
-    /// The file as the case has it; nothing for what is made.
+    /// The key that names the source.
+    fn source(&self) -> &'static str {
+        if let Source::Given { .. } = self.spec.source { "given" } else { "file" }
+    }
+
+    /// The file as the case has it, or what is given; nothing for what is made.
     fn file(&self) -> String {
-        let body = if self.body == "lower" { &self.case.lower } else { &self.case.upper };
-        match &body.topography.source {
+        match &self.spec.source {
             Source::File { path, .. } => path.display().to_string(),
+            Source::Given { name } => name.clone(),
             _ => String::new(),
         }
     }
@@ -320,7 +431,7 @@ impl Place<'_> {
         match error {
             Error::WindowOutside { .. } => self.error("window", error.to_string(), None),
             Error::NothingDefined { .. } => {
-                self.error("file", format!("{}: {error}", self.file()), error.hint())
+                self.error(self.source(), format!("{}: {error}", self.file()), error.hint())
             }
             other => self.parameter(other),
         }
@@ -412,7 +523,7 @@ impl Fit<'_> {
             let hint = format!(
                 "a smaller `window` in [{name}.topography], in samples before `rotate`, leaves fewer"
             );
-            return Err(Place { case: self.case, body: name }.error("window", message, Some(hint)));
+            return Err(self.case.error_at(&format!("{name}.topography.window"), message, Some(hint)));
         }
         let source = match &self.bodies[changed].origin {
             Some(origin) => origin.shape,
@@ -439,7 +550,7 @@ impl Fit<'_> {
     fn error(&self, key: &str, body: usize, message: String, settings: &[String]) -> Error {
         let settings: Vec<_> = settings.iter().map(|setting| format!("`{setting}`")).collect();
         let hint = format!("set {} in [{}.topography]", settings.join(" and "), NAMES[body]);
-        Place { case: self.case, body: NAMES[body] }.error(key, message, Some(hint))
+        self.case.error_at(&format!("{}.topography.{key}", NAMES[body]), message, Some(hint))
     }
 }
 
@@ -493,7 +604,7 @@ mod tests {
             let text =
                 body("lower", "", "lower") + &body("upper", mount, channel) + "[contact]\nload = \"1 mN\"\n";
             std::fs::write(&path, text).unwrap();
-            bodies(&Case::load(&path).unwrap()).unwrap()
+            bodies(&Case::load(&path).unwrap(), Given::default()).unwrap()
         };
         let by_default = mounted("upper", "");
         assert_eq!(by_default.lower.topography.heights(), &lower);

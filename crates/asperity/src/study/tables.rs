@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord};
+use crate::motion::{IncrementRecord, LostVolume, PassRecord, StepRecord, SweepRecord};
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -164,9 +164,20 @@ pub(super) fn read_steps(path: &Path) -> Result<Vec<StepRecord>> {
 /// # Errors
 /// [`Error::File`].
 pub(super) fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
-    let rows: Vec<Row> = passes.iter().map(Row::of).collect();
+    // What a law takes is told in the rows of all passes, once it has taken something in one.
+    let laws: Vec<&LostVolume> = passes.iter().flat_map(|pass| &pass.lost).collect();
+    let complete = |pass: &PassRecord| {
+        let mut pass = pass.clone();
+        for lost in &laws {
+            if pass.lost.iter().all(|known| known.law != lost.law) {
+                pass.lost.push(LostVolume::nothing(&lost.law));
+            }
+        }
+        Row::of(&pass)
+    };
+    let rows: Vec<Row> = passes.iter().map(complete).collect();
     let columns = rows.first().map_or(PASS_COLUMNS.to_vec(), Row::columns);
-    let values: Vec<_> = rows.iter().map(Row::values).collect();
+    let values: Vec<_> = rows.iter().map(|row| row.values(&columns)).collect();
     write(path, &columns, &values)
 }
 
@@ -191,8 +202,11 @@ impl Row {
         self.0.iter().map(|(column, _)| column.as_str()).collect()
     }
 
-    fn values(&self) -> Vec<&str> {
-        self.0.iter().map(|(_, value)| value.as_str()).collect()
+    /// The values in the order of these columns.
+    fn values(&self, columns: &[&str]) -> Vec<&str> {
+        let value =
+            |column: &&str| self.0.iter().find(|(known, _)| known == column).map(|(_, value)| value.as_str());
+        columns.iter().map(|column| value(column).unwrap_or_default()).collect()
     }
 }
 
@@ -244,7 +258,6 @@ fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::LostVolume;
 
     fn step(step: usize) -> StepRecord {
         StepRecord {

@@ -46,7 +46,8 @@ fn write_map(folder: &Path, map: &Field) {
 
 fn run(text: &str, folder: &Path, out: &str, existing: Existing) -> asperity::Result<Outcome> {
     let case = Case::parse(text, Path::new("case.toml"), folder)?;
-    study::run(&case, &folder.join(out), existing, &()).map(|(summary, _)| summary.outcome)
+    study::run(&case, asperity::study::Given::default(), &folder.join(out), existing, &())
+        .map(|(summary, _)| summary.outcome)
 }
 
 fn at_rest(text: &str, folder: &Path, out: &str) -> (Box<StaticRecord>, Results) {

@@ -509,13 +509,20 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
         let case = parsed(text);
         let folder = tempfile::tempdir().unwrap();
         let whole = folder.path().join("whole");
-        study::run(&case, &whole, Existing::Keep, &()).unwrap();
+        study::run(&case, asperity::study::Given::default(), &whole, Existing::Keep, &()).unwrap();
         let expected = outcome(&whole);
         // After each increment, and once more on the way.
         for stopped in 1..increments {
             let directory = folder.path().join(format!("after-{stopped}"));
-            let outcome_of =
-                |existing, most| study::run(&case, &directory, existing, &Until::increment(most));
+            let outcome_of = |existing, most| {
+                study::run(
+                    &case,
+                    asperity::study::Given::default(),
+                    &directory,
+                    existing,
+                    &Until::increment(most),
+                )
+            };
             assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));
             let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
             assert_eq!(rows, stopped + 1);
@@ -526,7 +533,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
                 assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
                 fs::write(&state, kept).unwrap();
             }
-            study::run(&case, &directory, Existing::Resume, &()).unwrap();
+            study::run(&case, asperity::study::Given::default(), &directory, Existing::Resume, &()).unwrap();
             assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
         }
     }
@@ -535,7 +542,10 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
 #[test]
 fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = study::run(&parsed(PRESSED), folder.path(), Existing::Keep, &()).unwrap().0;
+    let summary =
+        study::run(&parsed(PRESSED), asperity::study::Given::default(), folder.path(), Existing::Keep, &())
+            .unwrap()
+            .0;
     let results = asperity::study::Results::open(folder.path()).unwrap();
     let rows = results.increments().unwrap();
     assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
@@ -574,7 +584,7 @@ fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
         ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
     ] {
         let case = parsed(&text);
-        let bodies = asperity::study::bodies(&case).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
         let found = asperity::study::estimate(&case, &bodies);
         match found {
             Ok(_) => assert!(bears, "{text}"),
@@ -615,7 +625,7 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
         (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
     ] {
         let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let bodies = asperity::study::bodies(&case).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
         let estimate = asperity::study::estimate(&case, &bodies).unwrap();
         let warnings = [estimate.warnings, estimate.foreseen].concat().join("\n");
         for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
@@ -629,7 +639,15 @@ fn what_only_the_answer_shows_is_said_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let warnings = |name: &str, text: &str| {
         let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let summary = study::run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap().0;
+        let summary = study::run(
+            &case,
+            asperity::study::Given::default(),
+            &folder.path().join(name),
+            Existing::Keep,
+            &(),
+        )
+        .unwrap()
+        .0;
         summary.warnings.join("\n")
     };
     let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";

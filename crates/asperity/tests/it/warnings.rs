@@ -363,13 +363,15 @@ fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str
 }
 
 fn check(case: &Case) -> Vec<String> {
-    let estimate = estimate(case, &bodies(case).unwrap()).unwrap();
+    let estimate = estimate(case, &bodies(case, asperity::study::Given::default()).unwrap()).unwrap();
     estimate.warnings.into_iter().chain(estimate.foreseen).collect()
 }
 
 fn run(case: &Case) -> Summary {
     let folder = tempfile::tempdir().unwrap();
-    study::run(case, &folder.path().join("results"), Existing::Keep, &()).unwrap().0
+    study::run(case, asperity::study::Given::default(), &folder.path().join("results"), Existing::Keep, &())
+        .unwrap()
+        .0
 }
 
 fn record(summary: &Summary) -> &StaticRecord {

@@ -11,7 +11,7 @@ use crate::error::{CaseError, Error};
 
 /// What an error needs in order to show its place.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Document {
+pub(in crate::study) struct Document {
     file: PathBuf,
     text: String,
     /// The places of values and of headers of tables, by dotted key.
@@ -74,6 +74,16 @@ impl Document {
                 None => return 0..0,
             }
         }
+    }
+
+    /// An error at a dotted key, or at the table that would hold it.
+    pub(in crate::study) fn error_at(
+        &self,
+        key: &str,
+        message: impl Into<String>,
+        hint: Option<String>,
+    ) -> Error {
+        self.error(key, self.place(key), message, hint)
     }
 
     pub(super) fn error(

@@ -16,6 +16,16 @@ pub enum Hardness {
     Uniform(Pascal),
     /// A value for each cell of the body as it is prepared.
     Map(HardnessMap),
+    /// A value for each cell, which the caller has in memory, see [`Given`](crate::study::Given).
+    Given(GivenMap),
+}
+
+/// A hardness that the caller has in memory.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GivenMap {
+    /// The name under which it is given.
+    #[serde(rename = "given")]
+    pub name: String,
 }
 
 /// A hardness that is read from a file.
@@ -36,7 +46,7 @@ impl Hardness {
     pub fn yields(&self) -> bool {
         match self {
             Self::Uniform(value) => value.is_finite(),
-            Self::Map(_) => true,
+            Self::Map(_) | Self::Given(_) => true,
         }
     }
 }
@@ -46,6 +56,7 @@ impl Serialize for Hardness {
         match self {
             Self::Uniform(value) => Number::from(*value).serialize(serializer),
             Self::Map(map) => map.serialize(serializer),
+            Self::Given(map) => map.serialize(serializer),
         }
     }
 }
@@ -59,6 +70,10 @@ pub(super) fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
         return Ok(Hardness::Uniform(value));
     }
     let map = entry.table()?;
+    if let Some(name) = map.get("given") {
+        map.known(&["given"], |_| None)?;
+        return Ok(Hardness::Given(GivenMap { name: name.text()?.to_owned() }));
+    }
     map.known(&["file", "channel", "unit"], |_| None)?;
     let name = map.required("file", "\"hardness.npy\"")?;
     let path = match name.text()? {

@@ -59,8 +59,9 @@ const TABLES: [(&str, &[&str]); 9] = [
 ];
 
 /// The keys that each kind of topography has beyond the common ones.
-const SOURCES: [(&str, &[&str]); 11] = [
+const SOURCES: [(&str, &[&str]); 12] = [
     ("file", &["file", "channel", "unit", "despike", "fill"]),
+    ("given", &["given", "despike", "fill"]),
     ("generate = \"low-pass\"", &["generate", "shape", "seed", "sq", "cutoff", "band", "ssk", "sku"]),
     (
         "generate = \"autocorrelation\"",
@@ -129,10 +130,14 @@ pub(super) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
         }
         let owners: Vec<_> = SOURCES
             .iter()
-            .filter(|(_, keys)| keys.contains(&key))
+            .filter(|(name, keys)| keys.contains(&key) && *name != "given")
             .map(|(name, _)| format!("`{name}`"))
             .collect();
-        let kind = if kind == "file" { "a file" } else { kind };
+        let kind = match kind {
+            "file" => "a file",
+            "given" => "heights that are given",
+            kind => kind,
+        };
         Some((
             format!("'{key}' has no meaning with {kind}"),
             Some(format!("it belongs to {}", owners.join(", "))),

@@ -4,7 +4,7 @@
 //! and serialises under the keys of the file, so that a summary holds the case that was computed.
 
 mod cursor;
-mod document;
+pub(in crate::study) mod document;
 mod friction;
 mod hardness;
 mod keys;
@@ -21,7 +21,7 @@ use serde::{Serialize, Serializer};
 
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
-pub use self::hardness::{Hardness, HardnessMap};
+pub use self::hardness::{GivenMap, Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
@@ -235,7 +235,12 @@ impl Case {
     /// An error that the case shows only once it is put to work, at the place of a dotted `key`
     /// (`upper.topography.file`), or of the table that would hold it.
     pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
-        self.document.error(key, self.document.place(key), message, hint)
+        self.document.error_at(key, message, hint)
+    }
+
+    /// The text of the case, with its places.
+    pub(in crate::study) fn document(&self) -> &Document {
+        &self.document
     }
 
     /// What the file says at a dotted `key`, as it is written there.
@@ -267,11 +272,16 @@ impl Case {
             };
             let map = match &body.hardness {
                 Hardness::Map(map) => Some(&map.path),
-                Hardness::Uniform(_) => None,
+                Hardness::Uniform(_) | Hardness::Given(_) => None,
             };
             surface.into_iter().chain(map)
         })
     }
+}
+
+/// The topography of a table `[topography]` that stands alone, and the document that it stands in.
+pub(in crate::study) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
+    parse::topography_alone(text, folder)
 }
 
 /// A number of the case as it is written out: JSON has no infinities, the case file has `inf`.

@@ -1,6 +1,6 @@
 //! From text to [`Case`]. The tables are read in the order of the contract, each by one function.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::cursor::{Entry, Table};
 use super::document::Document;
@@ -31,6 +31,16 @@ const SHAPE: &str = "two whole numbers of at least 1, such as [256, 256]";
 
 /// The expected text of one length or two.
 const LENGTHS: &str = "a length above 0 such as \"0.25 um\", or two";
+
+/// A topography that stands alone, in the table `[topography]`, and the document that it stands in.
+pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
+    let mut document = Document::new(PathBuf::new(), text);
+    let entries = document.parse(text)?;
+    let root = Table::root(&document, entries.get_ref());
+    root.known(&["topography"], |key| belongs(key, ""))?;
+    let spec = topography(&root.required_table("topography")?, folder)?;
+    Ok((spec, document))
+}
 
 pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
@@ -240,12 +250,18 @@ fn may_be_an_underside(source: &Source) -> bool {
 
 fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
     known_of_topographies(table)?;
+    // Only a program that calls the library can give heights: others are not told of it.
+    let kinds: &[_] = match table.get("given") {
+        Some(_) => &["file", "given", "generate", "form"],
+        None => &["file", "generate", "form"],
+    };
     let kind = table.exactly_one(
-        &["file", "generate", "form"],
+        kinds,
         "for example `file = \"disc.x3p\"`, `generate = \"low-pass\"` or `form = \"sphere\"`",
     )?;
     let source = match kind {
         "file" => file(table, folder)?,
+        "given" => given(table)?,
         "generate" => generate(table)?,
         _ => form(table)?,
     };
@@ -314,6 +330,11 @@ fn file(table: &Table<'_>, folder: &Path) -> Result<Source> {
         channel: table.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
         unit: table.get("unit").map(|entry| entry.unit(Dimension::Length)).transpose()?,
     })
+}
+
+fn given(table: &Table<'_>) -> Result<Source> {
+    suits(table, "given")?;
+    Ok(Source::Given { name: table.required("given", "\"disc\"")?.text()?.to_owned() })
 }
 
 fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {

@@ -22,7 +22,7 @@ pub struct TopographySpec {
     /// a file that carries none (npy, text); to a file that carries one it is resampled.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<[Metre; 2]>,
-    /// What is done with the heights; `despike` and `fill` belong to files alone.
+    /// What is done with the heights; `despike` and `fill` belong to what is measured alone.
     #[serde(flatten)]
     pub preparation: Preparation,
     /// What is added on the grid that all this leads to.
@@ -30,7 +30,7 @@ pub struct TopographySpec {
     pub plus: Vec<Layer>,
 }
 
-/// One of the keys `file`, `generate`, `form`.
+/// One of the keys `file`, `given`, `generate`, `form`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Source {
@@ -45,6 +45,12 @@ pub enum Source {
         /// What a 1 stands for in a file without units.
         #[serde(skip_serializing_if = "Option::is_none")]
         unit: Option<Metre>,
+    },
+    /// Heights that the caller has in memory, see [`Given`](crate::study::Given).
+    Given {
+        /// The name under which they are given.
+        #[serde(rename = "given")]
+        name: String,
     },
     /// A random topography; its `pitch` is in [`TopographySpec::pitch`].
     Generate {
@@ -85,7 +91,7 @@ impl TopographySpec {
 
     /// The keys that a surface that is made takes from the other body.
     pub(in crate::study) fn lacks(&self) -> impl Iterator<Item = &'static str> {
-        let is_made = !matches!(self.source, Source::File { .. });
+        let is_made = matches!(self.source, Source::Generate { .. } | Source::Form { .. });
         let keys = [("shape", self.source.shape().is_none()), ("pitch", self.pitch.is_none())];
         keys.into_iter().filter(move |(_, lacks)| is_made && *lacks).map(|(key, _)| key)
     }
@@ -95,7 +101,7 @@ impl Source {
     /// Number of cells along x and y of what is made, where it is given.
     pub(in crate::study) fn shape(&self) -> Option<[usize; 2]> {
         match self {
-            Self::File { .. } => None,
+            Self::File { .. } | Self::Given { .. } => None,
             Self::Generate { shape, .. } | Self::Form { shape, .. } => *shape,
         }
     }

@@ -9,6 +9,7 @@ use crate::motion::{PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Coupling, Friction, Method, Sliding};
 use crate::study::case::{Body, Case, ControlKind, Layer, LoadingPath, Source};
+use crate::study::given::Given;
 use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
 use crate::units::Second;
@@ -35,8 +36,8 @@ pub struct Demand {
 ///
 /// # Errors
 /// [`Error::Case`] if a file cannot be read, or if a step of its preparation has no meaning on its grid.
-pub fn demand(case: &Case, threads: usize) -> Result<Demand> {
-    let [lower, upper] = grids(case)?;
+pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
+    let [lower, upper] = grids(case, given)?;
     let overlaps: Vec<usize> =
         super::positions(case, lower.shape[0], upper.shape[0]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
@@ -123,7 +124,7 @@ impl Sizes<'_> {
                         body.topography.made_on(Some(*other)).map_or(cells, |grid| generate.cells(&grid));
                     [layers.fold(cells, f64::max), 3.0]
                 }
-                Source::File { .. } => [layers.fold(cells, f64::max), 3.0],
+                Source::File { .. } | Source::Given { .. } => [layers.fold(cells, f64::max), 3.0],
                 Source::Form { shape, .. } => {
                     let shape = shape.unwrap_or(other.shape);
                     [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0]

@@ -60,7 +60,7 @@ fn wide(case: &Case, grid: &Grid) -> String {
 fn hard(case: &Case, estimate: &Estimate) -> String {
     let bears = |body: &Body| match body.hardness {
         Hardness::Uniform(value) => value,
-        Hardness::Map(_) => 0.0,
+        Hardness::Map(_) | Hardness::Given(_) => 0.0,
     };
     let body = softer(bears(&case.lower), bears(&case.upper));
     let pressure = |value| units::format(value, Dimension::Pressure);
@@ -96,7 +96,7 @@ mod tests {
             body("upper", "young = \"inf\"")
         );
         let case = Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        estimate(&case, &bodies(&case).unwrap()).unwrap().warnings
+        estimate(&case, &bodies(&case, crate::study::Given::default()).unwrap()).unwrap().warnings
     }
 
     #[test]

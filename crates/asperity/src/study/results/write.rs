@@ -10,9 +10,10 @@ use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{LoadedContact, Output, Pair, PassRecord, PassReport, State, StepRecord};
-use crate::solver::{Friction, Solution};
+use crate::motion::{Output, Pair, PassRecord, PassReport, State, StepRecord};
+use crate::solver::Friction;
 use crate::study::loading::LoadingWriter;
+use crate::study::rest::{NamedField, RestFields};
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
 use crate::study::sweep::SweepWriter;
@@ -84,34 +85,11 @@ impl Writer {
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub fn write_static(&self, pair: &Pair, solution: &Solution) -> Result<()> {
-        let plastic = solution.plastic_interference();
-        let file = static_fields(self.field_file(), pair, solution, &plastic);
-        file.write(&self.results.static_path())
-    }
-
-    /// Writes the fields of a static contact that has been loaded in stages, or rolls.
-    ///
-    /// # Errors
-    /// [`crate::Error::File`].
-    pub fn write_loaded(&self, pair: &Pair, contact: &LoadedContact) -> Result<()> {
-        let grid = pair.lower_grid();
-        let mut file = static_fields(self.field_file(), pair, contact.solution.normal(), &contact.plastic);
-        let mut add = |name: &str, unit: &str, field: &Field| {
-            file.add_field(name, unit, &grid, [0.0, 0.0], field);
-        };
-        if let Some(solution) = contact.solution.frictional() {
-            add("traction_x", "Pa", &solution.shear[0]);
-            add("traction_y", "Pa", &solution.shear[1]);
-            add("displacement_x", "m", &solution.displacement[0]);
-            add("displacement_y", "m", &solution.displacement[1]);
-        }
-        if let Some([x, y]) = &contact.slip {
-            add("slip_x", "m", x);
-            add("slip_y", "m", y);
-        }
-        if let Some(solution) = contact.solution.frictional() {
-            add("stick", "1", &solution.stick);
+    pub fn write_rest(&self, contact: &RestFields) -> Result<()> {
+        let mut file = self.field_file();
+        file.set("approach", contact.approach).set("hardness", contact.hardness);
+        for NamedField { name, unit, values } in &contact.fields {
+            file.add_field(name, unit, &contact.grid, [0.0, 0.0], values);
         }
         file.write(&self.results.static_path())
     }
@@ -152,7 +130,7 @@ impl Writer {
     ///
     /// # Errors
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
-    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter<'_>> {
+    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
         let passes = self.results.passes()?;
         let done = plan.iter().flat_map(|_| 1..=passes.len());
         Ok(PassWriter {
@@ -161,7 +139,8 @@ impl Writer {
                 .map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass))))
                 .collect::<Result<_>>()?,
             passes,
-            writer: self,
+            results: self.results.clone(),
+            identity: self.identity.clone(),
             pressure_every,
             plan,
         })
@@ -189,8 +168,9 @@ impl Writer {
 }
 
 /// Writes passes as they are finished: fields, then positions, then the pass itself.
-pub struct PassWriter<'a> {
-    writer: &'a Writer,
+pub struct PassWriter {
+    results: Results,
+    identity: String,
     steps: Vec<StepRecord>,
     passes: Vec<PassRecord>,
     subsurface: Vec<SubsurfaceRecord>,
@@ -198,7 +178,7 @@ pub struct PassWriter<'a> {
     plan: Option<Plan>,
 }
 
-impl PassWriter<'_> {
+impl PassWriter {
     /// The passes written so far.
     pub fn passes(&self) -> &[PassRecord] {
         &self.passes
@@ -210,11 +190,11 @@ impl PassWriter<'_> {
     }
 }
 
-impl Output for PassWriter<'_> {
+impl Output for PassWriter {
     fn pass(&mut self, report: &PassReport) -> Result<()> {
         let pair = report.pair;
-        let results = &self.writer.results;
-        let mut file = self.writer.field_file();
+        let results = &self.results;
+        let mut file = FieldFile::of_run(&self.identity);
         file.set("pass", report.record.pass);
         set_caps(&mut file, pair, report.sliding.as_ref().map(|sliding| &sliding.friction));
         add_bodies(&mut file, pair);
@@ -244,10 +224,10 @@ impl Output for PassWriter<'_> {
             let path = results.subsurface_path(pass);
             let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
-            self.subsurface.push(plan.write(self.writer.field_file(), &path, pass, tractions)?);
+            self.subsurface.push(plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?);
         }
         let passes = report.record.pass;
-        let file = self.writer.field_file();
+        let file = FieldFile::of_run(&self.identity);
         warm_start::write(file, &results.warm_start_path(passes), passes, &report.warm_start())?;
         self.steps.extend_from_slice(report.steps);
         self.passes.push(report.record.clone());
@@ -257,38 +237,10 @@ impl Output for PassWriter<'_> {
     }
 }
 
-/// What every static contact leaves.
-fn static_fields(mut file: FieldFile, pair: &Pair, solution: &Solution, plastic: &Field) -> FieldFile {
-    let grid = pair.lower_grid();
-    // Between the bodies as they are prepared, whatever the course of a loading has left of them.
-    let gap = pair.initial_gap(&pair.at_rest()) + &solution.displacement - solution.approach;
-    file.set("approach", solution.approach);
-    set_hardness(&mut file, pair);
-    for (name, unit, field) in [
-        ("pressure", "Pa", &solution.pressure),
-        ("displacement", "m", &solution.displacement),
-        ("gap", "m", &gap),
-        ("lower", "m", &pair.lower.heights),
-        ("upper", "m", &pair.upper.heights),
-        ("plastic", "m", plastic),
-    ] {
-        file.add_field(name, unit, &grid, [0.0, 0.0], field);
-    }
-    if let CellValues::Field(cap) = solution.bounds.upper() {
-        file.add_field("cap", "Pa", &grid, [0.0, 0.0], cap);
-    }
-    file
-}
-
-/// The hardness of the pair, the least where it is a map.
-fn set_hardness(file: &mut FieldFile, pair: &Pair) {
-    file.set("hardness", pair.min_hardness());
-}
-
 /// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
 fn set_caps(file: &mut FieldFile, pair: &Pair, friction: Option<&Friction>) {
     let hardness = pair.min_hardness();
-    set_hardness(file, pair);
+    file.set("hardness", hardness);
     file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
 }
 

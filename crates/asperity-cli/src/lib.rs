@@ -1,0 +1,59 @@
+//! The command `asperity`, for programs that bring it along.
+
+mod args;
+mod check;
+mod draw;
+mod example;
+mod figures;
+mod machine;
+mod paper;
+mod plot;
+mod report;
+mod run;
+mod signals;
+mod surface;
+mod threads;
+mod verify;
+
+use std::ffi::OsString;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+pub use machine::available as available_memory;
+
+/// Runs the command with these `arguments`, the first of which is its name, and gives its exit code: 0 if all is well, 1 where
+/// the computation failed, 2 where the input is bad, 130 after Ctrl-C.
+///
+/// It is the main function of a process: it prints, takes over Ctrl-C and the threads of the process, and ends it where `--help`
+/// or an argument that is not understood wants it.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    signals::survive_size_limit();
+    match command(arguments) {
+        Ok(()) => 0,
+        Err(failure) => {
+            report::report(&failure);
+            report::exit_code(&failure)
+        }
+    }
+}
+
+fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
+    let command = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments.command,
+        Err(error) => return args::unparsed(&error),
+    };
+    threads::start(match &command {
+        Command::Run(arguments) => arguments.threads.map(usize::from),
+        _ => None,
+    })?;
+    match command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Example(arguments) => example::example(&arguments),
+        Command::Surface(arguments) => surface::surface(arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Verify => verify::verify(),
+        Command::Paper(arguments) => paper::paper(&arguments),
+    }
+}

@@ -1,0 +1,96 @@
+//! A contact at rest, in memory.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use asperity::study::case::Case;
+use asperity::study::{self, Given, NamedField, Outcome, Rest};
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{array, field, ok, record};
+use crate::surface::{Heights, topography};
+use crate::{tables, work};
+
+/// What a call hands over: surfaces by name, maps of the hardness by name.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Handed<'py> {
+    topographies: HashMap<String, Heights<'py>>,
+    hardness: HashMap<String, PyReadonlyArray2<'py, f64>>,
+}
+
+impl Handed<'_> {
+    /// A copy of all of it.
+    pub(crate) fn given(&self, py: Python<'_>) -> PyResult<Given> {
+        let mut given = Given::default();
+        for (name, heights) in &self.topographies {
+            given.topographies.insert(name.clone(), topography(py, heights)?);
+        }
+        for (name, map) in &self.hardness {
+            given.hardness.insert(name.clone(), field(map));
+        }
+        Ok(given)
+    }
+}
+
+/// What says what is to be computed.
+#[derive(FromPyObject)]
+pub(crate) enum Source<'py> {
+    /// The tables of a case.
+    Tables(Bound<'py, PyDict>),
+    /// A case file.
+    File(PathBuf),
+}
+
+impl Source<'_> {
+    pub(crate) fn case(&self, py: Python<'_>) -> PyResult<Case> {
+        let case = match self {
+            Self::Tables(tables) => Case::parse(&tables::text(tables)?, Path::new(""), Path::new("")),
+            Self::File(path) => Case::load(path),
+        };
+        ok(case, py)
+    }
+}
+
+/// Refuses what takes more memory than there is.
+pub(crate) fn fits(py: Python<'_>, case: &Case, given: &Given, threads: usize) -> PyResult<()> {
+    let threads =
+        if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
+    let demand =
+        study::demand(case, given, threads).and_then(|demand| demand.fits(asperity_cli::available_memory()));
+    ok(demand, py)
+}
+
+/// Computes a contact at rest.
+#[pyfunction]
+pub(crate) fn rest<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+    handed: Handed<'py>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (case, given) = (source.case(py)?, handed.given(py)?);
+    fits(py, &case, &given, threads)?;
+    let Rest { outcome, increments, fields, warnings, .. } =
+        work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
+    let contact = PyDict::new(py);
+    match outcome {
+        Outcome::Static(numbers) => contact.set_item("record", record(py, &numbers)?)?,
+        Outcome::Sweep(points) => contact.set_item("sweep", record(py, &points)?)?,
+        Outcome::Passes(_) => unreachable!("a contact at rest has no passes"),
+    }
+    contact.set_item("case", record(py, &case)?)?;
+    contact.set_item("increments", record(py, &increments)?)?;
+    contact.set_item("warnings", warnings)?;
+    contact.set_item("pitch", fields.grid.pitch)?;
+    contact.set_item("approach", fields.approach)?;
+    let arrays = PyDict::new(py);
+    for NamedField { name, unit, values, .. } in fields.fields {
+        arrays.set_item(name, (array(py, values), unit))?;
+    }
+    contact.set_item("fields", arrays)?;
+    Ok(contact)
+}

@@ -1,0 +1,196 @@
+//! A computation whose results are kept in a directory; a motion, pass after pass.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard};
+
+use asperity::motion::SolvedPass;
+use asperity::study::{self, Existing, Passes};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use crate::arrays::{array, field, record};
+use crate::contact::{Handed, Source, fits};
+use crate::work;
+
+fn existing(word: &str) -> Existing {
+    match word {
+        "resume" => Existing::Resume,
+        "overwrite" => Existing::Overwrite,
+        _ => Existing::Keep,
+    }
+}
+
+/// Computes a case and writes its results to a directory.
+#[pyfunction]
+pub(crate) fn run<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+    handed: Handed<'py>,
+    directory: PathBuf,
+    existing: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<()> {
+    let (case, given) = (source.case(py)?, handed.given(py)?);
+    fits(py, &case, &given, threads)?;
+    let existing = self::existing(existing);
+    work::run(py, threads, progress.as_ref(), |watch| {
+        study::run(&case, given, &directory, existing, watch).map(|_| ())
+    })
+}
+
+/// A motion under way.
+#[pyclass(name = "Passes", frozen)]
+pub(crate) struct CorePasses {
+    state: Mutex<State>,
+    threads: usize,
+}
+
+/// The passes, until they are ended, and the one that is solved and not yet finished.
+struct State {
+    passes: Option<Passes>,
+    solved: Option<SolvedPass>,
+}
+
+/// The contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference.
+type Contacts<'py> = (
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+#[pymethods]
+impl CorePasses {
+    #[new]
+    fn new<'py>(
+        py: Python<'py>,
+        source: Source<'py>,
+        handed: Handed<'py>,
+        directory: PathBuf,
+        existing: &str,
+        threads: usize,
+    ) -> PyResult<Self> {
+        let (case, given) = (source.case(py)?, handed.given(py)?);
+        fits(py, &case, &given, threads)?;
+        let existing = self::existing(existing);
+        let passes = work::run(py, threads, None, |_| Passes::enter(&case, given, &directory, existing))?;
+        Ok(Self { state: Mutex::new(State { passes: Some(passes), solved: None }), threads })
+    }
+
+    /// Solves the next pass; false where there is none.
+    fn solve(&self, py: Python<'_>, progress: Option<Bound<'_, PyAny>>) -> PyResult<bool> {
+        let mut state = self.state()?;
+        let State { passes, solved } = &mut *state;
+        let Some(passes) = passes else { return Ok(false) };
+        *solved = work::run(py, self.threads, progress.as_ref(), |watch| passes.solve(watch))?;
+        Ok(solved.is_some())
+    }
+
+    /// Finishes the pass that is solved: it is written, and the next one begins on its bodies.
+    fn finish(&self, py: Python<'_>) -> PyResult<()> {
+        let mut state = self.state()?;
+        let State { passes, solved } = &mut *state;
+        match (passes, solved.take()) {
+            (Some(passes), Some(solved)) => {
+                work::run(py, self.threads, None, |watch| passes.finish(solved, watch))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the summary; nothing more can be solved.
+    fn end(&self, py: Python<'_>) -> PyResult<()> {
+        let Some(passes) = self.state()?.passes.take() else { return Ok(()) };
+        work::run(py, self.threads, None, |_| passes.end().map(|_| ()))
+    }
+
+    /// Number of passes that are finished.
+    fn done(&self) -> PyResult<usize> {
+        Ok(self.state()?.passes.as_ref().map_or(0, |passes| passes.done().len()))
+    }
+
+    /// The pass that is solved, in numbers as they are now.
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &solved(&mut *self.state()?)?.record())
+    }
+
+    /// The positions of the pass that is solved, in numbers.
+    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &solved(&mut *self.state()?)?.steps())
+    }
+
+    /// The contacts of the pass that is solved.
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Contacts<'py>> {
+        let mut state = self.state()?;
+        let pass = solved(&mut state)?;
+        let count = pass.contacts().iter().map(|contact| contact.pressure.len()).sum();
+        let [mut position, mut lower, mut upper] = [(); 3].map(|()| Vec::with_capacity(count));
+        let [mut pressure, mut plastic] = [(); 2].map(|()| Vec::with_capacity(count));
+        for (index, contact) in pass.contacts().iter().enumerate() {
+            for &(cell, p) in &contact.pressure {
+                let [a, b] = pass.pair().cells_of_bodies(&contact.position, cell as usize);
+                position.push(index as i64);
+                lower.push(a as i64);
+                upper.push(b as i64);
+                pressure.push(p);
+            }
+            plastic.extend(contact.interference());
+        }
+        Ok((
+            position.into_pyarray(py),
+            lower.into_pyarray(py),
+            upper.into_pyarray(py),
+            pressure.into_pyarray(py),
+            plastic.into_pyarray(py),
+        ))
+    }
+
+    /// Heights of the lower and of the upper body as they are now.
+    fn heights<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let state = self.state()?;
+        let pair = match (&state.solved, &state.passes) {
+            (Some(solved), _) => solved.pair(),
+            (None, Some(passes)) => passes.simulation().pair(),
+            (None, None) => return Err(ended()),
+        };
+        Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
+    }
+
+    /// Size of a cell, and the distance over which the bodies slide from one position to the next.
+    fn grid(&self) -> PyResult<([f64; 2], f64)> {
+        let state = self.state()?;
+        let passes = state.passes.as_ref().ok_or_else(ended)?;
+        let pitch = passes.simulation().pair().pitch();
+        Ok((pitch, passes.simulation().motion().sliding_distance(pitch[0])))
+    }
+
+    /// Takes depths off the bodies of the pass that is solved.
+    fn remove(
+        &self,
+        law: &str,
+        lower: PyReadonlyArray2<'_, f64>,
+        upper: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        solved(&mut *self.state()?)?.remove(law, &[field(&lower), field(&upper)]);
+        Ok(())
+    }
+}
+
+impl CorePasses {
+    /// The state, for one thread at a time.
+    fn state(&self) -> PyResult<MutexGuard<'_, State>> {
+        let busy = || PyRuntimeError::new_err("another thread is at work on this simulation");
+        self.state.try_lock().map_err(|_| busy())
+    }
+}
+
+fn solved(state: &mut State) -> PyResult<&mut SolvedPass> {
+    state.solved.as_mut().ok_or_else(ended)
+}
+
+fn ended() -> PyErr {
+    PyRuntimeError::new_err("this pass is finished: the next one is under way, or there is none")
+}

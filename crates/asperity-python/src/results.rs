@@ -1,0 +1,103 @@
+//! A results directory, to be read.
+
+use std::path::PathBuf;
+
+use asperity::Error;
+use asperity::io::fields::{Attribute, Fields};
+use asperity::study::Results;
+use numpy::{IntoPyArray, PyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{object, ok, record};
+
+/// An array as it is stored: values, unit, names of the axes, pitch and origin along each.
+type Stored<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
+
+#[pyclass(name = "Results", frozen)]
+pub(crate) struct CoreResults {
+    results: Results,
+}
+
+#[pymethods]
+impl CoreResults {
+    #[new]
+    fn new(py: Python<'_>, directory: PathBuf) -> PyResult<Self> {
+        Ok(Self { results: ok(Results::open(&directory), py)? })
+    }
+
+    fn case<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        object(py, &ok(self.results.case(), py)?)
+    }
+
+    /// The summary; none until all is done.
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        match self.results.summary() {
+            Err(Error::File { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            summary => record(py, &ok(summary, py)?).map(Some),
+        }
+    }
+
+    fn passes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.passes(), py)?)
+    }
+
+    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.steps(), py)?)
+    }
+
+    fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.increments(), py)?)
+    }
+
+    fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.sweep(), py)?)
+    }
+
+    /// Names of the fields of a kind: "contact", "pass", "point", "subsurface".
+    fn names(&self, py: Python<'_>, kind: &str, number: Option<usize>) -> PyResult<Vec<String>> {
+        ok(self.fields(kind, number).and_then(|fields| fields.names()), py)
+    }
+
+    fn attributes<'py>(
+        &self,
+        py: Python<'py>,
+        kind: &str,
+        number: Option<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let attributes = PyDict::new(py);
+        for (name, value) in ok(self.fields(kind, number).and_then(|fields| fields.attributes()), py)? {
+            match value {
+                Attribute::Text(text) => attributes.set_item(name, text)?,
+                Attribute::Number(number) => attributes.set_item(name, number)?,
+                Attribute::Integer(number) => attributes.set_item(name, number)?,
+                Attribute::Numbers(numbers) => attributes.set_item(name, numbers)?,
+            }
+        }
+        Ok(attributes)
+    }
+
+    fn read<'py>(
+        &self,
+        py: Python<'py>,
+        kind: &str,
+        number: Option<usize>,
+        name: &str,
+    ) -> PyResult<Stored<'py>> {
+        let stored = py.detach(|| self.fields(kind, number).and_then(|fields| fields.read(name)));
+        let stored = ok(stored, py)?;
+        let axes = stored.axes.split(',').map(str::to_owned).collect();
+        Ok((stored.values.into_pyarray(py), stored.unit, axes, stored.pitch, stored.origin))
+    }
+}
+
+impl CoreResults {
+    fn fields(&self, kind: &str, number: Option<usize>) -> asperity::Result<Fields> {
+        match kind {
+            "pass" => self.results.fields_after(number.unwrap_or(0)),
+            "point" => self.results.point_fields(number.unwrap_or(1)),
+            "subsurface" => self.results.subsurface_fields(number),
+            _ => self.results.static_fields(),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Surfaces: read, made, prepared, written; quantities with units.
+
+use std::path::{Path, PathBuf};
+
+use asperity::Grid;
+use asperity::study::{self, Given, Made};
+use asperity::surface::{ReadOptions, Round, Topography};
+use asperity::units::{self, Dimension};
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{array, field, ok};
+use crate::{errors, tables, work};
+
+/// Heights that a caller has, and their pitch.
+pub(crate) type Heights<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
+
+/// A topography of a copy of these heights.
+pub(crate) fn topography(py: Python<'_>, (heights, pitch): &Heights<'_>) -> PyResult<Topography> {
+    let heights = field(heights);
+    let made =
+        Grid::new([heights.nrows(), heights.ncols()], *pitch).and_then(|grid| Topography::new(grid, heights));
+    ok(made, py)
+}
+
+/// The topography that a table describes, as `[lower.topography]` of a case does, with what its preparation came upon.
+/// `given` are the heights that it names `given = "heights"`.
+#[pyfunction]
+#[pyo3(signature = (table, given=None))]
+pub(crate) fn surface<'py>(
+    py: Python<'py>,
+    table: &Bound<'py, PyDict>,
+    given: Option<Heights<'py>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let whole = PyDict::new(py);
+    whole.set_item("topography", table)?;
+    let text = tables::text(&whole)?;
+    let mut handed = Given::default();
+    if let Some(heights) = &given {
+        handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
+    }
+    let Made { topography, origin, findings, .. } =
+        work::run(py, 0, None, |_| study::topography(&text, Path::new(""), handed))?;
+    let made = PyDict::new(py);
+    made.set_item("pitch", topography.grid().pitch)?;
+    made.set_item("underside", origin.is_some_and(|origin| origin.is_underside))?;
+    made.set_item("undefined", findings.undefined)?;
+    made.set_item("spikes", findings.spikes)?;
+    made.set_item("radius", findings.form.map(|Round { radius, .. }| radius))?;
+    made.set_item("heights", array(py, topography.into_heights()))?;
+    Ok(made)
+}
+
+/// Checks a table as far as it alone can tell.
+#[pyfunction]
+pub(crate) fn check_surface(py: Python<'_>, table: &Bound<'_, PyDict>) -> PyResult<()> {
+    let whole = PyDict::new(py);
+    whole.set_item("topography", table)?;
+    ok(study::topography_spec(&tables::text(&whole)?, Path::new("")), py).map(|_| ())
+}
+
+/// The names of the height channels of a file, the default one first.
+#[pyfunction]
+pub(crate) fn channels(py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+    work::run(py, 1, None, |_| Ok(ReadOptions::default().scan(path)?.channels))
+}
+
+/// Writes heights to a file, in the format that the end of its name tells.
+#[pyfunction]
+pub(crate) fn write_surface(py: Python<'_>, path: PathBuf, heights: Heights<'_>) -> PyResult<()> {
+    let topography = topography(py, &heights)?;
+    work::run(py, 1, None, |_| topography.write(path))
+}
+
+fn dimension(name: &str) -> PyResult<Dimension> {
+    Ok(match name {
+        "length" => Dimension::Length,
+        "area" => Dimension::Area,
+        "volume" => Dimension::Volume,
+        "pressure" => Dimension::Pressure,
+        "force" => Dimension::Force,
+        "energy" => Dimension::Energy,
+        "speed" => Dimension::Speed,
+        "angle" => Dimension::Angle,
+        "time" => Dimension::Time,
+        "stiffness" => Dimension::Stiffness,
+        _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
+    })
+}
+
+/// A quantity in SI: a number, or a text with a unit. `positive`: it must be above 0; `infinite`: it may be infinite, too.
+/// Mistakes name the `key`.
+#[pyfunction]
+#[pyo3(signature = (key, value, dimension, positive=true, infinite=false))]
+pub(crate) fn quantity(
+    py: Python<'_>,
+    key: &str,
+    value: &Bound<'_, PyAny>,
+    dimension: &str,
+    positive: bool,
+    infinite: bool,
+) -> PyResult<f64> {
+    let dimension = self::dimension(dimension)?;
+    let expected = || {
+        let range = if positive { " above 0" } else { "" };
+        format!("{}{range} such as \"{}\"", dimension.noun(), dimension.example())
+    };
+    let refused = |expected: &str, hint| {
+        let written = value.repr().map_or_else(|_| String::new(), |text| text.to_string());
+        errors::bad_input(py, key, &format!("'{key}' is {written}, expected {expected}"), hint)
+    };
+    let number = match value.extract::<String>() {
+        Ok(text) if text == "inf" => f64::INFINITY,
+        Ok(text) => units::parse(&text, dimension)
+            .map_err(|error| errors::bad_input(py, key, &error.for_key(key), error.hint()))?,
+        Err(_) => match value.extract() {
+            Ok(number) => number,
+            Err(_) => {
+                let found = value.get_type().name()?;
+                return Err(PyTypeError::new_err(format!(
+                    "'{key}' is of type {found}, expected {}",
+                    expected()
+                )));
+            }
+        },
+    };
+    let range = dimension.range();
+    match number {
+        f64::INFINITY if infinite => Ok(number),
+        number if positive && range.holds(number) || !positive && range.holds_signed(number) => Ok(number),
+        number if number.is_finite() && (number > 0.0 || !positive) => {
+            Err(refused(&format!("a magnitude of {range}"), None))
+        }
+        _ => Err(refused(&expected(), None)),
+    }
+}
+
+/// A quantity as people write it.
+#[pyfunction]
+pub(crate) fn format(value: f64, dimension: &str) -> PyResult<String> {
+    Ok(units::format(value, self::dimension(dimension)?))
+}

@@ -1,0 +1,66 @@
+//! Dictionaries as the tables of a case.
+
+use std::path::PathBuf;
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use toml::{Table, Value};
+
+/// The text of a case of these tables, or of a part of one. A key whose value is `None` is not given.
+pub(crate) fn text(tables: &Bound<'_, PyDict>) -> PyResult<String> {
+    toml::to_string(&table(tables, "")?).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+fn table(entries: &Bound<'_, PyDict>, path: &str) -> PyResult<Table> {
+    let mut table = Table::new();
+    for (key, value) in entries {
+        let key: String = key.extract()?;
+        if !value.is_none() {
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            table.insert(key, entry(&value, &path)?);
+        }
+    }
+    Ok(table)
+}
+
+/// A value: what is a number or a list in spirit, as NumPy's scalars and arrays are, is taken for one.
+fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
+    if let Ok(entries) = value.cast::<PyDict>() {
+        return Ok(Value::Table(table(entries, path)?));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return Ok(Value::String(text.to_string()));
+    }
+    if let Ok(flag) = value.cast::<PyBool>() {
+        return Ok(Value::Boolean(flag.is_true()));
+    }
+    if let Ok(whole) = value.cast::<PyInt>() {
+        return Ok(match whole.extract() {
+            Ok(whole) => Value::Integer(whole),
+            Err(_) => Value::Float(whole.extract()?),
+        });
+    }
+    if value.cast::<PyFloat>().is_ok() {
+        return Ok(Value::Float(value.extract()?));
+    }
+    if value.hasattr("__fspath__")? {
+        let path: PathBuf = value.extract()?;
+        return Ok(Value::String(path.to_string_lossy().into_owned()));
+    }
+    if let Ok(items) = value.try_iter() {
+        let items = items.map(|item| entry(&item?, path)).collect::<PyResult<_>>()?;
+        return Ok(Value::Array(items));
+    }
+    if value.hasattr("__index__")? {
+        return value.extract().map(Value::Integer);
+    }
+    if value.hasattr("__float__")? {
+        return value.extract().map(Value::Float);
+    }
+    let key = path.rsplit('.').next().unwrap_or_default();
+    let found = value.get_type().name()?;
+    Err(PyTypeError::new_err(format!(
+        "'{key}' is of type {found}, expected a number, a text or a sequence of them"
+    )))
+}

@@ -1,0 +1,134 @@
+//! A computation on threads of its own, while the caller sees to signals and progress.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use asperity::Result;
+use asperity::motion::{Progress, Watch};
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::errors;
+
+/// How often the caller looks at signals and tells of progress.
+const TICK: Duration = Duration::from_millis(50);
+
+/// Does `work` on `threads` (0: one for each core) and gives what comes of it. Meanwhile the caller, detached from the
+/// interpreter, wakes now and then: it handles signals and calls `progress`. An exception of either stops the work and is
+/// raised once that has ended.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&dyn Watch) -> Result<T> + Send,
+) -> PyResult<T> {
+    let pool = pool(threads)?;
+    let looking = Looking::default();
+    let mut outcome = None;
+    let mut raised = None;
+    pool.in_place_scope(|scope| {
+        scope.spawn(|_| {
+            outcome = Some(catch_unwind(AssertUnwindSafe(|| work(&looking))));
+            looking.end();
+        });
+        while !py.detach(|| looking.wait(TICK)) {
+            if raised.is_none()
+                && let Err(exception) = py.check_signals().and_then(|()| looking.tell(progress))
+            {
+                looking.stop.store(true, Ordering::Relaxed);
+                raised = Some(exception);
+            }
+        }
+    });
+    match (raised, outcome.expect("the work has ended")) {
+        (Some(exception), _) => Err(exception),
+        (None, Ok(result)) => result.map_err(|error| errors::exception(py, &error)),
+        (None, Err(panic)) => Err(errors::internal(py, &text(panic.as_ref()))),
+    }
+}
+
+/// What a panic says.
+fn text(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+/// Who looks on while the work is done.
+#[derive(Default)]
+struct Looking {
+    stop: AtomicBool,
+    now: Mutex<Option<Progress>>,
+    ended: Mutex<bool>,
+    ends: Condvar,
+}
+
+impl Looking {
+    fn end(&self) {
+        *held(&self.ended) = true;
+        self.ends.notify_all();
+    }
+
+    /// Waits so long for the end; whether it has come.
+    fn wait(&self, time: Duration) -> bool {
+        let waiting = self.ends.wait_timeout_while(held(&self.ended), time, |ended| !*ended);
+        *waiting.unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    fn tell(&self, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let now = held(&self.now).take();
+        let (Some(progress), Some(now)) = (progress, now) else { return Ok(()) };
+        let Progress { pass, passes, trial, solved, positions, load, together, .. } = now;
+        progress.call1((pass, passes, trial, solved, positions, load, together)).map(|_| ())
+    }
+}
+
+impl Watch for Looking {
+    fn at(&self, progress: &Progress) {
+        *held(&self.now) = Some(*progress);
+    }
+
+    fn solving(&self, progress: &Progress) {
+        *held(&self.now) = Some(*progress);
+    }
+
+    fn stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The threads of this process that were used last: how many, and of which process.
+static LAST: Mutex<Option<(u32, usize, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// So many threads, which belong to this process alone: those of a process that has forked are not there in its child, and
+/// whoever waits for them waits forever.
+fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
+    let process = std::process::id();
+    // In a child the lock may have been held when it was forked.
+    let mut last = LAST.try_lock().ok();
+    if let Some(Some((owner, size, pool))) = last.as_deref()
+        && (*owner, *size) == (process, threads)
+    {
+        return Ok(pool.clone());
+    }
+    let built = ThreadPoolBuilder::new().num_threads(threads).build();
+    let failed =
+        |error| pyo3::exceptions::PyRuntimeError::new_err(format!("threads cannot be made: {error}"));
+    let pool = Arc::new(built.map_err(failed)?);
+    if let Some(last) = last.as_deref_mut() {
+        let before = last.replace((process, threads, pool.clone()));
+        if let Some((owner, _, pool)) = before
+            && owner != process
+        {
+            // To drop it would be to wait for its threads.
+            std::mem::forget(pool);
+        }
+    }
+    Ok(pool)
+}

@@ -1,0 +1,115 @@
+//! A motion of a case, pass after pass, each of which is kept in a results directory.
+
+use std::path::Path;
+
+use serde_json::Value;
+use web_time::Instant;
+
+use crate::error::{Error, Result};
+use crate::motion::{Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
+use crate::study::case::Case;
+use crate::study::estimate::{Estimate, estimate};
+use crate::study::given::Given;
+use crate::study::identity;
+use crate::study::prepare::bodies;
+use crate::study::results::{Existing, PassWriter, Writer};
+use crate::study::review;
+use crate::study::run::{conclude, pair, params};
+use crate::study::summary::{Outcome, Summary};
+
+/// A motion under way. [`Passes::solve`] and [`Passes::finish`] take turns until there is no pass left, and
+/// [`Passes::end`] writes the summary; between the two calls the pass can be looked at, and changed.
+pub struct Passes {
+    case: Case,
+    simulation: Simulation,
+    motion: Motion,
+    writer: Writer,
+    output: PassWriter,
+    resolved: Value,
+    warnings: Vec<String>,
+    began: Instant,
+}
+
+impl Passes {
+    /// Prepares the bodies of `case` with the surfaces `given`, and enters `directory`; to be resumed, it goes on after the
+    /// passes that are there.
+    ///
+    /// # Errors
+    /// Everything that can be wrong with a case, its surfaces or the directory; [`Error::Unsupported`] for a contact at rest.
+    pub fn enter(case: &Case, given: Given, directory: &Path, existing: Existing) -> Result<Self> {
+        let began = Instant::now();
+        let bodies = bodies(case, given)?;
+        let Estimate { apparent_area, subsurface, warnings, .. } = estimate(case, &bodies)?;
+        let motion =
+            case.motion(apparent_area).ok_or(Error::Unsupported("a contact at rest has no passes"))?;
+        let resolved = identity::resolved(case, &bodies);
+        let simulation = simulation(case, pair(case, bodies)?, motion)?;
+        let writer = Writer::enter(directory, &resolved, existing)?;
+        writer.begin()?;
+        let output = writer.passes(case.output.pressure_every, subsurface)?;
+        let done = output.passes().len();
+        let simulation = match done {
+            0 => {
+                writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
+                simulation
+            }
+            done if done >= motion.passes => simulation,
+            done => {
+                let mut pair = simulation.pair().clone();
+                let [lower, upper] = writer.results().surfaces_after(done)?;
+                (pair.lower.heights, pair.upper.heights) = (lower.into_heights(), upper.into_heights());
+                [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
+                let warm = writer.results().warm_start_after(done)?;
+                self::simulation(case, pair, motion)?.resumed(done, warm)
+            }
+        };
+        Ok(Self { case: case.clone(), simulation, motion, writer, output, resolved, warnings, began })
+    }
+
+    /// The passes that are finished.
+    pub fn done(&self) -> &[PassRecord] {
+        self.output.passes()
+    }
+
+    /// The motion, with the bodies as they are now.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// Solves the next pass; none after the last.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::solve`].
+    pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
+        match self.done().len() < self.motion.passes {
+            true => self.simulation.solve(watch).map(Some),
+            false => Ok(None),
+        }
+    }
+
+    /// Finishes a pass: its bodies are those of the next one, and it is written.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn finish(&mut self, pass: SolvedPass, watch: &dyn Watch) -> Result<()> {
+        self.simulation.finish(pass, watch, &mut [&mut self.output])
+    }
+
+    /// Writes the summary of the passes that are finished.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn end(mut self) -> Result<(Summary, Writer)> {
+        let pair = self.simulation.pair();
+        let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
+        let passes = self.output.passes().to_vec();
+        self.warnings.extend(review::motion(&self.case, shapes, &passes));
+        let outcome = (Outcome::Passes(passes), self.output.subsurface().to_vec());
+        let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
+        Ok((summary, self.writer))
+    }
+}
+
+fn simulation(case: &Case, pair: Pair, motion: Motion) -> Result<Simulation> {
+    Simulation::new(pair, case.contact.boundary, motion, params(case))?.with_rim(case.output.rim)
+}

@@ -1,0 +1,245 @@
+//! A static contact of a case: solved in memory, or kept increment by increment and point by point in a results directory.
+
+use crate::error::{Error, Result};
+use crate::grid::{CellValues, Field, Grid};
+use crate::motion::{
+    Equilibrium, IncrementRecord, LoadedContact, Pair, StaticContact, Watch, load_in_stages, press, roll,
+    sweep,
+};
+use crate::solver::{Params, Solution};
+use crate::study::case::{Case, LoadingPath};
+use crate::study::estimate::estimate;
+use crate::study::given::Given;
+use crate::study::loading::LoadingWriter;
+use crate::study::prepare::bodies;
+use crate::study::results::Writer;
+use crate::study::review;
+use crate::study::run::{pair, params};
+use crate::study::summary::Outcome;
+use crate::subsurface::Tractions;
+use crate::units::{Metre, Pascal, SquareMetre};
+
+/// A static contact as it was computed.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Rest {
+    /// The contact in numbers, or the points of a sweep.
+    pub outcome: Outcome,
+    /// The increments of a loading in stages; none of other contacts.
+    pub increments: Vec<IncrementRecord>,
+    /// The fields of the contact, at the last point of a sweep.
+    pub fields: RestFields,
+    /// What the user should know about the result.
+    pub warnings: Vec<String>,
+}
+
+/// The fields of a static contact.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct RestFields {
+    /// The grid that all of them stand on.
+    pub grid: Grid,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// The hardness of the pair, the least where it is a map.
+    pub hardness: Pascal,
+    /// The fields, in the order in which files have them.
+    pub fields: Vec<NamedField>,
+}
+
+/// A field by the name that it has in files.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct NamedField {
+    /// The name.
+    pub name: &'static str,
+    /// Unit of the values, SI.
+    pub unit: &'static str,
+    /// The values, `[ix, iy]`.
+    pub values: Field,
+}
+
+/// Computes the static contact of `case` and leaves nothing on the disk: the answer has the bits of that of
+/// [`run()`](crate::study::run()).
+///
+/// # Errors
+/// Everything that can be wrong with a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the
+/// surface, which goes to a file, is not computed.
+pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
+    if case.motion.is_some() {
+        return Err(Error::Unsupported("what moves is no contact at rest"));
+    }
+    let bodies = bodies(case, given)?;
+    let estimate = estimate(case, &bodies)?;
+    let pair = pair(case, bodies)?;
+    let (solved, warnings) = solve(case, &pair, estimate.apparent_area, None, watch)?;
+    Ok(Rest {
+        outcome: solved.outcome(),
+        increments: solved.increments().to_vec(),
+        fields: solved.into_fields(pair),
+        warnings: [estimate.warnings, warnings].concat(),
+    })
+}
+
+/// A static contact with all that is known of it.
+pub(super) enum Solved {
+    /// In one step without friction.
+    Pressed(StaticContact),
+    /// In stages, or rolling.
+    Loaded(Box<LoadedContact>, Option<LoadingWriter>),
+    /// A sweep: its points, the last as a whole.
+    Swept(Outcome, Box<LoadedContact>),
+}
+
+/// Solves the static contact of `case`, whose bodies are a `pair`, and tells what to be wary of in the answer. What is kept on
+/// the way is kept by the `writer`, which begins as soon as something is.
+pub(super) fn solve(
+    case: &Case,
+    pair: &Pair,
+    apparent_area: SquareMetre,
+    writer: Option<&Writer>,
+    watch: &dyn Watch,
+) -> Result<(Solved, Vec<String>)> {
+    let (boundary, params): (_, &Params) = (case.contact.boundary, &params(case));
+    let control = case.contact.prescribed.control(apparent_area);
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    let begin = || writer.map_or(Ok(()), Writer::begin);
+    let every = case.output.pressure_every;
+    Ok(match (case.loading_path(apparent_area), law) {
+        (Some(LoadingPath::Sweep(points)), law) => {
+            begin()?;
+            let (points, contact) = match writer {
+                None => sweep(pair, boundary, law, &points, params, Vec::new(), watch, &mut ())?,
+                Some(writer) => {
+                    let done = writer.results().sweep()?;
+                    let mut output = writer.sweep(pair, every);
+                    sweep(pair, boundary, law, &points, params, done, watch, &mut output)?
+                }
+            };
+            let warnings = review::sweep(&points, &contact);
+            (Solved::Swept(Outcome::Sweep(points), Box::new(contact)), warnings)
+        }
+        (Some(LoadingPath::Rolling(rolling)), Some(law)) => {
+            let contact = roll(pair, boundary, law, control, rolling, params, watch)?;
+            begin()?;
+            let warnings =
+                [review::loaded(&contact), at_rest(pair, case, contact.solution.normal())].concat();
+            (Solved::Loaded(Box::new(contact), None), warnings)
+        }
+        (Some(LoadingPath::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
+            begin()?;
+            let increments = stages.iter().map(|stage| stage.increments).sum();
+            let mut loading = writer.map(|writer| writer.loading(pair, increments));
+            let contact = match &mut loading {
+                None => load_in_stages(pair, boundary, law, &stages, params, None, watch, &mut ())?,
+                Some(loading) => {
+                    let done = loading.under_way()?;
+                    load_in_stages(pair, boundary, law, &stages, params, done, watch, loading)?
+                }
+            };
+            let warnings =
+                [review::loaded(&contact), at_rest(pair, case, contact.solution.normal())].concat();
+            (Solved::Loaded(Box::new(contact), loading), warnings)
+        }
+        _ => {
+            let contact = press(pair, boundary, control, params, watch)?;
+            begin()?;
+            let warnings = at_rest(pair, case, &contact.solution);
+            (Solved::Pressed(contact), warnings)
+        }
+    })
+}
+
+fn at_rest(pair: &Pair, case: &Case, solution: &Solution) -> Vec<String> {
+    review::static_contact(pair, case.contact.boundary, &solution.pressure)
+}
+
+impl Solved {
+    /// The contact in numbers.
+    pub(super) fn outcome(&self) -> Outcome {
+        match self {
+            Self::Pressed(contact) => Outcome::Static(Box::new(contact.record.clone())),
+            Self::Loaded(contact, _) => Outcome::Static(Box::new(contact.record.clone())),
+            Self::Swept(outcome, _) => outcome.clone(),
+        }
+    }
+
+    fn increments(&self) -> &[IncrementRecord] {
+        match self {
+            Self::Loaded(contact, _) => &contact.increments,
+            Self::Pressed(_) | Self::Swept(..) => &[],
+        }
+    }
+
+    /// What has kept the increments of a loading.
+    pub(super) fn take_under_way(&mut self) -> Option<LoadingWriter> {
+        match self {
+            Self::Loaded(_, loading) => loading.take(),
+            Self::Pressed(_) | Self::Swept(..) => None,
+        }
+    }
+
+    /// The fields, with the surfaces of the `pair`.
+    pub(super) fn into_fields(self, pair: Pair) -> RestFields {
+        let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
+        let (solution, plastic, slip) = match self {
+            Self::Pressed(StaticContact { solution, .. }) => {
+                let plastic = solution.plastic_interference();
+                (Equilibrium::Frictionless(Box::new(solution)), plastic, None)
+            }
+            Self::Loaded(contact, _) | Self::Swept(_, contact) => {
+                let LoadedContact { solution, plastic, slip, .. } = *contact;
+                (solution, plastic, slip)
+            }
+        };
+        let (normal, shear) = match solution {
+            Equilibrium::Frictionless(solution) => (*solution, None),
+            Equilibrium::Frictional(solution) => {
+                let solution = *solution;
+                (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
+            }
+        };
+        // Between the bodies as they are prepared, whatever the course of a loading has left of them.
+        let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
+        let mut fields = Vec::new();
+        let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+        add("pressure", "Pa", normal.pressure);
+        add("displacement", "m", normal.displacement);
+        add("gap", "m", gap);
+        add("lower", "m", pair.lower.heights);
+        add("upper", "m", pair.upper.heights);
+        add("plastic", "m", plastic);
+        if let CellValues::Field(cap) = normal.bounds.upper() {
+            add("cap", "Pa", cap.clone());
+        }
+        let stick = shear.map(|([qx, qy], [ux, uy], stick)| {
+            add("traction_x", "Pa", qx);
+            add("traction_y", "Pa", qy);
+            add("displacement_x", "m", ux);
+            add("displacement_y", "m", uy);
+            stick
+        });
+        if let Some([x, y]) = slip {
+            add("slip_x", "m", x);
+            add("slip_y", "m", y);
+        }
+        if let Some(stick) = stick {
+            add("stick", "1", stick);
+        }
+        RestFields { grid, approach: normal.approach, hardness, fields }
+    }
+}
+
+impl RestFields {
+    /// The field of that name, which is taken out.
+    pub fn take(&mut self, name: &str) -> Option<Field> {
+        let at = self.fields.iter().position(|field| field.name == name)?;
+        Some(self.fields.swap_remove(at).values)
+    }
+
+    /// What acts on the lower body; the fields are used up.
+    pub(super) fn into_tractions(mut self) -> Tractions {
+        let shear = ["traction_x", "traction_y"].map(|name| self.take(name));
+        Tractions { pressure: self.take("pressure").expect("every contact has a pressure"), shear }
+    }
+}

@@ -1,0 +1,331 @@
+"""Contacts at rest."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _case, _core, fields
+from ._progress import Teller, Told
+from ._same import Comparable
+from ._units import Quantity
+from .body import Body, Handed, bodies
+from .fields import Fields
+from .material import Material
+from .surface import Surface
+
+Friction = float | Mapping[str, Any]
+"""The coefficient of friction, or the keys of the table `[friction]` of a case."""
+
+
+class Contact(Comparable):
+    """A static contact, computed.
+
+    Numbers of the contact are attributes by the names that `summary.json` has; those of the shear are there with friction alone,
+    those of rolling in rolling alone.
+
+    Attributes
+    ----------
+    load : float
+        Normal force, N.
+    approach : float
+        Rigid-body approach, m.
+    contact_area, apparent_area : float
+        Area of the cells with pressure, and of all cells, m².
+    max_pressure : float
+        Largest pressure, Pa.
+    mean_gap : float
+        Mean deformed gap, m.
+    elastic_energy : float
+        J.
+    plastic_cells : int
+        Number of cells at the hardness.
+    plastic_volume : float
+        m³.
+    iterations : int
+        Iterations of the solver.
+    convolutions : float
+        Their cost.
+    residual : float
+        Scale-free complementarity residual.
+    tangential_force, tangential_displacement : list of float
+        Force of the upper body on the lower one, N, and its displacement against it, m, along x and y.
+    force_ratio : float
+        Magnitude of the tangential force over the load.
+    friction_coefficient : float or None
+        The same where no cell sticks.
+    stick_area : float
+        Area of the cells that stick, m².
+    max_shear : float
+        Largest shear traction, Pa.
+    dissipation : float
+        Energy that friction took, J.
+    creepage : list of float
+        Creepage along x and y, in rolling.
+    spin, moment : float
+        1/m and N·m, in rolling.
+    fields : Fields
+        The fields: `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`; with friction also `traction_x` and
+        `traction_y`, `displacement_x` and `_y`, `slip_x` and `_y`, `stick`; `cap` where cells differ in what they bear.
+    increments : ndarray
+        A record for each increment of a loading in stages; else empty.
+    sweep : ndarray
+        A record for each point of a sweep; else empty. Numbers and fields are those of the last one.
+    warnings : list of str
+        What to be wary of.
+    case : dict
+        The case as it was resolved, SI.
+    """
+
+    load: float
+    approach: float
+    contact_area: float
+    apparent_area: float
+    max_pressure: float
+    mean_gap: float
+    elastic_energy: float
+    plastic_cells: int
+    plastic_volume: float
+    iterations: int
+    convolutions: float
+    residual: float
+    tangential_force: list[float]
+    tangential_displacement: list[float]
+    force_ratio: float
+    friction_coefficient: float | None
+    stick_area: float
+    max_shear: float
+    dissipation: float
+    creepage: list[float]
+    spin: float
+    moment: float
+    fields: Fields
+    increments: NDArray[np.void]
+    sweep: NDArray[np.void]
+    warnings: list[str]
+    case: dict[str, Any]
+
+    def __init__(
+        self,
+        record: dict[str, Any] | None,
+        sweep: list[dict[str, Any]],
+        increments: list[dict[str, Any]],
+        found: Fields,
+        warnings: list[str],
+        case: dict[str, Any],
+    ) -> None:
+        self.fields = found
+        self.increments = fields.table(increments, _core.INCREMENT_COLUMNS)
+        self.sweep = fields.table(sweep, _core.SWEEP_COLUMNS)
+        self.warnings = list(warnings)
+        self.case = case
+        self._names = list(record if record is not None else sweep[-1])
+        self.__dict__.update(record if record is not None else sweep[-1])
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """All numbers of the contact, by name."""
+        return {name: getattr(self, name) for name in self._names}
+
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure on each cell, Pa, ``[ix, iy]``."""
+        return self.fields["pressure"].values
+
+    @property
+    def gap(self) -> NDArray[np.float64]:
+        """Gap between the deformed surfaces, m; 0 in contact, below 0 where cells yield."""
+        return self.fields["gap"].values
+
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacement that opens the gap, of both bodies together, m."""
+        return self.fields["displacement"].values
+
+    @property
+    def plastic(self) -> NDArray[np.float64]:
+        """Plastic interference of each cell, m."""
+        return self.fields["plastic"].values
+
+    @property
+    def pitch(self) -> tuple[float, float]:
+        """Size of a cell along x and y, m."""
+        x, y = self.fields["pressure"].pitch
+        return x, y
+
+    @property
+    def contact_fraction(self) -> float:
+        """Area of contact over the area of all cells, 0 to 1."""
+        return float(np.count_nonzero(self.pressure > 0.0)) / self.pressure.size
+
+    @property
+    def lower(self) -> Surface:
+        """The lower body's surface, as it was prepared."""
+        return Surface(self.fields["lower"].values, self.pitch)
+
+    @property
+    def upper(self) -> Surface:
+        """The upper body's underside, as it was prepared: a body of it is mounted ``"as-is"``."""
+        return Surface(self.fields["upper"].values, self.pitch)
+
+    def to_xarray(self) -> Any:
+        """All fields as a Dataset of xarray, with the numbers as attributes."""
+        dataset = self.fields.to_xarray()
+        dataset.attrs.update({name: value for name, value in self.numbers.items() if value is not None})
+        return dataset
+
+    def plot(self, field: str = "pressure", **options: Any) -> Any:
+        """Draw a field with matplotlib; gives the axes. `options` go to ``imshow``."""
+        return self.fields[field].plot(**options)
+
+    def __repr__(self) -> str:
+        load, pressure = _core.format(self.load, "force"), _core.format(self.max_pressure, "pressure")
+        return f"<Contact: load {load}, {100.0 * self.contact_fraction:.3g} % in contact, largest pressure {pressure}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import contact
+
+        return contact(self)
+
+
+def contact(
+    lower: Surface | Body,
+    upper: Surface | Body,
+    lower_material: Material | None = None,
+    upper_material: Material | None = None,
+    *,
+    load: Quantity | None = None,
+    mean_pressure: Quantity | None = None,
+    approach: Quantity | None = None,
+    loads: Sequence[Quantity] | None = None,
+    mean_pressures: Sequence[Quantity] | None = None,
+    approaches: Sequence[Quantity] | None = None,
+    boundary: str | Sequence[str] | None = None,
+    method: str | None = None,
+    tolerance: float | None = None,
+    friction: Friction | None = None,
+    history: Sequence[Mapping[str, Any]] | None = None,
+    subsurface: Mapping[str, Any] | None = None,
+    pressure_every: int | None = None,
+    paraview: bool | None = None,
+    title: str | None = None,
+    out: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: int | None = None,
+    progress: Told = True,
+) -> Contact:
+    """Press two bodies together.
+
+    The arguments have the names and the meaning of the keys of a case file.
+
+    Parameters
+    ----------
+    lower, upper : Surface or Body
+        The bodies; of surfaces the materials are given, too. The upper surface is turned over when it is mounted, see
+        :class:`Body`.
+    lower_material, upper_material : Material, optional
+        What the surfaces are made of.
+    load, mean_pressure, approach : float or str
+        What is prescribed, one of them: the normal force, above 0, N; its mean over all cells, Pa; the approach from the heights
+        as they are, m.
+    loads, mean_pressures, approaches : sequence
+        In place of these: one after the other, each on virgin bodies.
+    boundary : str or pair of str, optional
+        What lies beyond the rim: ``"free"`` or ``"periodic"``, for both axes or for each.
+    method : str, optional
+        ``"auto"``, ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``.
+    tolerance : float, optional
+        Residual at which the solver stops, above 0, below 1; 1e-6 by default.
+    friction : float or mapping, optional
+        The coefficient, or the keys of `[friction]`: `coefficient`, `coupling`, `shear_strength`, `junction_growth`; `force`,
+        `displacement` or `sliding`; of a rolling contact `creepage`, `creepages` or `rolling_force`, and `spin`; `increments`.
+    history : sequence of mappings, optional
+        Stages of the loading after the first; what a stage does not name stays.
+    subsurface : mapping, optional
+        The stress under the surface that is written to the results: `to`, `layers`, `planes` … It needs `out`;
+        :func:`asperity.stress` computes stresses without.
+    pressure_every : int, optional
+        Of a sweep, the fields of every n-th point are kept; 0 of none.
+    paraview : bool, optional
+        Whether fields are written for ParaView, too.
+    title : str, optional
+        Title of the results.
+    out : path, optional
+        Directory for the results; without it nothing is written.
+    resume, overwrite : bool
+        Go on from results in `out` that were interrupted, or replace what is there.
+    threads : int, optional
+        Threads that share the work; one for each core by default.
+    progress : bool or callable
+        Whether a bar shows how far it is, where tqdm is installed; or what is called with a :class:`Progress`.
+
+    Returns
+    -------
+    Contact
+
+    Raises
+    ------
+    asperity.errors.BadInput
+        For arguments without meaning.
+    asperity.errors.Failed
+        Where the contact cannot be computed: more load than the bodies bear, no convergence.
+    KeyboardInterrupt
+        At Ctrl-C, within a convolution.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+    >>> ball = asp.form.sphere("10 mm")
+    >>> plane = asp.form.flat((64, 64), pitch="10 um")
+    >>> c = asp.contact(plane, ball, steel, steel, load="10 N")
+    >>> bool(abs(c.max_pressure / asp.reference.HertzSphere(10e-3, 115.4e9, 10.0).peak_pressure() - 1) < 0.01)
+    True
+    """
+    handed = Handed(*bodies(lower, upper, lower_material, upper_material))
+    case = _case.tables(
+        handed,
+        title=title,
+        contact={
+            "load": load, "mean_pressure": mean_pressure, "approach": approach,
+            "loads": loads, "mean_pressures": mean_pressures, "approaches": approaches,
+            "boundary": boundary, "method": method, "tolerance": tolerance,
+        },
+        friction=friction,
+        history=history,
+        subsurface=subsurface,
+        output={"pressure_every": pressure_every, "paraview": paraview},
+    )  # fmt: skip
+    count = _case.threads(threads)
+    existing = _case.existing(resume, overwrite)
+    if out is None:
+        for key, value in (("subsurface", subsurface), ("paraview", paraview), ("resume", resume or None)):
+            if value is not None:
+                from .errors import _make
+
+                message = f"'{key}' is given without 'out', the directory for what it writes"
+                raise _make("CaseError", message, {"key": key}, None)
+        with Teller(progress) as tell:
+            found = _core.rest(case, handed.given, count, tell)
+        pitch = (found["pitch"][0], found["pitch"][1])
+        arrays = fields.of_cells(found["fields"], pitch)
+        return Contact(
+            found.get("record"), found.get("sweep", []), found["increments"], arrays, found["warnings"], found["case"]
+        )
+    with Teller(progress) as tell:
+        _core.run(case, handed.given, _case.directory(out), existing, count, tell)
+    return stored(_core.Results(_case.directory(out)))
+
+
+def stored(core: Any) -> Contact:
+    """A contact of a results directory."""
+    summary = core.summary()
+    found = fields.stored(core, "contact", None)
+    return Contact(
+        summary.get("static"), core.sweep(), core.increments(), found, summary["warnings"], core.case()
+    )

@@ -1,0 +1,123 @@
+"""Random rough surfaces.
+
+Each takes a `shape` and a `pitch`; without one of them, a body takes it from the other body that it meets. The same `seed` gives
+the same heights on every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ._units import Pair, Quantity
+from .surface import Surface
+
+
+def _generated(kind: str, keys: dict[str, Any]) -> Surface:
+    given = {key: value for key, value in keys.items() if value is not None}
+    return Surface._of({"generate": kind, **given})
+
+
+def low_pass(
+    shape: Sequence[int] | None = None,
+    pitch: Pair | None = None,
+    *,
+    sq: Quantity,
+    cutoff: Pair,
+    band: str | None = None,
+    ssk: float | None = None,
+    sku: float | None = None,
+    seed: int = 0,
+) -> Surface:
+    """White noise without waves shorter than `cutoff`: the filter of Hu and Tonder.
+
+    Parameters
+    ----------
+    shape : pair of int, optional
+        Number of cells along x and y.
+    pitch : float, str or pair, optional
+        Size of a cell, m.
+    sq : float or str
+        Rms height, m.
+    cutoff : float, str or pair
+        The shortest wavelength that is left, along x and y, m.
+    band : str, optional
+        How the band is cut: ``"elliptic"`` or ``"rectangular"``.
+    ssk, sku : float, optional
+        Skewness and kurtosis of the heights; 0 and 3 of Gaussian ones.
+    seed : int
+        Seed of the random numbers, at least 0.
+
+    References
+    ----------
+    Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32, 83 (1992).
+    """
+    keys = {"shape": shape, "pitch": pitch, "sq": sq, "cutoff": cutoff, "band": band, "ssk": ssk, "sku": sku}
+    return _generated("low-pass", {**keys, "seed": seed})
+
+
+def autocorrelation(
+    shape: Sequence[int] | None = None,
+    pitch: Pair | None = None,
+    *,
+    sq: Quantity,
+    correlation_length: Pair,
+    decay: str | None = None,
+    lay: Quantity | None = None,
+    ssk: float | None = None,
+    sku: float | None = None,
+    seed: int = 0,
+) -> Surface:
+    """Heights of a given autocorrelation.
+
+    Parameters
+    ----------
+    shape, pitch
+        As of :func:`low_pass`.
+    sq : float or str
+        Rms height, m.
+    correlation_length : float, str or pair
+        Length over which the autocorrelation falls to 1/10, along the lay's x and y, m.
+    decay : str, optional
+        How it falls: ``"exponential"`` or ``"gaussian"``.
+    lay : float or str, optional
+        Angle by which the lay is turned from x, rad.
+    ssk, sku, seed
+        As of :func:`low_pass`.
+    """
+    keys = {"shape": shape, "pitch": pitch, "sq": sq, "correlation_length": correlation_length, "decay": decay}
+    return _generated("autocorrelation", {**keys, "lay": lay, "ssk": ssk, "sku": sku, "seed": seed})
+
+
+def self_affine(
+    shape: Sequence[int] | None = None,
+    pitch: Pair | None = None,
+    *,
+    hurst: float,
+    sq: Quantity | None = None,
+    sdq: float | None = None,
+    rolloff: Quantity | None = None,
+    shortest: Quantity | None = None,
+    seed: int = 0,
+) -> Surface:
+    """A self-affine surface: a power law of the spectrum between two wavelengths.
+
+    Parameters
+    ----------
+    shape, pitch
+        As of :func:`low_pass`.
+    hurst : float
+        Hurst exponent, above 0, at most 1.
+    sq : float or str
+        Rms height, m; this or `sdq`.
+    sdq : float
+        Rms slope.
+    rolloff : float or str, optional
+        Wavelength above which the spectrum is flat, m.
+    shortest : float or str, optional
+        Wavelength below which there is nothing, m.
+    seed : int
+        Seed of the random numbers, at least 0.
+    """
+    keys = {"shape": shape, "pitch": pitch, "hurst": hurst, "sq": sq, "sdq": sdq, "rolloff": rolloff}
+    return _generated("self-affine", {**keys, "shortest": shortest, "seed": seed})

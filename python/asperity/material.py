@@ -1,0 +1,120 @@
+"""What bodies are made of."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._same import Comparable
+from ._units import Quantity, quantity
+from .errors import _make
+
+
+def _poisson(value: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not 0.0 <= number <= 0.5:
+        message = f"'poisson' is {value!r}, expected a number from 0 to 0.5"
+        raise _make("CaseError", message, {"key": "poisson"}, None)
+    return number
+
+
+class Coating(Comparable):
+    """An elastic layer on a body.
+
+    Parameters
+    ----------
+    thickness : float or str
+        Above 0, m.
+    young : float or str
+        Young's modulus, above 0, Pa.
+    poisson : float
+        Poisson's ratio, 0 to 0.5.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> asp.Coating(thickness="2 um", young="300 GPa", poisson=0.25).thickness
+    2e-06
+    """
+
+    def __init__(self, thickness: Quantity, young: Quantity, poisson: float) -> None:
+        self.thickness = quantity("thickness", thickness, "length")
+        self.young = quantity("young", young, "pressure")
+        self.poisson = _poisson(poisson)
+
+    def __repr__(self) -> str:
+        return f"Coating(thickness={self.thickness!r}, young={self.young!r}, poisson={self.poisson!r})"
+
+    def _table(self) -> dict[str, Any]:
+        return {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
+
+
+class Material(Comparable):
+    """Elastic constants and hardness of a body.
+
+    Parameters
+    ----------
+    young : float or str
+        Young's modulus, above 0, Pa; ``inf`` of a rigid body.
+    poisson : float
+        Poisson's ratio, 0 to 0.5.
+    hardness : float, str or array_like, optional
+        The most pressure that a cell bears, above 0, Pa: one for all cells, or a matrix with one for each cell of the body,
+        as it is prepared. Without it the body is elastic.
+    coating : Coating, optional
+        An elastic layer on the body.
+
+    Raises
+    ------
+    asperity.errors.CaseError
+        For a value out of its range, or text without a unit of it.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> steel = asp.Material(young="210 GPa", poisson=0.3, hardness=4e9)
+    >>> steel.young
+    210000000000.0
+    """
+
+    def __init__(
+        self,
+        young: Quantity,
+        poisson: float,
+        hardness: Quantity | ArrayLike | None = None,
+        coating: Coating | None = None,
+    ) -> None:
+        self.young = quantity("young", young, "pressure", infinite=True)
+        self.poisson = _poisson(poisson)
+        self.hardness: float | NDArray[np.float64] = math.inf
+        if hardness is not None:
+            if isinstance(hardness, str) or np.ndim(hardness) == 0:
+                self.hardness = quantity("hardness", hardness, "pressure", infinite=True)
+            else:
+                self.hardness = np.array(hardness, dtype=np.float64)
+        self.coating = coating
+
+    def __repr__(self) -> str:
+        parts = [f"young={self.young!r}", f"poisson={self.poisson!r}"]
+        if isinstance(self.hardness, np.ndarray):
+            parts.append(f"hardness=<{' × '.join(map(str, self.hardness.shape))} values>")
+        elif math.isfinite(self.hardness):
+            parts.append(f"hardness={self.hardness!r}")
+        if self.coating is not None:
+            parts.append(f"coating={self.coating!r}")
+        return f"Material({', '.join(parts)})"
+
+    def _table(self) -> dict[str, Any]:
+        """The keys of a body in a case; a map is handed over beside it."""
+        table: dict[str, Any] = {"young": self.young, "poisson": self.poisson}
+        if not isinstance(self.hardness, np.ndarray) and math.isfinite(self.hardness):
+            table["hardness"] = self.hardness
+        if self.coating is not None:
+            table["coating"] = self.coating._table()
+        return table

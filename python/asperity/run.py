@@ -1,0 +1,338 @@
+"""Motions, and results in a directory."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _case, _core, contact, fields
+from ._progress import Teller, Told
+from ._same import Comparable
+from ._units import Quantity
+from .body import Body
+from .contact import Contact, Friction
+from .errors import _make
+from .fields import Fields
+from .material import Material
+from .simulation import Pass, Simulation
+from .surface import Surface
+
+Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
+"""What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
+
+
+class Run(Comparable):
+    """Results of a motion in a directory, finished or under way.
+
+    Everything is read when it is asked for.
+
+    Attributes
+    ----------
+    directory : pathlib.Path
+        Where the results are.
+    """
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        self.directory = pathlib.Path(directory)
+        self._core = _core.Results(os.fspath(directory))
+        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+
+    def _compared(self) -> dict[str, Any]:
+        # What a computation took is no part of its answer.
+        passes = self.passes
+        names = [name for name in passes.dtype.names or () if name != "wall_time_s"]
+        rows = {name: passes[name] for name in names}
+        return {"identity": self.case.get("identity"), "passes": rows, "steps": self.steps}
+
+    def __getstate__(self) -> dict[str, Any]:
+        if self._temporary is None:
+            return {"directory": self.directory}
+        files = {
+            os.path.relpath(path, self.directory): path.read_bytes()
+            for path in sorted(self.directory.rglob("*"))
+            if path.is_file()
+        }
+        return {"files": files}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        if "files" in state:
+            temporary = tempfile.TemporaryDirectory(prefix="asperity-")
+            for name, content in state["files"].items():
+                path = pathlib.Path(temporary.name, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+            self.__init__(temporary.name)  # type: ignore[misc]
+            self._temporary = temporary
+        else:
+            self.__init__(state["directory"])  # type: ignore[misc]
+
+    def __repr__(self) -> str:
+        where = "" if self._temporary is not None else f" in {self.directory}"
+        return f"<Run: {len(self.passes)} of {self.case['motion']['passes']} passes{where}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import run
+
+        return run(self)
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The case as it was resolved, SI."""
+        case: dict[str, Any] = self._core.case()
+        return case
+
+    @property
+    def is_done(self) -> bool:
+        """Whether all passes are there."""
+        return len(self.passes) >= int(self.case["motion"]["passes"])
+
+    @property
+    def passes(self) -> NDArray[np.void]:
+        """A record for each pass, with the columns of `passes.csv`."""
+        return fields.table(self._core.passes(), _core.PASS_COLUMNS)
+
+    @property
+    def steps(self) -> NDArray[np.void]:
+        """A record for each position of each pass, with the columns of `steps.csv`."""
+        return fields.table(self._core.steps(), _core.STEP_COLUMNS)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to be wary of; nothing until all is done."""
+        summary = self._core.summary()
+        return [] if summary is None else list(summary["warnings"])
+
+    @property
+    def wall_time(self) -> float:
+        """Time that the whole computation took, s; NaN until all is done."""
+        summary = self._core.summary()
+        return float("nan") if summary is None else float(summary["wall_time_s"])
+
+    def fields(self, number: int | None = None) -> Fields:
+        """Fields after a pass: the surfaces `lower` and `upper`, mean pressures, and pressures at the positions kept.
+
+        Parameters
+        ----------
+        number : int, optional
+            The pass, from 1; 0 for the surfaces before the first. The last one by default.
+        """
+        return fields.stored(self._core, "pass", self._number(number))
+
+    def subsurface(self, number: int | None = None) -> Fields:
+        """The stress under the surface in a pass, where `subsurface` asked for it."""
+        return fields.stored(self._core, "subsurface", self._number(number))
+
+    def lower(self, number: int | None = None) -> Surface:
+        """The lower body's surface after a pass, from 1; 0 before the first; the last one by default."""
+        return self._surface("lower", number)
+
+    def upper(self, number: int | None = None) -> Surface:
+        """The upper body's underside after a pass; a body of it is mounted ``"as-is"``."""
+        return self._surface("upper", number)
+
+    def _surface(self, name: str, number: int | None) -> Surface:
+        field = self.fields(number)[name]
+        return Surface(field.values, field.pitch)
+
+    def _number(self, number: int | None) -> int:
+        done = len(self.passes)
+        if number is None:
+            return done
+        if not 0 <= number <= done:
+            message = f"'number' is {number}, expected a pass from 0, before the first, to {done}, the last"
+            raise _make("CaseError", message, {"key": "number"}, None)
+        return number
+
+    def to_xarray(self) -> Any:
+        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`."""
+        from ._convert import run
+
+        return run(self)
+
+    def to_pandas(self) -> Any:
+        """The passes as a DataFrame of pandas."""
+        from ._convert import frame
+
+        return frame(self.passes, "pass")
+
+    def plot(self, quantity: str | None = None, **options: Any) -> Any:
+        """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass."""
+        from ._plot import run
+
+        return run(self, quantity, **options)
+
+    def animate(self, number: int | None = None, **options: Any) -> Any:
+        """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays."""
+        from ._plot import animation
+
+        return animation(self, self._number(number), **options)
+
+
+def simulate(
+    lower: Surface | Body,
+    upper: Surface | Body,
+    lower_material: Material | None = None,
+    upper_material: Material | None = None,
+    *,
+    load: Quantity | None = None,
+    mean_pressure: Quantity | None = None,
+    approach: Quantity | None = None,
+    passes: int | None = None,
+    stride: int | None = None,
+    strategy: str | None = None,
+    speed_lower: Quantity | None = None,
+    speed_upper: Quantity | None = None,
+    control: str | None = None,
+    plastic_update: str | None = None,
+    load_tolerance: float | None = None,
+    boundary: str | Sequence[str] | None = None,
+    method: str | None = None,
+    tolerance: float | None = None,
+    friction: Friction | None = None,
+    subsurface: Mapping[str, Any] | None = None,
+    pressure_every: int | None = None,
+    rim: float | None = None,
+    paraview: bool | None = None,
+    title: str | None = None,
+    law: Law | None = None,
+    out: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: int | None = None,
+    progress: Told = True,
+) -> Run:
+    """Let two bodies pass over each other, pass after pass.
+
+    Parameters
+    ----------
+    lower, upper, lower_material, upper_material
+        The bodies, as of :func:`contact`.
+    load, mean_pressure, approach
+        What is prescribed, one of them: in the mean over a pass, or at every position (`control`).
+    passes : int, optional
+        Number of passes; 1 by default.
+    stride : int, optional
+        Cells from one position to the next; 1 by default.
+    strategy : {"overlap", "shift"}, optional
+        Only what faces each other is solved, or both surfaces are shifted circularly.
+    speed_lower, speed_upper : float or str, optional
+        Speeds of the surfaces in a shift, m/s; only their ratio matters.
+    control : {"pass-load", "step-load", "approach"}, optional
+        Where the load holds.
+    plastic_update : {"pass", "step"}, optional
+        When plastic deformation changes the surfaces.
+    load_tolerance : float, optional
+        Relative tolerance on the mean load of a pass; 1e-4 by default.
+    boundary, method, tolerance, friction, title
+        As of :func:`contact`; with friction the upper body slides.
+    subsurface : mapping, optional
+        The stress under the surface that is looked at, with the keys of `[subsurface]`.
+    pressure_every : int, optional
+        Pressures of every n-th position are kept, 0 of none; 8 by default.
+    rim : float, optional
+        Part of a body's length at free ends that is left out of what is told of its interior; 0.1 by default.
+    paraview : bool, optional
+        Whether fields are written for ParaView, too.
+    law : callable, optional
+        Called with each :class:`Pass` once it is solved, by the calling thread; it gives the depths that the pass takes off the
+        lower and the upper body, m, or `None`. The volumes are columns `wear_volume_lower` … of :attr:`Run.passes`.
+    out : path, optional
+        Directory for the results; without it one that is gone with the :class:`Run`.
+    resume, overwrite, threads, progress
+        As of :func:`contact`. Results of an interrupted run stay, and `resume` goes on after the last pass.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
+        As of :func:`contact`. What `law` raises ends the run; its pass does not count.
+    """
+    simulation = Simulation(
+        lower, upper, lower_material, upper_material,
+        load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
+        speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
+        load_tolerance=load_tolerance, boundary=boundary, method=method, tolerance=tolerance, friction=friction,
+        subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
+        out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,
+    )  # fmt: skip
+    for each in simulation:
+        removed = None if law is None else law(each)
+        if removed is not None:
+            if not isinstance(removed, tuple) or len(removed) != 2:
+                message = f"'law' gave {type(removed).__name__}, expected None, or the depths off the lower and the upper body"
+                raise _make("CaseError", message, {"key": "law"}, None)
+            each.remove(*removed)
+    return _finished(simulation)
+
+
+def _finished(simulation: Simulation) -> Run:
+    """The results of a simulation; they keep its directory where that is a temporary one."""
+    simulation.close()
+    run = Run(simulation.directory)
+    run._temporary = simulation._temporary
+    return run
+
+
+def run(
+    case: str | os.PathLike[str],
+    *,
+    out: str | os.PathLike[str],
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: int | None = None,
+    progress: Told = True,
+) -> Run | Contact:
+    """Compute a case file, as the command ``asperity run`` does, without the figures.
+
+    Parameters
+    ----------
+    case : path
+        The case file.
+    out : path
+        Directory for the results.
+    resume, overwrite, threads, progress
+        As of :func:`contact`.
+
+    Returns
+    -------
+    Run or Contact
+        Of a motion, or of a contact at rest.
+
+    Raises
+    ------
+    asperity.errors.CaseError
+        For a mistake in the file, with its line and column.
+    """
+    count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+    handed = {"topographies": {}, "hardness": {}}
+    with Teller(progress) as tell:
+        _core.run(os.fspath(case), handed, _case.directory(out), existing, count, tell)
+    return open(out)
+
+
+def open(directory: str | os.PathLike[str]) -> Run | Contact:
+    """Open results: those of a motion, also while it runs, or of a contact at rest once it is done.
+
+    Raises
+    ------
+    asperity.errors.NoResults
+        If the directory holds none.
+    asperity.errors.NotResumable
+        If a contact at rest was interrupted: `resume` finishes it.
+    """
+    core = _core.Results(os.fspath(directory))
+    if "motion" in core.case():
+        return Run(directory)
+    if core.summary() is None:
+        message = f"{os.fspath(directory)} holds a contact that was not finished"
+        raise _make("NotResumable", message, {"path": os.fspath(directory)}, "resume=True goes on with it")
+    return contact.stored(core)

@@ -1,0 +1,257 @@
+"""A motion, pass after pass, for laws of one's own."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _case, _core, fields
+from ._progress import Teller, Told
+from ._units import Quantity
+from .body import Body, Handed, bodies, heights_like
+from .contact import Friction
+from .material import Material
+from .surface import Surface
+
+
+class Contacts(NamedTuple):
+    """The cells in contact at all positions of a pass, as flat arrays of one length.
+
+    Attributes
+    ----------
+    position : ndarray of int
+        Position in the pass, from 0, ascending.
+    lower_cell, upper_cell : ndarray of int
+        The cell of each body, an index into its raveled heights.
+    pressure : ndarray
+        Pa.
+    plastic : ndarray
+        Plastic interference, m; 0 where the cell does not yield.
+    """
+
+    position: NDArray[np.int64]
+    lower_cell: NDArray[np.int64]
+    upper_cell: NDArray[np.int64]
+    pressure: NDArray[np.float64]
+    plastic: NDArray[np.float64]
+
+    def by_position(self) -> Iterator[Contacts]:
+        """The contacts at one position after the other; positions without contact are left out."""
+        starts = np.flatnonzero(np.diff(self.position, prepend=-1))
+        ends = [*starts[1:], len(self.position)]
+        for start, end in zip(starts, ends, strict=True):
+            yield Contacts(*(array[start:end] for array in self))
+
+
+class Pass:
+    """A pass that is solved, and not yet finished: the next one begins on what it leaves.
+
+    It is there until the loop goes on.
+
+    Attributes
+    ----------
+    number : int
+        The pass, from 1.
+    numbers : dict
+        The pass in numbers, with the columns of `passes.csv`, before anything is removed.
+    """
+
+    def __init__(self, core: Any, pitch: tuple[float, float], distance: float) -> None:
+        self._core = core
+        self.pitch = pitch
+        self.sliding_distance = distance
+        self.numbers: dict[str, Any] = core.record()
+        self.number: int = self.numbers["pass"]
+
+    def __repr__(self) -> str:
+        return f"<Pass {self.number}>"
+
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell, m²."""
+        return self.pitch[0] * self.pitch[1]
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """The cells in contact at all positions."""
+        return Contacts(*self._core.contacts())
+
+    @cached_property
+    def steps(self) -> NDArray[np.void]:
+        """A record for each position, with the columns of `steps.csv`."""
+        return fields.table(self._core.steps(), _core.STEP_COLUMNS)
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """Heights of the lower body as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[0]
+        return heights
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """Heights of the upper body's underside as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[1]
+        return heights
+
+    @cached_property
+    def shapes(self) -> tuple[tuple[int, int], tuple[int, int]]:
+        """Numbers of cells of the lower and of the upper body."""
+        lower, upper = self._core.heights()
+        return lower.shape, upper.shape
+
+    def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
+        """Take material off before the next pass.
+
+        Parameters
+        ----------
+        depth_lower, depth_upper : array_like
+            Depth that each cell of the body loses, m, below 0 where it grows: a matrix of the shape of its heights, or one number
+            for all cells.
+        law : str
+            By this name the columns `<law>_volume_lower` … of the results tell the volumes.
+
+        Raises
+        ------
+        asperity.errors.CaseError
+            For a depth of another shape, or that is not finite.
+        """
+        if not (law.isidentifier() and law.islower()):
+            from .errors import _make
+
+            raise _make("CaseError", f"'law' is {law!r}, expected a word in small letters", {"key": "law"}, None)
+        depths = [
+            heights_like(depth, shape, key)
+            for depth, shape, key in zip(
+                (depth_lower, depth_upper), self.shapes, ("depth_lower", "depth_upper"), strict=True
+            )
+        ]
+        self._core.remove(law, *depths)
+
+
+class Simulation:
+    """A motion that yields each pass, for laws of one's own.
+
+    ``for p in asp.Simulation(...)`` solves a pass, hands it out as a :class:`Pass`, and finishes it when the loop goes on, or is
+    left. The arguments are those of :func:`asperity.simulate`, without `law`.
+
+    Examples
+    --------
+    Archard's wear of both bodies, with its coefficient over hardness, 1/Pa:
+
+    >>> import numpy as np, asperity as asp
+    >>> steel = asp.Material(young="210 GPa", poisson=0.3, hardness="4 GPa")
+    >>> rough = [asp.generate.low_pass((16, 16), pitch="1 um", sq="50 nm", cutoff="8 um", seed=s) for s in (1, 2)]
+    >>> simulation = asp.Simulation(*rough, steel, steel, load="20 mN", passes=2, progress=False)
+    >>> for p in simulation:
+    ...     worn = [np.zeros(shape[0] * shape[1]) for shape in p.shapes]
+    ...     for depth, cell in zip(worn, (p.contacts.lower_cell, p.contacts.upper_cell)):
+    ...         np.add.at(depth, cell, 1e-15 * p.contacts.pressure * p.sliding_distance)
+    ...     p.remove(*(depth.reshape(shape) for depth, shape in zip(worn, p.shapes)))
+    >>> simulation.results().passes["wear_volume_lower"].shape
+    (2,)
+    """
+
+    def __init__(
+        self,
+        lower: Surface | Body,
+        upper: Surface | Body,
+        lower_material: Material | None = None,
+        upper_material: Material | None = None,
+        *,
+        load: Quantity | None = None,
+        mean_pressure: Quantity | None = None,
+        approach: Quantity | None = None,
+        passes: int | None = None,
+        stride: int | None = None,
+        strategy: str | None = None,
+        speed_lower: Quantity | None = None,
+        speed_upper: Quantity | None = None,
+        control: str | None = None,
+        plastic_update: str | None = None,
+        load_tolerance: float | None = None,
+        boundary: str | Sequence[str] | None = None,
+        method: str | None = None,
+        tolerance: float | None = None,
+        friction: Friction | None = None,
+        subsurface: Mapping[str, Any] | None = None,
+        pressure_every: int | None = None,
+        rim: float | None = None,
+        paraview: bool | None = None,
+        title: str | None = None,
+        out: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        overwrite: bool = False,
+        threads: int | None = None,
+        progress: Told = True,
+    ) -> None:
+        handed = Handed(*bodies(lower, upper, lower_material, upper_material))
+        self._case = _case.tables(
+            handed,
+            title=title,
+            contact={
+                "load": load, "mean_pressure": mean_pressure, "approach": approach, "boundary": boundary,
+                "method": method, "tolerance": tolerance,
+            },
+            friction=friction,
+            motion={
+                "strategy": strategy, "speed_lower": speed_lower, "speed_upper": speed_upper, "passes": passes,
+                "stride": stride, "control": control, "plastic_update": plastic_update, "load_tolerance": load_tolerance,
+            },
+            subsurface=subsurface,
+            output={"pressure_every": pressure_every, "rim": rim, "paraview": paraview},
+        )  # fmt: skip
+        self._progress = progress
+        count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+        if out is None:
+            self._temporary = tempfile.TemporaryDirectory(prefix="asperity-")
+            out = self._temporary.name
+        self.directory = _case.directory(out)
+        self._core = _core.Passes(self._case, handed.given, self.directory, existing, count)
+
+    @property
+    def done(self) -> int:
+        """Number of passes that are finished."""
+        return int(self._core.done())
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """Heights of the lower body as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[0]
+        return heights
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """Heights of the upper body's underside as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[1]
+        return heights
+
+    def __iter__(self) -> Iterator[Pass]:
+        pitch, distance = self._core.grid()
+        while True:
+            with Teller(self._progress) as tell:
+                if not self._core.solve(tell):
+                    break
+            try:
+                yield Pass(self._core, pitch, distance)
+            except GeneratorExit:
+                self._core.finish()
+                raise
+            self._core.finish()
+        self.close()
+
+    def close(self) -> None:
+        """Write the summary of the passes that are finished; nothing more can be solved."""
+        self._core.end()
+
+    def results(self) -> Any:
+        """The results of the passes that are finished, a :class:`Run`."""
+        from .run import _finished
+
+        return _finished(self)

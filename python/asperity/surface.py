@@ -1,0 +1,404 @@
+"""Surfaces: heights of one body, read, made or given, and the steps that prepare them for a contact."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._same import Comparable
+from ._units import Pair, Quantity, lengths, quantity
+from .errors import _make
+
+_STEPS = (
+    "window", "despike", "fill", "level", "mirror", "rotate", "s_filter", "l_filter", "filter", "resample", "interpolate",
+    "taper", "plus",
+)  # fmt: skip
+"""The steps of a preparation, in the order in which they act."""
+
+_MADE = ("generate", "form")
+
+
+class Surface(Comparable):
+    """The heights of one body on a regular grid, its material below them.
+
+    Index 0 of `heights` runs along x, the direction of motion, index 1 along y. A surface is not changed by its methods: each
+    gives a new one.
+
+    Parameters
+    ----------
+    heights : array_like
+        A matrix ``[ix, iy]`` of heights, in metres if no `unit` is given; anything that ``np.asarray`` takes. Masked or NaN
+        where missing. Also an xarray DataArray, which tells its pitch by its coordinates, and a topography of the package
+        SurfaceTopography, which tells pitch and unit.
+    pitch : float, str or pair of them
+        Size of a cell along x and y, above 0, m.
+    unit : str or float, optional
+        What a 1 in `heights` stands for, for example ``"um"``.
+
+    Raises
+    ------
+    asperity.errors.CaseError
+        For heights that are no matrix of real numbers, or a pitch that is missing or wrong.
+
+    Notes
+    -----
+    The steps of the preparation (:meth:`window` to :meth:`taper`, :meth:`plus`) act in the order of the case file, whatever
+    the order in which they are called: the part to keep, spikes, holes, form, direction, waves, grid, rim. A step that is asked
+    for a second time begins anew with the heights that all steps before it lead to.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity as asp
+    >>> surface = asp.Surface(1e-9 * np.add.outer(np.arange(4.0), np.arange(3.0)), pitch="1 um")
+    >>> surface.shape, surface.pitch
+    ((4, 3), (1e-06, 1e-06))
+    >>> bool(abs(surface.level("plane").heights).max() < 1e-24)
+    True
+    """
+
+    def __init__(self, heights: ArrayLike | Any, pitch: Pair | None = None, *, unit: Quantity | None = None) -> None:
+        array, told, scale = _heights(heights)
+        if unit is not None:
+            if scale is not None:
+                raise _bad("unit", "'unit' is given, but the heights have a unit of their own", None)
+            scale = _unit(unit)
+        if scale is not None:
+            array = scale * array
+        if pitch is None and told is None:
+            raise _bad("pitch", "'pitch' is missing: how far apart are the heights?", "for example pitch=\"0.5 um\"")
+        _check(array)
+        self._table: dict[str, Any] = {"given": "heights"}
+        self._given: NDArray[np.float64] | None = array
+        self._given_pitch = lengths("pitch", pitch) if pitch is not None else told
+        self._made: dict[str, Any] | None = None
+
+    @classmethod
+    def _of(cls, table: dict[str, Any], given: Surface | None = None) -> Surface:
+        """The surface of a table `[topography]` of a case."""
+        _core.check_surface(table)
+        surface = cls.__new__(cls)
+        surface._table = table
+        surface._given = None if given is None else given._given
+        surface._given_pitch = None if given is None else given._given_pitch
+        surface._made = None
+        return surface
+
+    def _with(self, **steps: Any) -> Surface:
+        """The same surface with further steps."""
+        steps = {key: value for key, value in steps.items() if value is not None}
+        if any(key in self._table for key in steps):
+            return Surface(self.heights, self.pitch)._with(**steps)
+        return Surface._of({**self._table, **steps}, self)
+
+    def _handed(self) -> tuple[NDArray[np.float64], tuple[float, float]] | None:
+        """The heights that the table names `given`."""
+        if self._given is None:
+            return None
+        assert self._given_pitch is not None
+        return self._given, self._given_pitch
+
+    def _all(self) -> dict[str, Any]:
+        if self._made is None:
+            if self._given is not None and len(self._table) == 1:
+                heights = self._given.view()
+                missing = int(np.count_nonzero(np.isnan(heights)))
+                made: dict[str, Any] = {"heights": heights, "pitch": self._given_pitch, "undefined": missing}
+                made |= {"spikes": 0, "radius": None, "underside": False}
+            else:
+                made = _core.surface(self._table, self._handed())
+            made["heights"].flags.writeable = False
+            self._made = made
+        return self._made
+
+    def _compared(self) -> dict[str, Any]:
+        return {"heights": self.heights, "pitch": self.pitch}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_made": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy is False and dtype not in (None, np.float64):
+            raise ValueError("heights are float64: another type is a copy")
+        return np.array(self.heights, dtype=dtype) if copy or dtype else self.heights
+
+    def __repr__(self) -> str:
+        source = next(iter(self._table.items()))
+        steps = [key for key in self._table if key in _STEPS]
+        what = "heights" if source[0] == "given" else f"{source[0]} {source[1]!r}"
+        return f"<Surface: {what}{''.join(f', {step}' for step in steps)}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import surface
+
+        return surface(self)
+
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """Heights, m, ``[ix, iy]``; NaN where undefined. Not to be written to: copy it to change it."""
+        heights: NDArray[np.float64] = self._all()["heights"]
+        return heights
+
+    @property
+    def pitch(self) -> tuple[float, float]:
+        """Size of a cell along x and y, m."""
+        x, y = self._all()["pitch"]
+        return float(x), float(y)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of cells along x and y."""
+        nx, ny = self.heights.shape
+        return nx, ny
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """Length along x and y, m."""
+        return self.shape[0] * self.pitch[0], self.shape[1] * self.pitch[1]
+
+    @property
+    def undefined(self) -> int:
+        """Number of samples that are missing now."""
+        return int(np.count_nonzero(np.isnan(self.heights)))
+
+    @property
+    def filled(self) -> int:
+        """Number of samples that were missing, or removed as spikes, before anything filled them."""
+        return int(self._all()["undefined"]) + int(self._all()["spikes"])
+
+    @property
+    def spikes(self) -> int:
+        """Number of samples that :meth:`despike` removed."""
+        return int(self._all()["spikes"])
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of the sphere or cylinder that :meth:`level` subtracted, m, below 0 of a hollow one; else none."""
+        radius = self._all()["radius"]
+        return None if radius is None else float(radius)
+
+    @property
+    def is_underside(self) -> bool:
+        """Whether the heights are those of an upper body's underside, as results hold them."""
+        return bool(self._all()["underside"])
+
+    # ---- steps of the preparation, in the order in which they act
+
+    def window(self, x0: int, y0: int, nx: int, ny: int) -> Surface:
+        """Keep `nx` × `ny` samples from ``[x0, y0]`` on."""
+        return self._with(window=[x0, y0, nx, ny])
+
+    def despike(self, factor: float = 6.0) -> Surface:
+        """Remove samples that stand out of their neighbourhood by more than `factor` times the scatter there."""
+        return self._with(despike=factor)
+
+    def fill(self, fill: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
+        """Fill missing samples: by a membrane over each hole, or from the nearest sample."""
+        return self._with(fill=fill)
+
+    def level(self, level: str = "plane") -> Surface:
+        """Subtract a form: ``"mean"``, ``"plane"``, ``"polynomial-N"``, ``"sphere"``, ``"cylinder"``, ``"none"``."""
+        return self._with(level=level)
+
+    def mirror(self, mirror: Literal["x", "y"]) -> Surface:
+        """Mirror along an axis."""
+        return self._with(mirror=mirror)
+
+    def rotate(self, rotate: Quantity) -> Surface:
+        """Turn by an angle, rad or text such as ``"30 deg"``, from x to y."""
+        return self._with(rotate=rotate)
+
+    def s_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
+        """Take waves shorter than `nesting_index` away, m; `filter` is ``"gaussian"`` or ``"robust"``."""
+        return self._with(s_filter=nesting_index, filter=filter)
+
+    def l_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
+        """Take waves longer than `nesting_index` away, m."""
+        return self._with(l_filter=nesting_index, filter=filter)
+
+    def resample(
+        self, shape: Sequence[int] | None = None, *, pitch: Pair | None = None, interpolate: str | None = None
+    ) -> Surface:
+        """Bring it to a number of cells on the same extent, or to cells of another `pitch`, m."""
+        if (shape is None) == (pitch is None):
+            raise _bad("resample", "give resample() a shape or a pitch, one of them", None)
+        if shape is not None:
+            return self._with(resample=list(shape), interpolate=interpolate)
+        base = Surface(self.heights, self.pitch)
+        return base._with(pitch=list(lengths("pitch", pitch if pitch is not None else 0.0)), interpolate=interpolate)
+
+    def taper(self, width: Quantity) -> Surface:
+        """Bring a rim of this width, m, down to the mean, so that the surface can be repeated."""
+        return self._with(taper=width)
+
+    def plus(self, other: Surface) -> Surface:
+        """Add the heights of another surface of the same grid; of one that is made without a shape, on this grid."""
+        key = next((key for key in _MADE if key in other._table), None)
+        if key is not None and "shape" not in other._table and not any(step in other._table for step in _STEPS):
+            layer = {name: value for name, value in other._table.items() if name != "pitch"}
+            layers = [*self._table.get("plus", []), layer]
+            return Surface._of({**self._table, "plus": layers}, self)
+        if self.shape != other.shape or not np.allclose(self.pitch, other.pitch, rtol=1e-9, atol=0.0):
+            message = (
+                f"the surfaces have different grids: {_grid(self)} and {_grid(other)}; expected the same shape and pitch"
+            )
+            raise _bad("plus", message, None)
+        return Surface(self.heights + other.heights, self.pitch)
+
+    def __add__(self, other: Surface) -> Surface:
+        return self.plus(other) if isinstance(other, Surface) else NotImplemented
+
+    # ---- what it is like, and where it goes
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the heights to a file, in the format that the end of its name tells: npy, x3p, sdf, gwy or vtk.
+
+        Raises
+        ------
+        asperity.errors.NoFormat
+            If the name tells none.
+        asperity.errors.File
+            If the file cannot be written.
+        """
+        _core.write_surface(os.fspath(path), (self.heights, self.pitch))
+
+    def to_xarray(self) -> Any:
+        """The heights as a DataArray of xarray, with the centres of the cells as coordinates, m."""
+        from .fields import Field
+
+        return Field("heights", self.heights, "m", ("x", "y"), self.pitch, (0.5 * self.pitch[0], 0.5 * self.pitch[1])).to_xarray()
+
+    def plot(self, **options: Any) -> Any:
+        """Draw the heights with matplotlib; gives the axes. `options` go to ``imshow``."""
+        from ._plot import surface
+
+        return surface(self, **options)
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    channel: str | None = None,
+    unit: Quantity | None = None,
+    pitch: Pair | None = None,
+) -> Surface:
+    """Read a topography; its content tells the format, of which there are thirty.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    channel : str, optional
+        The channel to read, see :func:`channels`; without it the first height channel.
+    unit : str or float, optional
+        What a 1 in a file without units stands for, for example ``"um"``.
+    pitch : float, str or pair, optional
+        Size of a cell along x and y, m, of a file that has none; a file that has one is resampled to it.
+
+    Returns
+    -------
+    Surface
+        Heights in metres, NaN where missing.
+
+    Raises
+    ------
+    asperity.errors.MissingFile, asperity.errors.CaseError
+        If the file is not there, or holds no such topography.
+    """
+    path = os.fspath(path)
+    if not os.path.exists(path):
+        raise _make("File", f"{path}: no such file", {"path": path, "errno": 2}, None)
+    table: dict[str, Any] = {"file": path, "channel": channel, "unit": unit}
+    if pitch is not None:
+        table["pitch"] = list(lengths("pitch", pitch))
+    surface = Surface._of({key: value for key, value in table.items() if value is not None})
+    surface._all()
+    return surface
+
+
+def channels(path: str | os.PathLike[str]) -> list[str]:
+    """Names of the height channels of a file, the one that is read without a `channel` first."""
+    return _core.channels(os.fspath(path))
+
+
+def _bad(key: str, message: str, hint: str | None) -> Exception:
+    return _make("CaseError", message, {"key": key}, hint)
+
+
+def _grid(surface: Surface) -> str:
+    (nx, ny), (dx, dy) = surface.shape, surface.pitch
+    return f"{nx} × {ny} cells of {_core.format(dx, 'length')} × {_core.format(dy, 'length')}"
+
+
+def _unit(unit: Quantity) -> float:
+    text = f"1 {unit}" if isinstance(unit, str) and unit[:1].isalpha() else unit
+    return quantity("unit", text, "length")
+
+
+def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | None, float | None]:
+    """Heights as a matrix, their pitch where they tell it, and what a 1 stands for where they tell that."""
+    if isinstance(heights, Surface):
+        return heights.heights, heights.pitch, 1.0
+    if hasattr(heights, "physical_sizes") and callable(getattr(heights, "heights", None)):
+        return _of_topography(heights)
+    told = scale = None
+    if hasattr(heights, "coords") and hasattr(heights, "dims"):
+        told = _pitch_of_coordinates(heights)
+        unit = heights.attrs.get("units", heights.attrs.get("unit"))
+        scale = _unit(unit) if isinstance(unit, str) else None
+        heights = heights.data
+    if np.ma.isMaskedArray(heights):
+        heights = np.ma.asarray(heights, dtype=np.float64).filled(np.nan)
+    try:
+        found = np.asarray(heights)
+    except (TypeError, ValueError) as error:
+        raise _bad("heights", f"'heights' is no matrix of numbers: {error}", None) from error
+    if found.dtype.kind not in "fiub":
+        raise _bad("heights", f"'heights' is of type {found.dtype}, expected real numbers", None)
+    return np.asarray(found, dtype=np.float64), told, scale
+
+
+def _of_topography(topography: Any) -> tuple[NDArray[np.float64], tuple[float, float], float]:
+    """Heights, pitch and unit of a topography of the package SurfaceTopography."""
+    found = topography.heights()
+    array = np.ma.asarray(found, dtype=np.float64).filled(np.nan)
+    if array.ndim != 2:
+        raise _bad("heights", f"the topography has {array.ndim} dimensions, expected 2", None)
+    unit = getattr(topography, "unit", None)
+    scale = 1.0 if unit is None else _unit(unit)
+    sizes = topography.physical_sizes
+    return array, (scale * sizes[0] / array.shape[0], scale * sizes[1] / array.shape[1]), scale
+
+
+def _pitch_of_coordinates(array: Any) -> tuple[float, float] | None:
+    """The pitch of a DataArray of two dimensions, from its coordinates."""
+    if len(array.dims) != 2 or any(name not in array.coords for name in array.dims):
+        return None
+    pitches = []
+    for name in array.dims:
+        coordinate = array.coords[name]
+        values = np.asarray(coordinate.values, dtype=np.float64)
+        steps = np.diff(values)
+        if len(steps) == 0 or not np.allclose(steps, steps[0], rtol=1e-6, atol=0.0) or steps[0] <= 0.0:
+            raise _bad("heights", f"the coordinates '{name}' are not evenly spaced and ascending", None)
+        unit = coordinate.attrs.get("units", coordinate.attrs.get("unit"))
+        scale = _unit(unit) if isinstance(unit, str) else 1.0
+        pitches.append(scale * float(values[-1] - values[0]) / (len(values) - 1))
+    return pitches[0], pitches[1]
+
+
+def _check(array: NDArray[np.float64]) -> None:
+    if array.ndim != 2:
+        raise _bad("heights", f"'heights' has {array.ndim} dimensions, expected a matrix [ix, iy]", None)
+    if 0 in array.shape:
+        shape = " × ".join(map(str, array.shape))
+        raise _bad("heights", f"'heights' has {shape} cells, expected at least 1 × 1", None)
+    if np.isinf(array).any():
+        raise _bad("heights", "'heights' holds an infinite number, expected lengths, or NaN where they are missing", None)
