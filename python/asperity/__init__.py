@@ -13,10 +13,10 @@ from . import errors, form, generate
 from ._core import __version__
 from ._progress import Progress
 from .body import Body
-from .contact import Contact, contact
+from ._contact import Contact, contact
 from .fields import Field, Fields
 from .material import Coating, Material
-from .run import Run, open, run, simulate
+from ._run import Run, open, run, simulate
 from .simulation import Contacts, Pass, Simulation
 from .surface import Surface, channels, read
 

@@ -103,12 +103,10 @@ def _body(name: str, given: Any, material: Material | None) -> Body:
 def heights_like(value: ArrayLike, shape: tuple[int, int], key: str) -> Any:
     """A matrix of this shape; a number stands for all cells."""
     array = np.asarray(value, dtype=np.float64)
-    if array.ndim == 0:
-        return np.full(shape, float(array))
-    if array.shape != shape:
+    if array.ndim > 0 and array.shape != shape:
         found = " × ".join(map(str, array.shape))
         message = f"'{key}' has the shape {found}, expected {shape[0]} × {shape[1]}, a value for each cell of the body"
         raise _make("CaseError", message, {"key": key}, None)
     if not np.isfinite(array).all():
         raise _make("CaseError", f"'{key}' holds numbers that are not finite, expected lengths", {"key": key}, None)
-    return array
+    return np.full(shape, float(array)) if array.ndim == 0 else array

@@ -7,6 +7,9 @@ Every exception is an :class:`AsperityError`. Bad input is a :class:`ValueError`
 
 from __future__ import annotations
 
+import os
+import sys
+import warnings
 from typing import Any
 
 
@@ -203,6 +206,20 @@ class InternalError(AsperityError, RuntimeError):
     """A mistake in asperity itself, which we would like to hear of."""
 
 
+class ModelWarning(UserWarning):
+    """A model is used where it may not hold, or a result is less certain than it looks."""
+
+
+def warn(texts: list[str]) -> None:
+    """Warn of each, at the line that called asperity."""
+    package = os.path.dirname(__file__)
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
+        level, frame = level + 1, frame.f_back
+    for text in texts:
+        warnings.warn(text, ModelWarning, stacklevel=level)
+
+
 def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None) -> AsperityError:
     """The exception of that name; called by the compiled module."""
     if name == "File" and attributes.get("errno") == 2:
@@ -212,6 +229,6 @@ def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None)
         setattr(error, key, str(value) if key in ("path", "results", "file") else value)
     if hint is not None:
         error.hint = hint
-        # From Python 3.11 on `add_note`; a traceback shows them.
-        error.__notes__ = [f"hint: {hint}"]
+        # From Python 3.11 on tracebacks show them.
+        error.__dict__["__notes__"] = [f"hint: {hint}"]
     return error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -13,9 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core, fields
 from ._progress import Teller, Told
+from ._temporary import Temporary
 from ._units import Quantity
 from .body import Body, Handed, bodies, heights_like
-from .contact import Friction
+from ._contact import Friction
+from .errors import _make
 from .material import Material
 from .surface import Surface
 
@@ -46,7 +47,10 @@ class Contacts(NamedTuple):
         starts = np.flatnonzero(np.diff(self.position, prepend=-1))
         ends = [*starts[1:], len(self.position)]
         for start, end in zip(starts, ends, strict=True):
-            yield Contacts(*(array[start:end] for array in self))
+            part = slice(start, end)
+            yield Contacts(
+                self.position[part], self.lower_cell[part], self.upper_cell[part], self.pressure[part], self.plastic[part]
+            )
 
 
 class Pass:
@@ -80,12 +84,12 @@ class Pass:
     @cached_property
     def contacts(self) -> Contacts:
         """The cells in contact at all positions."""
-        return Contacts(*self._core.contacts())
+        return Contacts(*self._core.contacts(self.number))
 
     @cached_property
     def steps(self) -> NDArray[np.void]:
         """A record for each position, with the columns of `steps.csv`."""
-        return fields.table(self._core.steps(), _core.STEP_COLUMNS)
+        return fields.table(self._core.steps(self.number), _core.STEP_COLUMNS)
 
     @property
     def lower(self) -> NDArray[np.float64]:
@@ -122,8 +126,6 @@ class Pass:
             For a depth of another shape, or that is not finite.
         """
         if not (law.isidentifier() and law.islower()):
-            from .errors import _make
-
             raise _make("CaseError", f"'law' is {law!r}, expected a word in small letters", {"key": "law"}, None)
         depths = [
             heights_like(depth, shape, key)
@@ -131,14 +133,15 @@ class Pass:
                 (depth_lower, depth_upper), self.shapes, ("depth_lower", "depth_upper"), strict=True
             )
         ]
-        self._core.remove(law, *depths)
+        self._core.remove(self.number, law, *depths)
 
 
 class Simulation:
     """A motion that yields each pass, for laws of one's own.
 
-    ``for p in asp.Simulation(...)`` solves a pass, hands it out as a :class:`Pass`, and finishes it when the loop goes on, or is
-    left. The arguments are those of :func:`asperity.simulate`, without `law`.
+    ``for p in asp.Simulation(...)`` solves a pass, hands it out as a :class:`Pass`, and finishes it when the loop goes on. A pass
+    at which the loop is left by ``break`` counts once :meth:`results` or :meth:`close` is called; one at which an exception
+    leaves it does not, and `resume` computes it again. The arguments are those of :func:`asperity.simulate`, without `law`.
 
     Examples
     --------
@@ -208,10 +211,10 @@ class Simulation:
         )  # fmt: skip
         self._progress = progress
         count, existing = _case.threads(threads), _case.existing(resume, overwrite)
-        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+        self._temporary: Temporary | None = None
         if out is None:
-            self._temporary = tempfile.TemporaryDirectory(prefix="asperity-")
-            out = self._temporary.name
+            self._temporary = Temporary()
+            out = self._temporary.path
         self.directory = _case.directory(out)
         self._core = _core.Passes(self._case, handed.given, self.directory, existing, count)
 
@@ -233,25 +236,22 @@ class Simulation:
         return heights
 
     def __iter__(self) -> Iterator[Pass]:
-        pitch, distance = self._core.grid()
+        (dx, dy), distance = self._core.grid()
         while True:
+            self._core.finish()
             with Teller(self._progress) as tell:
                 if not self._core.solve(tell):
                     break
-            try:
-                yield Pass(self._core, pitch, distance)
-            except GeneratorExit:
-                self._core.finish()
-                raise
-            self._core.finish()
+            yield Pass(self._core, (dx, dy), distance)
         self.close()
 
     def close(self) -> None:
-        """Write the summary of the passes that are finished; nothing more can be solved."""
+        """Finish the pass under way, if there is one, and write the summary; nothing more can be solved then."""
+        self._core.finish()
         self._core.end()
 
     def results(self) -> Any:
-        """The results of the passes that are finished, a :class:`Run`."""
-        from .run import _finished
+        """Finish the pass under way, if there is one; the results as a :class:`Run`."""
+        from ._run import _finished
 
         return _finished(self)

@@ -80,7 +80,7 @@ impl CorePasses {
         Ok(Self { state: Mutex::new(State { passes: Some(passes), solved: None }), threads })
     }
 
-    /// Solves the next pass; false where there is none.
+    /// Solves the next pass; false where there is none. One that is solved already is forgotten.
     fn solve(&self, py: Python<'_>, progress: Option<Bound<'_, PyAny>>) -> PyResult<bool> {
         let mut state = self.state()?;
         let State { passes, solved } = &mut *state;
@@ -114,18 +114,18 @@ impl CorePasses {
 
     /// The pass that is solved, in numbers as they are now.
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &solved(&mut *self.state()?)?.record())
+        record(py, &solved(&mut *self.state()?, None)?.record())
     }
 
     /// The positions of the pass that is solved, in numbers.
-    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &solved(&mut *self.state()?)?.steps())
+    fn steps<'py>(&self, py: Python<'py>, pass: usize) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &solved(&mut *self.state()?, Some(pass))?.steps())
     }
 
     /// The contacts of the pass that is solved.
-    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Contacts<'py>> {
+    fn contacts<'py>(&self, py: Python<'py>, pass: usize) -> PyResult<Contacts<'py>> {
         let mut state = self.state()?;
-        let pass = solved(&mut state)?;
+        let pass = solved(&mut state, Some(pass))?;
         let count = pass.contacts().iter().map(|contact| contact.pressure.len()).sum();
         let [mut position, mut lower, mut upper] = [(); 3].map(|()| Vec::with_capacity(count));
         let [mut pressure, mut plastic] = [(); 2].map(|()| Vec::with_capacity(count));
@@ -170,11 +170,12 @@ impl CorePasses {
     /// Takes depths off the bodies of the pass that is solved.
     fn remove(
         &self,
+        pass: usize,
         law: &str,
         lower: PyReadonlyArray2<'_, f64>,
         upper: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<()> {
-        solved(&mut *self.state()?)?.remove(law, &[field(&lower), field(&upper)]);
+        solved(&mut *self.state()?, Some(pass))?.remove(law, &[field(&lower), field(&upper)]);
         Ok(())
     }
 }
@@ -187,8 +188,10 @@ impl CorePasses {
     }
 }
 
-fn solved(state: &mut State) -> PyResult<&mut SolvedPass> {
-    state.solved.as_mut().ok_or_else(ended)
+/// The pass that is solved, which is the one of that number, from 1, if one is asked for.
+fn solved(state: &mut State, number: Option<usize>) -> PyResult<&mut SolvedPass> {
+    let is_asked_for = |solved: &&mut SolvedPass| number.is_none_or(|number| solved.steps()[0].pass == number);
+    state.solved.as_mut().filter(is_asked_for).ok_or_else(ended)
 }
 
 fn ended() -> PyErr {

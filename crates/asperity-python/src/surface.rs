@@ -113,6 +113,9 @@ pub(crate) fn quantity(
     };
     let number = match value.extract::<String>() {
         Ok(text) if text == "inf" => f64::INFINITY,
+        Ok(text) if tables::is_bare(&text) => {
+            return Err(errors::bad_input(py, key, &tables::bare(key, &text), None));
+        }
         Ok(text) => units::parse(&text, dimension)
             .map_err(|error| errors::bad_input(py, key, &error.for_key(key), error.hint()))?,
         Err(_) => match value.extract() {

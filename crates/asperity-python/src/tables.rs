@@ -7,6 +7,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
 
+use crate::errors;
+
+/// Keys whose text may look like a number.
+const TEXTS: [&str; 4] = ["title", "file", "channel", "given"];
+
 /// The text of a case of these tables, or of a part of one. A key whose value is `None` is not given.
 pub(crate) fn text(tables: &Bound<'_, PyDict>) -> PyResult<String> {
     toml::to_string(&table(tables, "")?).map_err(|error| PyValueError::new_err(error.to_string()))
@@ -30,7 +35,12 @@ fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
         return Ok(Value::Table(table(entries, path)?));
     }
     if let Ok(text) = value.cast::<PyString>() {
-        return Ok(Value::String(text.to_string()));
+        let text = text.to_string();
+        return if is_bare(&text) && !TEXTS.contains(&key(path)) {
+            Err(errors::bad_input(value.py(), path, &bare(key(path), &text), None))
+        } else {
+            Ok(Value::String(text))
+        };
     }
     if let Ok(flag) = value.cast::<PyBool>() {
         return Ok(Value::Boolean(flag.is_true()));
@@ -58,9 +68,24 @@ fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     if value.hasattr("__float__")? {
         return value.extract().map(Value::Float);
     }
-    let key = path.rsplit('.').next().unwrap_or_default();
+    let key = key(path);
     let found = value.get_type().name()?;
     Err(PyTypeError::new_err(format!(
         "'{key}' is of type {found}, expected a number, a text or a sequence of them"
     )))
+}
+
+/// The last part of a dotted path.
+fn key(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or_default()
+}
+
+/// Whether a text is a number without a unit, which may mean anything.
+pub(crate) fn is_bare(text: &str) -> bool {
+    text.trim().parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+/// What is told of a number in quotes without a unit.
+pub(crate) fn bare(key: &str, text: &str) -> String {
+    format!("'{key}' is {text:?}, a text without a unit, expected a number in SI units, or a text with a unit")
 }

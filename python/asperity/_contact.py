@@ -14,6 +14,7 @@ from ._progress import Teller, Told
 from ._same import Comparable
 from ._units import Quantity
 from .body import Body, Handed, bodies
+from .errors import _make, warn
 from .fields import Fields
 from .material import Material
 from .surface import Surface
@@ -306,26 +307,31 @@ def contact(
     if out is None:
         for key, value in (("subsurface", subsurface), ("paraview", paraview), ("resume", resume or None)):
             if value is not None:
-                from .errors import _make
-
                 message = f"'{key}' is given without 'out', the directory for what it writes"
                 raise _make("CaseError", message, {"key": key}, None)
         with Teller(progress) as tell:
             found = _core.rest(case, handed.given, count, tell)
         pitch = (found["pitch"][0], found["pitch"][1])
         arrays = fields.of_cells(found["fields"], pitch)
+        warn(found["warnings"])
         return Contact(
             found.get("record"), found.get("sweep", []), found["increments"], arrays, found["warnings"], found["case"]
         )
     with Teller(progress) as tell:
         _core.run(case, handed.given, _case.directory(out), existing, count, tell)
-    return stored(_core.Results(_case.directory(out)))
+    answer = stored(_core.Results(_case.directory(out)))
+    warn(answer.warnings)
+    return answer
 
 
 def stored(core: Any) -> Contact:
     """A contact of a results directory."""
     summary = core.summary()
     found = fields.stored(core, "contact", None)
+    record = summary.get("static")
+    if record is not None:
+        # What has not converged leaves no summary.
+        del record["converged"]
     return Contact(
-        summary.get("static"), core.sweep(), core.increments(), found, summary["warnings"], core.case()
+        record, core.sweep(), core.increments(), found, summary["warnings"], core.case()
     )

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import os
 import pathlib
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _case, _core, contact, fields
+from . import _case, _contact, _core, fields
 from ._progress import Teller, Told
 from ._same import Comparable
+from ._temporary import Temporary
 from ._units import Quantity
 from .body import Body
-from .contact import Contact, Friction
-from .errors import _make
+from ._contact import Contact, Friction
+from .errors import _make, warn
 from .fields import Fields
 from .material import Material
 from .simulation import Pass, Simulation
@@ -41,7 +41,7 @@ class Run(Comparable):
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = pathlib.Path(directory)
         self._core = _core.Results(os.fspath(directory))
-        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+        self._temporary: Temporary | None = None
 
     def _compared(self) -> dict[str, Any]:
         # What a computation took is no part of its answer.
@@ -62,12 +62,12 @@ class Run(Comparable):
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         if "files" in state:
-            temporary = tempfile.TemporaryDirectory(prefix="asperity-")
+            temporary = Temporary()
             for name, content in state["files"].items():
-                path = pathlib.Path(temporary.name, name)
+                path = pathlib.Path(temporary.path, name)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content)
-            self.__init__(temporary.name)  # type: ignore[misc]
+            self.__init__(temporary.path)  # type: ignore[misc]
             self._temporary = temporary
         else:
             self.__init__(state["directory"])  # type: ignore[misc]
@@ -279,6 +279,7 @@ def _finished(simulation: Simulation) -> Run:
     simulation.close()
     run = Run(simulation.directory)
     run._temporary = simulation._temporary
+    warn(run.warnings)
     return run
 
 
@@ -313,7 +314,7 @@ def run(
         For a mistake in the file, with its line and column.
     """
     count, existing = _case.threads(threads), _case.existing(resume, overwrite)
-    handed = {"topographies": {}, "hardness": {}}
+    handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
     with Teller(progress) as tell:
         _core.run(os.fspath(case), handed, _case.directory(out), existing, count, tell)
     return open(out)
@@ -335,4 +336,4 @@ def open(directory: str | os.PathLike[str]) -> Run | Contact:
     if core.summary() is None:
         message = f"{os.fspath(directory)} holds a contact that was not finished"
         raise _make("NotResumable", message, {"path": os.fspath(directory)}, "resume=True goes on with it")
-    return contact.stored(core)
+    return _contact.stored(core)

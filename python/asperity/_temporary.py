@@ -1,0 +1,22 @@
+"""A directory that is gone with what uses it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+import weakref
+
+
+class Temporary:
+    """A new directory, `path`, removed with this object by the process that made it."""
+
+    def __init__(self) -> None:
+        self.path = tempfile.mkdtemp(prefix="asperity-")
+        weakref.finalize(self, _remove, self.path, os.getpid())
+
+
+def _remove(path: str, owner: int) -> None:
+    # A process that has forked off holds the same objects, and ends before its parent does.
+    if os.getpid() == owner:
+        shutil.rmtree(path, ignore_errors=True)
