@@ -6,41 +6,85 @@ positive in tension.
 
 Surfaces are made (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or given (:class:`Surface`).
 :func:`contact` presses two bodies together, :func:`simulate` lets them pass over each other, :class:`Simulation` does so with
-laws of one's own, :func:`run` computes a case file, :func:`open` opens results. :mod:`asperity.reference` holds closed forms.
+laws of one's own, :func:`run` computes a case file, :func:`open` opens results. :func:`stress` looks below the surface.
+:mod:`asperity.reference` holds closed forms, and :func:`verify` holds the program against them.
 """
 
-from . import errors, form, generate
+from . import errors, form, generate, reference
 from ._core import __version__
-from ._progress import Progress
-from .body import Body
 from ._contact import Contact, contact
-from .fields import Field, Fields
-from .material import Coating, Material
+from ._progress import Progress
 from ._run import Run, open, run, simulate
+from ._stress import Extreme, Stress, SubsurfaceStress, stress
+from .body import Body
+from .describe import (
+    BearingCurve,
+    Core,
+    Correlation,
+    Distribution,
+    GreenwoodWilliamson,
+    Parameter,
+    Parameters,
+    Profile,
+    Segmentation,
+    SelfAffinity,
+    SpectralMoments,
+    Spectrum,
+    Summits,
+)
+from .fields import Field, Fields
+from .material import Coating, Compliances, Material, composite_modulus, dundurs, tangential_modulus
 from .simulation import Contacts, Pass, Simulation
 from .surface import Surface, channels, read
+from .verification import Check, Verification, verification_cases, verify
 
 __all__ = [
+    "BearingCurve",
     "Body",
+    "Check",
     "Coating",
+    "Compliances",
     "Contact",
     "Contacts",
+    "Core",
+    "Correlation",
+    "Distribution",
+    "Extreme",
     "Field",
     "Fields",
+    "GreenwoodWilliamson",
     "Material",
+    "Parameter",
+    "Parameters",
     "Pass",
+    "Profile",
     "Progress",
     "Run",
+    "Segmentation",
+    "SelfAffinity",
     "Simulation",
+    "SpectralMoments",
+    "Spectrum",
+    "Stress",
+    "SubsurfaceStress",
+    "Summits",
     "Surface",
+    "Verification",
     "__version__",
     "channels",
+    "composite_modulus",
     "contact",
+    "dundurs",
     "errors",
     "form",
     "generate",
     "open",
     "read",
+    "reference",
     "run",
     "simulate",
+    "stress",
+    "tangential_modulus",
+    "verification_cases",
+    "verify",
 ]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _core
 from ._same import Comparable
 from ._units import Quantity, quantity
 from .errors import _make
@@ -118,3 +119,86 @@ class Material(Comparable):
         if self.coating is not None:
             table["coating"] = self.coating._table()
         return table
+
+    def _constants(self) -> tuple[float, float, list[float] | None]:
+        coating = self.coating
+        layer = None if coating is None else [coating.thickness, coating.young, coating.poisson]
+        return self.young, self.poisson, layer
+
+
+class Compliances(Comparable):
+    """What the elastic constants of a pair of half-spaces come to, their coatings left aside.
+
+    ::
+
+        1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂                        normal
+        1/N* = ν₁(1 + ν₁)/E₁ + ν₂(1 + ν₂)/E₂                      lateral
+        1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂      coupling
+
+    Parameters
+    ----------
+    lower, upper : Material
+        What the bodies are made of.
+
+    Attributes
+    ----------
+    normal, lateral, coupling : float
+        1/E*, 1/N* and 1/G*, 1/Pa; the last is of either sign, negative where the lower body is the stiffer.
+
+    Raises
+    ------
+    asperity.errors.OutOfRange
+        If both bodies are rigid, and neither is coated.
+
+    References
+    ----------
+    Johnson, *Contact Mechanics* (1985), ch. 3 and 5.
+    """
+
+    def __init__(self, lower: Material, upper: Material) -> None:
+        for key, material in (("lower", lower), ("upper", upper)):
+            if not isinstance(material, Material):
+                raise _make("CaseError", f"'{key}' is {material!r}, expected a Material", {"key": key}, None)
+        found = _core.compliances(lower._constants(), upper._constants())
+        self.normal, self.lateral, self.coupling, self._modulus, self._dundurs, self._tangential = map(float, found)
+
+    def __repr__(self) -> str:
+        return f"<Compliances: 1/E* {self.normal:.4g}, 1/N* {self.lateral:.4g}, 1/G* {self.coupling:.4g} 1/Pa>"
+
+    def modulus(self) -> float:
+        """Composite modulus E*, Pa."""
+        return self._modulus
+
+    def dundurs(self) -> float:
+        """Dundurs' β = E*/G*, −1/2 to 1/2; positive where the lower body is the softer."""
+        return self._dundurs
+
+    def tangential_modulus(self) -> float:
+        """Composite tangential modulus Gₜ, Pa, see :func:`tangential_modulus`."""
+        return self._tangential
+
+
+def composite_modulus(lower: Material, upper: Material) -> float:
+    """Composite modulus E* of a pair, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+    >>> f"{asp.composite_modulus(steel, steel):.4g}"
+    '1.154e+11'
+    """
+    return Compliances(lower, upper).modulus()
+
+
+def dundurs(lower: Material, upper: Material) -> float:
+    """Dundurs' β of a pair, −1/2 to 1/2; positive where the lower body is the softer, 0 of identical materials."""
+    return Compliances(lower, upper).dundurs()
+
+
+def tangential_modulus(lower: Material, upper: Material) -> float:
+    """Composite tangential modulus, 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, Pa.
+
+    The stiffness of a circle of radius a that sticks is 2aGₜ. Mindlin, J. Appl. Mech. 16, 259 (1949).
+    """
+    return Compliances(lower, upper).tangential_modulus()

@@ -9,9 +9,24 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, describe
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
+from .describe import (
+    WOLF_PRUNING,
+    Axis,
+    BearingCurve,
+    Correlation,
+    Distribution,
+    Parameters,
+    Profile,
+    Segmentation,
+    SelfAffinity,
+    SpectralMoments,
+    Spectrum,
+    Summits,
+    Window,
+)
 from .errors import _make
 
 _STEPS = (
@@ -255,7 +270,92 @@ class Surface(Comparable):
     def __add__(self, other: Surface) -> Surface:
         return self.plus(other) if isinstance(other, Surface) else NotImplemented
 
-    # ---- what it is like, and where it goes
+    # ---- what it is like
+
+    @property
+    def _grid(self) -> tuple[NDArray[np.float64], tuple[float, float]]:
+        return self.heights, self.pitch
+
+    def parameters(self) -> Parameters:
+        """All parameters of ISO 25178 by families: heights, spatial, hybrid, functional, features; ``.Sq`` is a value, SI."""
+        return describe.parameters(self._grid)
+
+    def feature_parameters(self, pruning: float = WOLF_PRUNING) -> Parameters:
+        """The feature parameters of ISO 25178, from hills and dales pruned at this share of Sz, 0 to 1."""
+        return describe.feature_parameters(self._grid, pruning)
+
+    def profile(self, axis: Axis = "x", index: int = 0) -> Profile:
+        """The profile along an axis at the sample `index` of the other axis."""
+        return describe.profile(self._grid, axis, index)
+
+    def profile_parameters(self, axis: Axis, cutoff: Quantity) -> Parameters:
+        """Parameters of ISO 21920 of the roughness profiles along an axis, each the mean over them; cut-off λc, m."""
+        return describe.profile_parameters(self._grid, axis, cutoff)
+
+    def bearing_curve(self) -> BearingCurve:
+        """The areal material ratio curve of the defined samples."""
+        return BearingCurve(self.heights)
+
+    def height_distribution(self, classes: int | None = None) -> Distribution:
+        """The density of the heights from their mean; without a number of `classes` the rule of Freedman and Diaconis."""
+        return describe.distribution(self._grid, None, classes)
+
+    def slope_distribution(
+        self, slope: Literal["x", "y", "magnitude"] = "magnitude", classes: int | None = None
+    ) -> Distribution:
+        """The density of the slope along an axis, or of its magnitude."""
+        return describe.distribution(self._grid, slope, classes)
+
+    def spectrum(self, window: Window = "hann") -> Spectrum:
+        """The power spectral density; ``window="none"`` for a surface that is periodic."""
+        return Spectrum(self._grid, window)
+
+    def autocorrelation(self, *, periodic: bool = False) -> Correlation:
+        """The autocorrelation of a surface that ends at its rim, or is `periodic`."""
+        return Correlation(self._grid, periodic)
+
+    def moments(self, by: Literal["spectrum", "differences"] = "spectrum", window: Window = "hann") -> SpectralMoments:
+        """The spectral moments, by the spectrum under a window, or by differences between samples, which soften short waves."""
+        if by not in ("spectrum", "differences"):
+            raise _bad("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"", None)
+        return describe.moments_by_differences(self._grid) if by == "differences" else self.spectrum(window).moments()
+
+    def summits(self) -> Summits:
+        """The summits, and the asperities of Greenwood and Williamson by them."""
+        return describe.summits(self._grid)
+
+    def self_affinity(
+        self,
+        wave_numbers: tuple[float, float] | None = None,
+        *,
+        lags: tuple[float, float] | None = None,
+        axis: Axis = "x",
+        window: Window = "hann",
+    ) -> SelfAffinity:
+        """The self-affine law: Hurst exponent, its error and range.
+
+        Of the spectrum over a range of `wave_numbers`, rad/m, or over the longest that follows a law; or, where `lags` are
+        given, m, of the mean square height differences along `axis`. The spectrum is the better witness.
+        """
+        if lags is None:
+            return self.spectrum(window).self_affinity(wave_numbers)
+        if wave_numbers is not None:
+            raise _bad("lags", "'lags' and 'wave_numbers' are both given, expected one of them", None)
+        return describe.self_affinity_of_differences(self._grid, axis, lags)
+
+    def height_differences(self, axis: Axis = "x") -> NDArray[np.void]:
+        """Mean square differences of heights a lag apart along an axis: records of `lag`, m, and `value`, m²."""
+        return describe.height_differences(self._grid, axis)
+
+    def hills(self, pruning: float = WOLF_PRUNING) -> Segmentation:
+        """The hills that stand at least `pruning` of Sz, 0 to 1, above their saddles."""
+        return describe.segments(self._grid, False, pruning)
+
+    def dales(self, pruning: float = WOLF_PRUNING) -> Segmentation:
+        """The dales at least `pruning` of Sz, 0 to 1, deep below their saddles."""
+        return describe.segments(self._grid, True, pruning)
+
+    # ---- where it goes
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the heights to a file, in the format that the end of its name tells: npy, x3p, sdf, gwy or vtk.

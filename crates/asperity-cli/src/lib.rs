@@ -21,6 +21,9 @@ use clap::Parser;
 
 use args::{Arguments, Command};
 pub use machine::available as available_memory;
+pub use verify::{
+    expected as verification_expects, text as verification_text, verdict as verification_verdict,
+};
 
 /// Runs the command with these `arguments`, the first of which is its name, and gives its exit code: 0 if all is well, 1 where
 /// the computation failed, 2 where the input is bad, 130 after Ctrl-C.

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use asperity::Result;
 use asperity::verification::{CASES, Case, Check, Expected};
 
 use crate::report::{Failure, Outcome, written};
@@ -25,45 +26,74 @@ struct Tally {
 fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<Tally> {
     let (mut passed, mut failed) = (0, 0);
     for case in cases {
-        writeln!(out, "{} — {}", case.name, case.source)?;
-        match (case.checks)() {
+        // What is under way has a name already.
+        writeln!(out, "{}", title(case))?;
+        let checks = (case.checks)();
+        writeln!(out, "{}", body(&checks))?;
+        match &checks {
             Ok(checks) => {
-                if let Some(first) = checks.first() {
-                    let sizes: String = first.sizes.iter().map(|n| format!("{n:>9}")).collect();
-                    writeln!(out, "  {:<22}{sizes}   order", first.refinement)?;
-                }
-                for check in &checks {
-                    writeln!(out, "  {}", row(check))?;
-                    if check.passed() { passed += 1 } else { failed += 1 }
-                }
+                let good = checks.iter().filter(|check| check.passed()).count();
+                (passed, failed) = (passed + good, failed + checks.len() - good);
             }
-            Err(error) => {
-                writeln!(out, "  FAILED: {error}")?;
-                failed += 1;
-            }
+            Err(_) => failed += 1,
         }
-        writeln!(out)?;
     }
-    match failed {
-        0 => writeln!(out, "all {passed} checks passed")?,
-        _ => writeln!(out, "{failed} of {} checks FAILED", passed + failed)?,
-    }
+    writeln!(out, "{}", verdict(passed, failed))?;
     Ok(Tally { passed, failed })
+}
+
+/// What the table says of a case and its checks, with an empty line at the end.
+pub fn text(case: &Case, checks: &Result<Vec<Check>>) -> String {
+    format!("{}\n{}\n", title(case), body(checks))
+}
+
+/// The last line of the table.
+pub fn verdict(passed: usize, failed: usize) -> String {
+    match failed {
+        0 => format!("all {passed} checks passed"),
+        _ => format!("{failed} of {} checks FAILED", passed + failed),
+    }
+}
+
+/// What a check expects.
+pub fn expected(check: &Check) -> String {
+    match &check.expected {
+        Expected::RoundOff(tolerance) => format!("|error| ≤ {tolerance:.0e}"),
+        Expected::Counted(cells) => format!("|error| ≤ {cells}/({})", check.refinement),
+        Expected::Order { order, finest } => {
+            format!("order {:.1} to {:.1}, last ≤ {finest:.0e}", order.start(), order.end())
+        }
+    }
+}
+
+fn title(case: &Case) -> String {
+    format!("{} — {}", case.name, case.source)
+}
+
+/// The lines of a case below its name.
+fn body(checks: &Result<Vec<Check>>) -> String {
+    match checks {
+        Ok(checks) => {
+            let sizes = |first: &Check| {
+                let sizes: String = first.sizes.iter().map(|n| format!("{n:>9}")).collect();
+                format!("  {:<22}{sizes}   order\n", first.refinement)
+            };
+            let rows = checks.iter().map(|check| format!("  {}\n", row(check)));
+            checks.first().map(sizes).into_iter().chain(rows).collect()
+        }
+        Err(error) => format!("  FAILED: {error}\n"),
+    }
 }
 
 /// Quantity, errors, order where one is expected, what is expected, verdict.
 fn row(check: &Check) -> String {
     let errors: String = check.errors.iter().map(|error| format!("{error:>9.1e}")).collect();
-    let (order, expected) = match &check.expected {
-        Expected::RoundOff(tolerance) => (String::new(), format!("|error| ≤ {tolerance:.0e}")),
-        Expected::Counted(cells) => (String::new(), format!("|error| ≤ {cells}/({})", check.refinement)),
-        Expected::Order { order, finest } => (
-            format!("{:.2}", check.order()),
-            format!("order {:.1} to {:.1}, last ≤ {finest:.0e}", order.start(), order.end()),
-        ),
+    let order = match &check.expected {
+        Expected::Order { .. } => format!("{:.2}", check.order()),
+        _ => String::new(),
     };
     let verdict = if check.passed() { "ok" } else { "FAILED" };
-    format!("{:<22}{errors}   {order:<5}  {expected:<32} {verdict}", check.quantity)
+    format!("{:<22}{errors}   {order:<5}  {:<32} {verdict}", check.quantity, expected(check))
 }
 
 #[cfg(test)]

@@ -6,14 +6,20 @@
 mod arrays; // matrices and records, there and back
 mod command; // the command `asperity`
 mod contact; // a contact at rest
+mod describe; // what a surface is like
 mod errors; // exceptions
 mod passes; // a motion, pass after pass
+mod reference; // closed forms
 mod results; // a results directory, to be read
+mod stress; // the stress below a surface
 mod surface; // surfaces: read, made, prepared, written
 mod tables; // dictionaries as the tables of a case
+mod verify; // the program against closed forms
 mod work; // a computation on threads of its own
 
+use asperity::reference::rough;
 use asperity::study;
+use asperity::surface::WOLF_PRUNING;
 use pyo3::prelude::*;
 
 #[pymodule(gil_used = false)]
@@ -23,11 +29,23 @@ mod _core {
     #[pymodule_export]
     use super::contact::rest;
     #[pymodule_export]
+    use super::describe::{
+        CoreBearingCurve, CoreCorrelation, CoreSpectrum, distribution, feature_parameters,
+        height_differences, line_heights, line_parameters, moments_by_differences, parameters, profile,
+        profile_parameters, segments, self_affinity_of_differences, summits,
+    };
+    #[pymodule_export]
     use super::passes::{CorePasses, run};
+    #[pymodule_export]
+    use super::reference::{closed_form, compliances};
     #[pymodule_export]
     use super::results::CoreResults;
     #[pymodule_export]
+    use super::stress::{invariants, most_stressed, stress};
+    #[pymodule_export]
     use super::surface::{channels, check_surface, format, quantity, surface, write_surface};
+    #[pymodule_export]
+    use super::verify::{verdict, verification_cases, verify};
 
     use super::*;
 
@@ -37,6 +55,9 @@ mod _core {
         module.add("STEP_COLUMNS", study::STEP_COLUMNS)?;
         module.add("PASS_COLUMNS", study::PASS_COLUMNS)?;
         module.add("INCREMENT_COLUMNS", study::INCREMENT_COLUMNS)?;
-        module.add("SWEEP_COLUMNS", study::SWEEP_COLUMNS)
+        module.add("SWEEP_COLUMNS", study::SWEEP_COLUMNS)?;
+        module.add("COUPLED_PUNCHES", crate::reference::coupled_punches())?;
+        module.add("AREA_COEFFICIENTS", [rough::BGT_COEFFICIENT, rough::PERSSON_COEFFICIENT])?;
+        module.add("WOLF_PRUNING", WOLF_PRUNING)
     }
 }

@@ -1,6 +1,7 @@
 //! Distributions of heights and of slopes.
 
 use super::slope::gradients;
+use crate::choice::choice;
 use crate::error::{Error, Result, check};
 use crate::surface::Topography;
 
@@ -39,6 +40,8 @@ pub enum Slope {
     /// √((∂z/∂x)² + (∂z/∂y)²).
     Magnitude,
 }
+
+choice!(Slope: "x" => X, "y" => Y, "magnitude" => Magnitude);
 
 impl Distribution {
     /// The distribution of finite `values`.

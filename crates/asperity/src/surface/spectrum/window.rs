@@ -1,5 +1,6 @@
 //! Windows: weights that fall to zero at the rim.
 
+use crate::choice::choice;
 use crate::grid::Field;
 
 /// Weights that make the ends of a topography meet before its transform, over ξ and η, which run from −1 to 1 from
@@ -20,6 +21,8 @@ pub enum Window {
     /// (1 − ξ²)(1 − η²), Welch's, along x and along y: narrower in wave number, but with a tail in q⁻⁴.
     Welch,
 }
+
+choice!(Window: "none" => None, "hann" => Hann, "radial-hann" => RadialHann, "welch" => Welch);
 
 impl Window {
     /// The weights on `shape` samples, taken at their centres.

@@ -1,0 +1,389 @@
+//! What a surface is like: parameters, profiles, curves, spectra, hills.
+
+use asperity::surface::{
+    Axis, BearingCurve, Bins, Classes, Correlation, Distribution, GreenwoodWilliamson, Motif, Parameter,
+    Profile, Segmentation, SelfAffinity, Slope, SpectralMoments, SpectralPoint, Spectrum, Summits,
+    Topography, Window,
+};
+use asperity::{Choice, Result};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, ToPyArray};
+use pyo3::prelude::*;
+
+use crate::arrays::ok;
+use crate::surface::{Heights, topography};
+use crate::{errors, work};
+
+/// The option that is called so.
+fn word<C: Choice>(py: Python<'_>, key: &str, word: &str) -> PyResult<C> {
+    C::of_word(word).ok_or_else(|| {
+        let words: Vec<_> = C::WORDS.iter().map(|(known, _)| format!("\"{known}\"")).collect();
+        let message = format!("'{key}' is \"{word}\", expected {}", words.join(" or "));
+        errors::bad_input(py, key, &message, None)
+    })
+}
+
+/// What `work` makes of the topography of these heights.
+fn of<T: Send>(
+    py: Python<'_>,
+    heights: &Heights<'_>,
+    work: impl FnOnce(&Topography) -> Result<T> + Send,
+) -> PyResult<T> {
+    let topography = topography(py, heights)?;
+    work::run(py, 0, None, |_| work(&topography))
+}
+
+/// Symbol, value, unit, family, meaning, and the value as people write it.
+type Row = (&'static str, f64, &'static str, &'static str, &'static str, String);
+
+fn table(rows: Vec<Parameter>) -> Vec<Row> {
+    let row = |Parameter { symbol, value, unit, family, meaning }| {
+        (symbol, value, unit.symbol(), family, meaning, unit.format(value))
+    };
+    rows.into_iter().map(row).collect()
+}
+
+/// All parameters of ISO 25178.
+#[pyfunction]
+pub(crate) fn parameters(py: Python<'_>, heights: Heights<'_>) -> PyResult<Vec<Row>> {
+    of(py, &heights, |topography| Ok(table(topography.parameters().rows())))
+}
+
+/// The feature parameters of ISO 25178, pruned at this share of Sz.
+#[pyfunction]
+pub(crate) fn feature_parameters(py: Python<'_>, heights: Heights<'_>, pruning: f64) -> PyResult<Vec<Row>> {
+    of(py, &heights, |topography| Ok(table(topography.feature_parameters(pruning)?.rows())))
+}
+
+/// Parameters of ISO 21920 of the roughness of all profiles along an axis, each the mean over them.
+#[pyfunction]
+pub(crate) fn profile_parameters(
+    py: Python<'_>,
+    heights: Heights<'_>,
+    axis: &str,
+    cutoff: f64,
+) -> PyResult<Vec<Row>> {
+    let axis = word::<Axis>(py, "axis", axis)?;
+    of(py, &heights, |topography| Ok(table(topography.profile_parameters(axis, cutoff)?.rows())))
+}
+
+/// The heights of a profile and their pitch.
+#[pyfunction]
+pub(crate) fn profile<'py>(
+    py: Python<'py>,
+    heights: Heights<'py>,
+    axis: &str,
+    index: usize,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, f64)> {
+    let axis = word::<Axis>(py, "axis", axis)?;
+    let profile = ok(topography(py, &heights)?.profile(axis, index), py)?;
+    Ok((profile.heights().to_pyarray(py), profile.pitch()))
+}
+
+/// A profile: its heights, their pitch, and the filters that it then passes, each with its length.
+type Line<'py> = (PyReadonlyArray1<'py, f64>, f64, Vec<(String, f64)>);
+
+fn line(py: Python<'_>, (heights, pitch, filters): Line<'_>) -> PyResult<Profile> {
+    let heights = heights.as_array().to_vec();
+    work::run(py, 0, None, move |_| {
+        filters.iter().try_fold(Profile::new(pitch, heights)?, |profile, (filter, length)| {
+            match filter.as_str() {
+                "roughness" => profile.roughness(*length),
+                "waviness" => profile.waviness(*length),
+                _ => profile.primary(*length),
+            }
+        })
+    })
+}
+
+/// The heights of a profile behind its filters.
+#[pyfunction]
+pub(crate) fn line_heights<'py>(py: Python<'py>, given: Line<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    Ok(line(py, given)?.heights().to_pyarray(py))
+}
+
+/// The parameters of ISO 21920 of a profile behind its filters.
+#[pyfunction]
+pub(crate) fn line_parameters(py: Python<'_>, given: Line<'_>) -> PyResult<Vec<Row>> {
+    Ok(table(line(py, given)?.parameters().rows()))
+}
+
+/// The lowest value, the width of a class and the densities.
+type Histogram<'py> = (f64, f64, Bound<'py, PyArray1<f64>>);
+
+/// The distribution of the heights, or of a slope, over so many classes.
+#[pyfunction]
+#[pyo3(signature = (heights, slope=None, classes=None))]
+pub(crate) fn distribution<'py>(
+    py: Python<'py>,
+    heights: Heights<'py>,
+    slope: Option<&str>,
+    classes: Option<usize>,
+) -> PyResult<Histogram<'py>> {
+    let slope = slope.map(|name| word::<Slope>(py, "slope", name)).transpose()?;
+    let classes = classes.map_or(Classes::FreedmanDiaconis, Classes::Number);
+    let Distribution { lowest, width, density } = of(py, &heights, |topography| match slope {
+        Some(slope) => topography.slope_distribution(slope, classes),
+        None => topography.height_distribution(classes),
+    })?;
+    Ok((lowest, width, density.into_pyarray(py)))
+}
+
+/// A material ratio curve.
+#[pyclass(name = "BearingCurve", frozen)]
+pub(crate) struct CoreBearingCurve(BearingCurve);
+
+#[pymethods]
+impl CoreBearingCurve {
+    #[new]
+    fn new(py: Python<'_>, samples: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
+        let samples = samples.as_array().to_vec();
+        work::run(py, 0, None, |_| BearingCurve::new(&samples).map(Self))
+    }
+
+    fn heights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.0.heights().to_pyarray(py)
+    }
+
+    /// `"height"`, `"ratio"`, `"material_volume"` or `"void_volume"` at each of the places.
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        places: PyReadonlyArray1<'py, f64>,
+    ) -> Bound<'py, PyArray1<f64>> {
+        let curve = &self.0;
+        let value = |place: &f64| match what {
+            "height" => curve.height(*place),
+            "ratio" => curve.ratio(*place),
+            "material_volume" => curve.material_volume(*place),
+            _ => curve.void_volume(*place),
+        };
+        places.as_array().iter().map(value).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    /// The core by the names of its parts; none of too few samples.
+    fn core(&self) -> Option<Vec<(&'static str, f64)>> {
+        self.0.core().map(|core| {
+            vec![
+                ("upper", core.upper),
+                ("lower", core.lower),
+                ("k", core.k),
+                ("pk", core.pk),
+                ("vk", core.vk),
+                ("pkx", core.pkx),
+                ("vkx", core.vkx),
+                ("mrk1", core.mrk1),
+                ("mrk2", core.mrk2),
+                ("ak1", core.ak1),
+                ("ak2", core.ak2),
+            ]
+        })
+    }
+}
+
+/// Density of summits, radius of their tips, standard deviation and mean of their heights.
+type Asperities = [f64; 4];
+
+fn asperities(found: &GreenwoodWilliamson) -> Asperities {
+    [found.density, found.radius, found.height_deviation, found.mean_height]
+}
+
+/// m₀, m₂, m₄, the means over x and y of the last two, the bandwidth, and the asperities.
+type Moments = (f64, [f64; 2], [f64; 2], f64, f64, f64, Asperities);
+
+fn moments(found: &SpectralMoments) -> Moments {
+    let asperities = asperities(&found.greenwood_williamson());
+    (found.m0, found.m2, found.m4, found.mean_m2(), found.mean_m4(), found.bandwidth(), asperities)
+}
+
+/// The moments by differences between samples.
+#[pyfunction]
+pub(crate) fn moments_by_differences(py: Python<'_>, heights: Heights<'_>) -> PyResult<Moments> {
+    of(py, &heights, |topography| Ok(moments(&SpectralMoments::by_differences(topography))))
+}
+
+/// Hurst exponent and its error, range, points, decades, dimension, and why to doubt it.
+type Law = (f64, f64, [f64; 2], usize, f64, f64, Option<String>);
+
+fn law(found: &SelfAffinity) -> Law {
+    let SelfAffinity { hurst, hurst_error, range, points } = *found;
+    (hurst, hurst_error, range, points, found.decades(), found.fractal_dimension(), found.doubt())
+}
+
+/// The law of the height differences whose lags lie in a range.
+#[pyfunction]
+pub(crate) fn self_affinity_of_differences(
+    py: Python<'_>,
+    heights: Heights<'_>,
+    axis: &str,
+    range: [f64; 2],
+) -> PyResult<Law> {
+    let axis = word::<Axis>(py, "axis", axis)?;
+    of(py, &heights, |topography| {
+        SelfAffinity::of_height_differences(&topography.height_differences(axis), range)
+            .map(|found| law(&found))
+    })
+}
+
+/// Lags along an axis and the mean square differences of the heights there.
+#[pyfunction]
+pub(crate) fn height_differences(
+    py: Python<'_>,
+    heights: Heights<'_>,
+    axis: &str,
+) -> PyResult<Vec<(f64, f64)>> {
+    let axis = word::<Axis>(py, "axis", axis)?;
+    of(py, &heights, |topography| Ok(topography.height_differences(axis)))
+}
+
+/// A power spectral density.
+#[pyclass(name = "Spectrum", frozen)]
+pub(crate) struct CoreSpectrum(Spectrum);
+
+/// Wave number, density, number of waves.
+type Point = (f64, f64, usize);
+
+fn points(points: &[SpectralPoint]) -> Vec<Point> {
+    points.iter().map(|point| (point.wave_number, point.density, point.waves)).collect()
+}
+
+fn rings(per_decade: Option<u32>) -> Bins {
+    per_decade.map_or(Bins::Linear, |per_decade| Bins::Logarithmic { per_decade })
+}
+
+#[pymethods]
+impl CoreSpectrum {
+    #[new]
+    fn new(py: Python<'_>, heights: Heights<'_>, window: &str) -> PyResult<Self> {
+        let window = word::<Window>(py, "window", window)?;
+        of(py, &heights, |topography| Ok(Self(Spectrum::of(topography, window))))
+    }
+
+    fn density<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.0.density().to_pyarray(py)
+    }
+
+    /// The wave numbers along x, of both signs, and along y.
+    fn wave_numbers<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 2] {
+        let [nx, ny] = [self.0.density().nrows(), self.0.density().ncols()];
+        let x: Vec<_> = (0..nx).map(|k| self.0.wave_vector([k, 0])[0]).collect();
+        let y: Vec<_> = (0..ny).map(|l| self.0.wave_vector([0, l])[1]).collect();
+        [x.into_pyarray(py), y.into_pyarray(py)]
+    }
+
+    fn nyquist(&self) -> f64 {
+        self.0.nyquist()
+    }
+
+    fn variance(&self) -> f64 {
+        self.0.variance()
+    }
+
+    #[pyo3(signature = (per_decade=None))]
+    fn radial(&self, py: Python<'_>, per_decade: Option<u32>) -> PyResult<Vec<Point>> {
+        work::run(py, 0, None, |_| Ok(points(&self.0.radial(rings(per_decade)))))
+    }
+
+    fn angular<'py>(&self, py: Python<'py>, directions: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(work::run(py, 0, None, |_| Ok(self.0.angular(directions)))?.into_pyarray(py))
+    }
+
+    fn along(&self, py: Python<'_>, axis: &str) -> PyResult<Vec<Point>> {
+        let axis = word::<Axis>(py, "axis", axis)?;
+        work::run(py, 0, None, |_| Ok(points(&self.0.along(axis))))
+    }
+
+    fn moments(&self, py: Python<'_>) -> PyResult<Moments> {
+        work::run(py, 0, None, |_| Ok(moments(&self.0.moments())))
+    }
+
+    /// The law of the points whose wave numbers lie in a range, or of the longest that follow one.
+    #[pyo3(signature = (range, per_decade))]
+    fn self_affinity(&self, py: Python<'_>, range: Option<[f64; 2]>, per_decade: u32) -> PyResult<Law> {
+        work::run(py, 0, None, |_| {
+            let radial = self.0.radial(rings(Some(per_decade)));
+            let found = match range {
+                Some(range) => SelfAffinity::of_spectrum(&radial, range),
+                None => SelfAffinity::of_longest_range(&radial),
+            };
+            found.map(|found| law(&found))
+        })
+    }
+}
+
+/// An autocorrelation.
+#[pyclass(name = "Correlation", frozen)]
+pub(crate) struct CoreCorrelation(Correlation);
+
+#[pymethods]
+impl CoreCorrelation {
+    #[new]
+    fn new(py: Python<'_>, heights: Heights<'_>, periodic: bool) -> PyResult<Self> {
+        of(py, &heights, |topography| {
+            Ok(Self(match periodic {
+                true => Correlation::periodic(topography),
+                false => Correlation::of(topography),
+            }))
+        })
+    }
+
+    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.0.values().to_pyarray(py)
+    }
+
+    fn variance(&self) -> f64 {
+        self.0.variance()
+    }
+
+    fn along(&self, py: Python<'_>, axis: &str) -> PyResult<Vec<(f64, f64)>> {
+        Ok(self.0.along(word::<Axis>(py, "axis", axis)?))
+    }
+
+    fn radial(&self, py: Python<'_>) -> PyResult<Vec<(f64, f64)>> {
+        work::run(py, 0, None, |_| Ok(self.0.radial()))
+    }
+
+    fn decay_length(&self, angle: f64, level: f64) -> f64 {
+        self.0.decay_length(angle, level)
+    }
+
+    fn decay_lengths(&self, py: Python<'_>, level: f64) -> PyResult<[f64; 2]> {
+        work::run(py, 0, None, |_| Ok(self.0.decay_lengths(level)))
+    }
+}
+
+/// Summits, each with its sample, height and curvature; the area that was judged; the asperities.
+type Found = (Vec<(usize, usize, f64, f64)>, f64, Asperities);
+
+/// The summits.
+#[pyfunction]
+pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<Found> {
+    of(py, &heights, |topography| {
+        let found = Summits::of(topography);
+        let all = found.summits.iter();
+        let all = all.map(|summit| (summit.sample[0], summit.sample[1], summit.height, summit.curvature));
+        Ok((all.collect(), found.area, asperities(&found.greenwood_williamson())))
+    })
+}
+
+/// Sample, height, saddle, local height, prominence, curvature, area, volume, and whether it is closed.
+type Feature = (usize, usize, f64, f64, f64, f64, f64, f64, f64, bool);
+
+/// The hills, or the dales, with the number of its hill for each sample.
+#[pyfunction]
+pub(crate) fn segments<'py>(
+    py: Python<'py>,
+    heights: Heights<'py>,
+    dales: bool,
+    pruning: f64,
+) -> PyResult<(Bound<'py, PyArray2<u32>>, Vec<Feature>)> {
+    let Segmentation { labels, motifs } = of(py, &heights, |topography| match dales {
+        true => topography.dales(pruning),
+        false => topography.hills(pruning),
+    })?;
+    let feature = |motif: Motif| {
+        let Motif { at: [ix, iy], height, saddle, prominence, curvature, area, volume, closed } = motif;
+        (ix, iy, height, saddle, motif.local_height(), prominence, curvature, area, volume, closed)
+    };
+    Ok((labels.into_pyarray(py), motifs.into_iter().map(feature).collect()))
+}

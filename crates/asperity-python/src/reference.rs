@@ -1,0 +1,243 @@
+//! Closed forms: one table of what can be asked of which.
+
+use asperity::material::{Coating, Compliances, Material};
+use asperity::reference::{
+    Carter, CattaneoMindlin, Cone, FlatPunch, HertzEllipse, HertzLine, HertzSphere, MindlinDeresiewicz,
+    SlidingSphere, StickingPunch, StickingSphere, Westergaard, cattaneo, cell, rough, spence, westergaard,
+};
+use asperity::stress::Stress;
+use asperity::{Error, Result};
+use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use crate::arrays::ok;
+use crate::work;
+
+/// Appends the answer at a point, of which there are these coordinates.
+type Answer = Box<dyn Fn(&[f64], &mut Vec<f64>) + Send + Sync>;
+
+/// An `if` for each question: `form.method` by the data of the form, at the coordinates of a point, and functions of
+/// coordinates alone.
+macro_rules! answers {
+    (
+        $question:ident, $data:ident;
+        $($name:literal $datum:pat => $form:expr, { $($method:ident [$($point:ident),*])* })*
+        ;
+        $($function:literal $argument:pat => $answer:expr,)*
+    ) => {
+        $($(
+            if $question == concat!($name, ".", stringify!($method)) {
+                let $datum = $data else { return None };
+                let form = $form;
+                return Some(Box::new(move |point, out| {
+                    let &[$($point),*] = point else { unreachable!("the caller knows the coordinates") };
+                    form.$method($($point),*).append(out);
+                }));
+            }
+        )*)*
+        $(
+            if $question == $function {
+                return Some(Box::new(|point, out| {
+                    let $argument = point else { unreachable!("the caller knows the arguments") };
+                    $answer.append(out);
+                }));
+            }
+        )*
+    };
+}
+
+/// What answers the `question` put to a closed form of these `data`.
+#[rustfmt::skip]
+fn answer(question: &str, data: &[f64]) -> Option<Answer> {
+    answers! {
+        question, data;
+        "HertzSphere" &[radius, modulus, load] => HertzSphere { radius, modulus, load }, {
+            contact_radius[] approach[] peak_pressure[] elastic_energy[] pressure[r] displacement[r] axis_stress[depth, poisson]
+        }
+        "HertzLine" &[radius, modulus, load_per_length] => HertzLine { radius, modulus, load_per_length }, {
+            half_width[] peak_pressure[] pressure[x] approach[datum] gap[x]
+        }
+        "HertzEllipse" &[rx, ry, modulus, load] => HertzEllipse::new([rx, ry], modulus, load), {
+            contact_area[] elastic_energy[] pressure[x, y]
+        }
+        "Cone" &[slope, modulus, load] => Cone { slope, modulus, load }, {
+            contact_radius[] approach[] mean_pressure[] elastic_energy[] pressure[r] displacement[r]
+        }
+        "FlatPunch" &[radius, modulus, load] => FlatPunch { radius, modulus, load }, {
+            approach[] elastic_energy[] pressure[r] displacement[r]
+        }
+        "Westergaard" &[amplitude, wavelength, modulus, mean_pressure] =>
+            Westergaard { amplitude, wavelength, modulus, mean_pressure }, {
+            full_contact_pressure[] half_width[] contact_fraction[] mean_gap[] elastic_energy[] pressure[x] gap[x]
+        }
+        "CattaneoMindlin" &[radius, modulus, load, gt, friction, force] =>
+            pushed([radius, modulus, load], gt, friction, force), {
+            stick_radius[] displacement[] cycle_loss[] shear[r]
+        }
+        "MindlinDeresiewicz" &[radius, modulus, load, gt, friction, turn, tangential_load] =>
+            MindlinDeresiewicz { turn: pushed([radius, modulus, load], gt, friction, turn), tangential_load }, {
+            stick_radius[] displacement[] shear[r]
+        }
+        "Carter" &[radius, modulus, load_per_length, friction, tangential_load_per_length] => Carter {
+            normal: HertzLine { radius, modulus, load_per_length }, friction, tangential_load_per_length
+        }, {
+            stick_half_width[] stick_centre[] creepage[] shear[x]
+        }
+        "SlidingSphere" &[radius, modulus, load, friction, poisson] => Sliding(SlidingSphere {
+            normal: HertzSphere { radius, modulus, load }, friction, poisson
+        }), {
+            stress[x, y, depth]
+        }
+        "StickingPunch" &[radius, modulus, dundurs, load] => StickingPunch { radius, modulus, dundurs, load }, {
+            approach[]
+        }
+        "StickingSphere" &[radius, modulus, dundurs, load] => StickingSphere { radius, modulus, dundurs, load }, {
+            contact_radius[] approach[]
+        }
+        ;
+        "HertzSphere.from_approach" &[radius, modulus, approach] => HertzSphere::from_approach(radius, modulus, approach).load,
+        "HertzEllipse.approach" &[rx, ry, modulus, load] => HertzEllipse::new([rx, ry], modulus, load).approach,
+        "HertzEllipse.peak_pressure" &[rx, ry, modulus, load] => HertzEllipse::new([rx, ry], modulus, load).peak_pressure,
+        "HertzEllipse.semi_axes" &[rx, ry, modulus, load] => HertzEllipse::new([rx, ry], modulus, load).semi_axes,
+        "Cone.from_approach" &[slope, modulus, approach] => Cone::from_approach(slope, modulus, approach).load,
+        "FlatPunch.from_approach" &[radius, modulus, approach] => FlatPunch::from_approach(radius, modulus, approach).load,
+        "Carter.from_creepage" &[radius, modulus, load_per_length, friction, creepage] =>
+            Carter::from_creepage(HertzLine { radius, modulus, load_per_length }, friction, creepage)
+                .tangential_load_per_length,
+        "StickingPunch.from_approach" &[radius, modulus, dundurs, approach] =>
+            StickingPunch::from_approach(radius, modulus, dundurs, approach).load,
+        "StickingSphere.from_approach" &[radius, modulus, dundurs, approach] =>
+            StickingSphere::from_approach(radius, modulus, dundurs, approach).load,
+        "stick_ratio" &[friction, dundurs] => spence::stick_ratio(friction, dundurs),
+        "stick_ratio_plane" &[friction, dundurs] => spence::stick_ratio_plane(friction, dundurs),
+        "bgt_area_fraction" &[pressure, modulus, slope] => rough::bgt_area_fraction(pressure, modulus, slope),
+        "persson_area_fraction" &[pressure, modulus, slope] => rough::persson_area_fraction(pressure, modulus, slope),
+        "fully_plastic_area" &[load, hardness] => rough::fully_plastic_area(load, hardness),
+        "corner_displacement" &[pressure, dx, dy, modulus] => cell::corner_displacement(pressure, [dx, dy], modulus),
+        "centre_displacement" &[pressure, dx, dy, modulus] => cell::centre_displacement(pressure, [dx, dy], modulus),
+        "mean_displacement" &[pressure, dx, dy, modulus] => cell::mean_displacement(pressure, [dx, dy], modulus),
+        "full_contact_pressure_2d" &[amplitude, wavelength, modulus] =>
+            westergaard::full_contact_pressure_2d(amplitude, wavelength, modulus),
+        "light_contact_fraction_2d" &[pressure, full] => westergaard::light_contact_fraction_2d(pressure, full),
+    }
+    None
+}
+
+fn pushed(
+    [radius, modulus, load]: [f64; 3],
+    tangential_modulus: f64,
+    friction: f64,
+    tangential_load: f64,
+) -> CattaneoMindlin {
+    CattaneoMindlin {
+        normal: HertzSphere { radius, modulus, load },
+        tangential_modulus,
+        friction,
+        tangential_load,
+    }
+}
+
+/// A point by three coordinates.
+struct Sliding(SlidingSphere);
+
+impl Sliding {
+    fn stress(&self, x: f64, y: f64, depth: f64) -> Stress {
+        self.0.stress([x, y], depth)
+    }
+}
+
+/// What an answer consists of.
+trait Numbers {
+    fn append(self, out: &mut Vec<f64>);
+}
+
+impl Numbers for f64 {
+    fn append(self, out: &mut Vec<f64>) {
+        out.push(self);
+    }
+}
+
+impl<const N: usize> Numbers for [f64; N] {
+    fn append(self, out: &mut Vec<f64>) {
+        out.extend(self);
+    }
+}
+
+impl Numbers for Stress {
+    fn append(self, out: &mut Vec<f64>) {
+        out.extend(self.components());
+    }
+}
+
+/// The answers of a closed form of these `data` at `points`, a row of coordinates each: a row of numbers each.
+#[pyfunction]
+pub(crate) fn closed_form<'py>(
+    py: Python<'py>,
+    question: &str,
+    data: Vec<f64>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    /// Points between two looks at whether to stop; so many take no longer than a thread takes to begin.
+    const STRIDE: usize = 1024;
+    let Some(answer) = answer(question, &data) else {
+        return Err(PyTypeError::new_err(format!("no closed form answers {question}")));
+    };
+    let points = points.as_array().as_standard_layout().into_owned();
+    let count = points.nrows();
+    let rows = |from: usize, out: &mut Vec<f64>| {
+        for point in points.outer_iter().skip(from).take(STRIDE) {
+            answer(point.as_slice().expect("rows stand one after the other"), out);
+        }
+    };
+    let values = if count <= STRIDE {
+        let mut values = Vec::new();
+        rows(0, &mut values);
+        values
+    } else {
+        work::run(py, 0, None, |watch| {
+            let mut values = Vec::new();
+            for from in (0..count).step_by(STRIDE) {
+                if watch.stop() {
+                    return Err(Error::Interrupted);
+                }
+                rows(from, &mut values);
+            }
+            Ok(values)
+        })?
+    };
+    let width = values.len() / count.max(1);
+    let values = asperity::ndarray::Array2::from_shape_vec([count, width], values);
+    Ok(values.expect("as many numbers at each point").into_pyarray(py))
+}
+
+/// Young's modulus, Poisson's ratio, and of a coating thickness, Young's modulus and Poisson's ratio.
+type Constants = (f64, f64, Option<[f64; 3]>);
+
+fn material((young, poisson, coating): Constants) -> Result<Material> {
+    let body = Material::elastic(young, poisson)?;
+    Ok(match coating {
+        Some([thickness, young, poisson]) => body.coated(Coating::new(thickness, young, poisson)?),
+        None => body,
+    })
+}
+
+/// The compliances of a pair, 1/E*, 1/N*, 1/G*; E* and Dundurs' β of them; and the composite tangential modulus.
+#[pyfunction]
+pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) -> PyResult<[f64; 6]> {
+    let pair = || {
+        let (lower, upper) = (material(lower)?, material(upper)?);
+        let pair = Compliances::new(&lower, &upper)?;
+        let Compliances { normal, lateral, coupling } = pair;
+        let tangential = cattaneo::tangential_modulus(&lower, &upper);
+        Ok([normal, lateral, coupling, pair.modulus(), pair.dundurs(), tangential])
+    };
+    ok(pair(), py)
+}
+
+/// Dundurs' β, friction, stick ratio and stiffening of the coupled punches.
+pub(crate) fn coupled_punches() -> Vec<[f64; 4]> {
+    let row =
+        |punch: &spence::CoupledPunch| [punch.dundurs, punch.friction, punch.stick_ratio, punch.stiffening];
+    spence::COUPLED.iter().map(row).collect()
+}

@@ -1,0 +1,825 @@
+"""What a surface is like: what the methods of :class:`asperity.Surface` give that describe it.
+
+Nothing is levelled or filtered here: level and filter first. Numbers are SI, heights are taken from their mean, undefined samples
+are left out.
+"""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._points import Point, spread
+from ._same import Comparable, same
+from ._units import Quantity, quantity
+from .errors import _make
+
+Axis = Literal["x", "y"]
+"""A direction in the plane of the surface."""
+
+Window = Literal["none", "hann", "radial-hann", "welch"]
+"""Weights that fall to zero at the rim: none for periodic surfaces; Hann's, along x and y or alike in all directions; Welch's."""
+
+WOLF_PRUNING: float = _core.WOLF_PRUNING
+"""The Wolf pruning of ISO 25178-3, as a share of Sz."""
+
+_Given = tuple[NDArray[np.float64], tuple[float, float]]
+"""Heights and their pitch."""
+
+
+class Parameter(NamedTuple):
+    """A roughness parameter.
+
+    Attributes
+    ----------
+    symbol : str
+        As ISO writes it.
+    value : float
+        SI, a share as a part of one; NaN where it has no meaning.
+    unit : str
+        Unit of the value, SI; 1 of a number.
+    family : str
+        ``"height"``, ``"spatial"``, ``"hybrid"``, ``"functional"``, ``"feature"`` or ``"profile"``.
+    meaning : str
+        What it is, in a few words.
+    text : str
+        The value as people write it.
+    """
+
+    symbol: str
+    value: float
+    unit: str
+    family: str
+    meaning: str
+    text: str
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        return f"{self.symbol} = {self.text}"
+
+
+class Parameters(Mapping[str, Parameter]):
+    """Roughness parameters by their symbols.
+
+    ``p.Sq`` is the value, ``p["Sq"]`` all there is to know of it, a :class:`Parameter`; printed, it is a table.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity as asp
+    >>> wave = 1e-7 * np.cos(2 * np.pi * np.arange(64) / 32)
+    >>> p = asp.Surface(np.add.outer(wave, np.zeros(64)), pitch="1 um").parameters()
+    >>> p["Sq"].unit, f"{p.Sq:.3e}"
+    ('m', '7.071e-08')
+    """
+
+    def __init__(self, rows: list[tuple[str, float, str, str, str, str]]) -> None:
+        self._rows = {row[0]: Parameter(*row) for row in rows}
+
+    def __getitem__(self, symbol: str) -> Parameter:
+        if symbol not in self._rows:
+            raise KeyError(f"no parameter {symbol!r}, there are {', '.join(self._rows)}")
+        return self._rows[symbol]
+
+    def __getattr__(self, symbol: str) -> float:
+        rows: dict[str, Parameter] = self.__dict__.get("_rows", {})
+        if symbol not in rows:
+            raise AttributeError(f"no parameter {symbol!r}, there are {', '.join(rows)}")
+        return rows[symbol].value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._rows]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Parameters) and same(self._rows, other._rows)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"<Parameters: {', '.join(map(str, self._rows.values()))}>"
+
+    def __str__(self) -> str:
+        lines = []
+        for family in self.families:
+            lines.append(f"{family} parameters")
+            lines += [f"  {row.symbol:<7}{row.text:>16}  {row.meaning}" for row in self.family(family).values()]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for family in self.families:
+            rows.append(f'<tr><th colspan="3">{html.escape(family)}</th></tr>')
+            rows += [
+                f"<tr><td>{row.symbol}</td><td>{html.escape(row.text)}</td><td>{html.escape(row.meaning)}</td></tr>"
+                for row in self.family(family).values()
+            ]
+        return f"<table>{''.join(rows)}</table>"
+
+    @property
+    def families(self) -> list[str]:
+        """Names of the families, in their order."""
+        return list(dict.fromkeys(row.family for row in self._rows.values()))
+
+    def family(self, name: str) -> Parameters:
+        """The parameters of one family."""
+        if name not in self.families:
+            raise KeyError(f"no family {name!r}, there are {', '.join(self.families)}")
+        return Parameters([row for row in self._rows.values() if row.family == name])
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The values alone, by symbol."""
+        return {symbol: row.value for symbol, row in self._rows.items()}
+
+
+class Core(NamedTuple):
+    """The core of a material ratio curve, and what protrudes from it: Sk, Spk and their kin by the letters after S or R.
+
+    Attributes
+    ----------
+    upper, lower : float
+        Heights of the equivalent line at the ratios 0 and 1, from the mean, m.
+    k : float
+        Height of the core, m.
+    pk, vk : float
+        Reduced height of what protrudes above, reduced depth of what lies below, m.
+    pkx, vkx : float
+        The same of the highest and of the lowest sample, not reduced, m.
+    mrk1, mrk2 : float
+        Material ratios at the upper and at the lower end of the core.
+    ak1, ak2 : float
+        Material above and void below the core, m³/m² (of a profile m²/m).
+    """
+
+    upper: float
+    lower: float
+    k: float
+    pk: float
+    vk: float
+    pkx: float
+    vkx: float
+    mrk1: float
+    mrk2: float
+    ak1: float
+    ak2: float
+
+
+class BearingCurve(Comparable):
+    """The height above which a share of the samples lies, from their mean: the Abbott–Firestone curve.
+
+    The samples in descending order stand in the middle of their shares of the ratio; between them the curve is linear. A ratio
+    outside 0 … 1 counts as the nearer of the two. ISO 25178-2:2021, 4.5.
+
+    Parameters
+    ----------
+    samples : array_like
+        Heights, m, of any shape; NaN where undefined.
+
+    Raises
+    ------
+    asperity.errors.NothingDefined
+        If all are undefined.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> curve = asp.BearingCurve([3e-6, 1e-6, 2e-6, 0.0])
+    >>> curve.height(0.125)
+    1.5e-06
+    """
+
+    def __init__(self, samples: ArrayLike) -> None:
+        self._samples = np.asarray(samples, dtype=np.float64).ravel()
+        self._core  # noqa: B018
+
+    @cached_property
+    def _core(self) -> Any:
+        return _core.BearingCurve(self._samples)
+
+    def _compared(self) -> dict[str, Any]:
+        return {"heights": self.heights}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_samples": self._samples}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        return f"<BearingCurve of {self.heights.size} samples>"
+
+    @cached_property
+    def heights(self) -> NDArray[np.float64]:
+        """The samples' heights from their mean, descending, m."""
+        heights: NDArray[np.float64] = self._core.heights()
+        return heights
+
+    def height(self, ratio: Point) -> Point:
+        """Height at a material ratio from 0 (the highest sample) to 1 (the lowest), m: Smc."""
+        return self._at("height", ratio)  # type: ignore[no-any-return]
+
+    def ratio(self, height: Point) -> Point:
+        """Material ratio at a height from the mean, the largest at which the curve is as high: Smr."""
+        return self._at("ratio", height)  # type: ignore[no-any-return]
+
+    def material_volume(self, ratio: Point) -> Point:
+        """Material above the height at a material ratio, m³/m²: Vm."""
+        return self._at("material_volume", ratio)  # type: ignore[no-any-return]
+
+    def void_volume(self, ratio: Point) -> Point:
+        """Void below the height at a material ratio, m³/m²: Vv."""
+        return self._at("void_volume", ratio)  # type: ignore[no-any-return]
+
+    def core(self) -> Core | None:
+        """The parameters of stratified surfaces, Sk and its kin, by ISO 13565-2; none of fewer than about five samples."""
+        found = self._core.core()
+        return None if found is None else Core(**dict(found))
+
+    def _at(self, what: str, places: Any) -> Any:
+        return spread((places,), lambda points: self._core.at(what, points[:, 0])[:, np.newaxis])
+
+
+class Distribution(Comparable):
+    """A density over classes of one width, by counting; its integral is 1.
+
+    Attributes
+    ----------
+    edges : ndarray
+        Ends of the classes, one more than there are: heights from their mean, m, or slopes.
+    density : ndarray
+        Share of the values in each class over its width: per metre of heights, a number of slopes.
+    """
+
+    def __init__(self, lowest: float, width: float, density: NDArray[np.float64]) -> None:
+        self.edges = lowest + width * np.arange(len(density) + 1, dtype=np.float64)
+        self.density = density
+
+    def __repr__(self) -> str:
+        return f"<Distribution over {self.density.size} classes from {self.edges[0]:.4g} to {self.edges[-1]:.4g}>"
+
+    @property
+    def centres(self) -> NDArray[np.float64]:
+        """Middles of the classes."""
+        return 0.5 * (self.edges[1:] + self.edges[:-1])
+
+    @property
+    def width(self) -> float:
+        """Width of a class."""
+        return float(self.edges[1] - self.edges[0])
+
+
+class Profile(Comparable):
+    """Heights along a line at one spacing, filtered and described after ISO 21920-2:2021.
+
+    Parameters
+    ----------
+    heights : array_like
+        Heights, m; NaN where undefined.
+    pitch : float or str
+        Distance between two samples, above 0, m.
+
+    Raises
+    ------
+    asperity.errors.BadInput
+        Without heights, for an infinite one, or a pitch without meaning.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity as asp
+    >>> profile = asp.Profile(1e-6 * np.sin(2 * np.pi * np.arange(2000) / 40), pitch="1 um")
+    >>> f"{profile.roughness('0.25 mm').parameters().Rq:.2e}"
+    '7.05e-07'
+    """
+
+    def __init__(self, heights: ArrayLike, pitch: Quantity) -> None:
+        given = np.asarray(heights, dtype=np.float64)
+        if given.ndim != 1:
+            message = f"'heights' has {given.ndim} dimensions, expected heights along a line"
+            raise _make("CaseError", message, {"key": "heights"}, None)
+        self._given = given
+        self.pitch = quantity("pitch", pitch, "length")
+        self._filters: list[tuple[str, float]] = []
+        self.heights  # noqa: B018
+
+    def _filtered(self, filter: str, length: Quantity) -> Profile:
+        found = Profile.__new__(Profile)
+        found._given = self._given
+        found.pitch = self.pitch
+        found._filters = [*self._filters, (filter, quantity("cutoff", length, "length"))]
+        found.heights  # noqa: B018
+        return found
+
+    def _line(self) -> Any:
+        return self._given, self.pitch, self._filters
+
+    def _compared(self) -> dict[str, Any]:
+        return {"heights": self.heights, "pitch": self.pitch, "section": self.section}
+
+    def __repr__(self) -> str:
+        filters = "".join(f", {name} at {_core.format(length, 'length')}" for name, length in self._filters)
+        return f"<Profile: {self.heights.size} samples, {_core.format(self.length, 'length')} long{filters}>"
+
+    @cached_property
+    def heights(self) -> NDArray[np.float64]:
+        """Heights, m; NaN where undefined."""
+        heights: NDArray[np.float64] = _core.line_heights(self._line())
+        return heights
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """Positions of the samples along the line, m, the centres of their cells."""
+        return self.pitch * (np.arange(self.heights.size, dtype=np.float64) + 0.5)
+
+    @property
+    def length(self) -> float:
+        """Evaluation length, m: the pitch for each sample."""
+        return self.pitch * self.heights.size
+
+    @property
+    def section(self) -> float | None:
+        """Section length of a roughness profile, its cut-off, m; none where the whole profile is one section."""
+        return next((length for name, length in self._filters[-1:] if name == "roughness"), None)
+
+    def primary(self, nesting_index: Quantity) -> Profile:
+        """The primary profile: without waves below the nesting index λs, of at least two pitches, m. ISO 16610-21."""
+        return self._filtered("primary", nesting_index)
+
+    def waviness(self, cutoff: Quantity) -> Profile:
+        """The waviness: without waves below the cut-off λc, of at least two pitches, m."""
+        return self._filtered("waviness", cutoff)
+
+    def roughness(self, cutoff: Quantity) -> Profile:
+        """The roughness: what the waviness leaves, to be described in sections of the length λc, m."""
+        return self._filtered("roughness", cutoff)
+
+    def parameters(self) -> Parameters:
+        """The parameters of ISO 21920 of the profile as it is; those of the roughness are of :meth:`roughness`."""
+        return Parameters(_core.line_parameters(self._line()))
+
+    def bearing_curve(self) -> BearingCurve:
+        """The material ratio curve of the profile."""
+        return BearingCurve(self.heights)
+
+
+class GreenwoodWilliamson(NamedTuple):
+    """A rough surface as the model of Greenwood and Williamson takes it: asperities of one radius and Gaussian heights.
+
+    Greenwood & Williamson, Proc. R. Soc. A 295, 300 (1966).
+
+    Attributes
+    ----------
+    density : float
+        Asperities per area η, 1/m².
+    radius : float
+        Radius R of their tips, the inverse of their mean curvature, m.
+    height_deviation : float
+        Standard deviation σs of their heights, m.
+    mean_height : float
+        Mean height of the summits above the mean of the surface, m.
+    """
+
+    density: float
+    radius: float
+    height_deviation: float
+    mean_height: float
+
+
+class SpectralMoments(Comparable):
+    """Spectral moments: variances of the heights and, along x and y, of slope and curvature.
+
+    m₂ and m₄ rest on the shortest waves. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93,
+    398 (1971).
+
+    Attributes
+    ----------
+    m0 : float
+        Variance of the heights, m².
+    m2, m4 : tuple of float
+        Variances along x and y of the slope, and of the curvature, 1/m².
+    mean_m2, mean_m4 : float
+        Those of an isotropic surface, the means over x and y.
+    bandwidth : float
+        Nayak's α = m₀m₄/m₂², of the means: 3/2 for an isotropic surface of a single wavelength.
+    """
+
+    def __init__(self, found: Any) -> None:
+        self.m0: float
+        self.m0, m2, m4, self.mean_m2, self.mean_m4, self.bandwidth, asperities = found
+        self.m2 = (float(m2[0]), float(m2[1]))
+        self.m4 = (float(m4[0]), float(m4[1]))
+        self._asperities = GreenwoodWilliamson(*asperities)
+
+    def __repr__(self) -> str:
+        return f"<SpectralMoments: m0 {self.m0:.4g} m², m2 {self.mean_m2:.4g}, m4 {self.mean_m4:.4g} 1/m²>"
+
+    def greenwood_williamson(self) -> GreenwoodWilliamson:
+        """The asperities of an isotropic Gaussian surface with these moments.
+
+        η = m₄/(6π√3 m₂),  R = 3√π/(8√m₄),  σs² = (1 − 0.8968/α) m₀,  z̄s = 4 √(m₀/πα). Nayak (1971) for η; Bush, Gibson &
+        Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109, 264 (1987) for the rest.
+        """
+        return self._asperities
+
+
+class SelfAffinity(NamedTuple):
+    """The self-affine law that fits best: C(q) ∝ q^(−2−2H), or mean square height differences ∝ τ^(2H).
+
+    Attributes
+    ----------
+    hurst, hurst_error : float
+        Hurst exponent H and its standard error.
+    range : tuple of float
+        First and last abscissa fitted: wave numbers, rad/m, or lags, m.
+    points : int
+        Number of points fitted.
+    decades : float
+        Decades over which it was fitted.
+    fractal_dimension : float
+        3 − H.
+    doubt : str or None
+        Why the exponent is a slope of the spectrum and not a law of the surface, if it is.
+    """
+
+    hurst: float
+    hurst_error: float
+    range: tuple[float, float]
+    points: int
+    decades: float
+    fractal_dimension: float
+    doubt: str | None
+
+
+def _law(found: Any) -> SelfAffinity:
+    hurst, error, ends, points, decades, dimension, doubt = found
+    return SelfAffinity(hurst, error, (ends[0], ends[1]), points, decades, dimension, doubt)
+
+
+_SPECTRAL = np.dtype([("wave_number", np.float64), ("density", np.float64), ("waves", np.int64)])
+_LAGS = np.dtype([("lag", np.float64), ("value", np.float64)])
+
+
+class Spectrum(Comparable):
+    """Power spectral density of a surface, C(q) = abs(z̃(q))²/A, m⁴.
+
+    Its integral over wave vectors of both signs over (2π)² is Sq² without a window. Undefined samples are spanned by a membrane.
+    Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
+
+    Made by :meth:`asperity.Surface.spectrum`.
+
+    Attributes
+    ----------
+    window : str
+        The window.
+    """
+
+    def __init__(self, given: _Given, window: str) -> None:
+        self._given = given
+        self.window = window
+        self._core  # noqa: B018
+
+    @cached_property
+    def _core(self) -> Any:
+        return _core.Spectrum(self._given, self.window)
+
+    def _compared(self) -> dict[str, Any]:
+        return {"density": self.density, "pitch": self._given[1], "window": self.window}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_given": self._given, "window": self.window}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        nx, ny = self._given[0].shape
+        return f"<Spectrum of {nx} × {ny} samples, window {self.window!r}>"
+
+    @cached_property
+    def density(self) -> NDArray[np.float64]:
+        """C(q), m⁴, ``[kx, ky]`` of shape ``(nx, ny // 2 + 1)``: those of a negative qy are left out, since C(−q) = C(q)."""
+        density: NDArray[np.float64] = self._core.density()
+        return density
+
+    @cached_property
+    def wave_numbers(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The wave numbers qx, of both signs, and qy of the rows and columns of `density`, rad/m."""
+        x, y = self._core.wave_numbers()
+        return x, y
+
+    @property
+    def nyquist(self) -> float:
+        """The highest wave number up to which waves of all directions are resolved, rad/m."""
+        return float(self._core.nyquist())
+
+    @property
+    def variance(self) -> float:
+        """Variance of the heights, the integral of C over all wave vectors over (2π)², m²."""
+        return float(self._core.variance())
+
+    def radial(self, per_decade: int | None = 10) -> NDArray[np.void]:
+        """Mean over all directions, C_iso(q), up to the Nyquist wave number.
+
+        Parameters
+        ----------
+        per_decade : int or None
+            So many rings for a factor of ten in wave number; without, rings of one step, 2π over the longer side.
+
+        Returns
+        -------
+        ndarray
+            Records of `wave_number`, rad/m, `density`, m⁴, and `waves`, the number of wave vectors in the ring.
+        """
+        rings = None if per_decade is None else _whole("per_decade", per_decade, 1)
+        return np.array(self._core.radial(rings), dtype=_SPECTRAL)
+
+    def angular(self, directions: int = 180) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Variance per radian by the direction of the wave vector.
+
+        Parameters
+        ----------
+        directions : int
+            Number of directions over half a turn.
+
+        Returns
+        -------
+        angles : ndarray
+            From the x axis towards the y axis, from 0 on, below π, rad. The lay is at right angles to them.
+        density : ndarray
+            m²; its sum times π/`directions` is the variance of the waves up to the Nyquist wave number.
+        """
+        count = _whole("directions", directions, 1)
+        return np.pi / count * np.arange(count, dtype=np.float64), self._core.angular(count)
+
+    def along(self, axis: Axis) -> NDArray[np.void]:
+        """The spectrum of the profiles along an axis, the mean over them.
+
+        Returns
+        -------
+        ndarray
+            Records of `wave_number`, rad/m, `density`, m³, and `waves`, from 0 to the Nyquist wave number of the axis. The
+            integral over both signs over 2π is Sq².
+        """
+        return np.array(self._core.along(axis), dtype=_SPECTRAL)
+
+    def moments(self) -> SpectralMoments:
+        """The spectral moments, as integrals over the spectrum; Hann's window adds (2π/L)² m₀/3 to m₂."""
+        return SpectralMoments(self._core.moments())
+
+    def self_affinity(
+        self, wave_numbers: tuple[float, float] | None = None, *, per_decade: int = 10
+    ) -> SelfAffinity:
+        """The self-affine law of the mean over all directions.
+
+        Parameters
+        ----------
+        wave_numbers : pair of float, optional
+            The range to fit, rad/m; without it the longest on which the spectrum follows a law.
+        per_decade : int
+            Rings of the mean for a factor of ten.
+
+        Raises
+        ------
+        asperity.errors.OutOfRange
+            If there are fewer than three points, or no range that follows a law.
+        """
+        fit = None if wave_numbers is None else _range("wave_numbers", wave_numbers)
+        return _law(self._core.self_affinity(fit, _whole("per_decade", per_decade, 1)))
+
+
+class Correlation(Comparable):
+    """Autocorrelation function R(τ) = ⟨z(x) z(x + τ)⟩ over all pairs of defined samples, m².
+
+    Made by :meth:`asperity.Surface.autocorrelation`. ISO 25178-2's is R(τ)/R(0).
+
+    Attributes
+    ----------
+    periodic : bool
+        Whether the surface was taken to repeat itself.
+    """
+
+    def __init__(self, given: _Given, periodic: bool) -> None:
+        self._given = given
+        self.periodic = periodic
+        self._core  # noqa: B018
+
+    @cached_property
+    def _core(self) -> Any:
+        return _core.Correlation(self._given, self.periodic)
+
+    def _compared(self) -> dict[str, Any]:
+        return {"values": self.values, "pitch": self._given[1]}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_given": self._given, "periodic": self.periodic}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        nx, ny = self._given[0].shape
+        return f"<Correlation of {nx} × {ny} samples{', periodic' if self.periodic else ''}>"
+
+    @cached_property
+    def values(self) -> NDArray[np.float64]:
+        """R at all lags, m², ``[lx, ly]``, the one in the centre that of lag 0; NaN of a lag without a pair."""
+        values: NDArray[np.float64] = self._core.values()
+        return values
+
+    @property
+    def lags(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The lags along x and y of the rows and columns of `values`, m: half the surface both ways."""
+        (nx, ny), (dx, dy) = self.values.shape, self._given[1]
+        x, y = np.arange(nx, dtype=np.float64), np.arange(ny, dtype=np.float64)
+        return dx * (x - nx // 2), dy * (y - ny // 2)
+
+    @property
+    def variance(self) -> float:
+        """R(0) = Sq², m²."""
+        return float(self._core.variance())
+
+    def along(self, axis: Axis) -> NDArray[np.void]:
+        """R along an axis, from lag 0 on: records of `lag`, m, and `value`, m²."""
+        return np.array(self._core.along(axis), dtype=_LAGS)
+
+    def radial(self) -> NDArray[np.void]:
+        """R averaged over all directions: records of `lag`, m, and `value`, m²."""
+        return np.array(self._core.radial(), dtype=_LAGS)
+
+    def decay_length(self, angle: Quantity, level: float = 0.2) -> float:
+        """Lag at which R(τ)/R(0) first falls to `level`, below 1, in a direction, m; NaN if it does not within the lags.
+
+        The `angle` is taken from the x axis towards the y axis, rad, or text such as ``"30 deg"``.
+        """
+        return float(self._core.decay_length(quantity("angle", angle, "angle", positive=False), _level(level)))
+
+    def decay_lengths(self, level: float = 0.2) -> tuple[float, float]:
+        """Shortest and longest decay length over all directions, m: Sal, and Sal/Str; NaN if beyond the lags."""
+        fastest, slowest = self._core.decay_lengths(_level(level))
+        return fastest, slowest
+
+
+class Summits(Comparable):
+    """The summits of a surface: the samples higher than their eight neighbours.
+
+    What is a summit depends on the pitch (Greenwood, Proc. R. Soc. A 393, 133, 1984).
+
+    Attributes
+    ----------
+    summits : ndarray
+        A record for each: its sample `ix`, `iy`; `height` above the mean, m; mean `curvature`, 1/m, not negative.
+    area : float
+        Area on which a summit would have been found, m².
+    """
+
+    _DTYPE = np.dtype([("ix", np.int64), ("iy", np.int64), ("height", np.float64), ("curvature", np.float64)])
+
+    def __init__(self, found: Any) -> None:
+        summits, self.area, asperities = found
+        self.summits: NDArray[np.void] = np.array(summits, dtype=self._DTYPE)
+        self._asperities = GreenwoodWilliamson(*asperities)
+
+    def __len__(self) -> int:
+        return len(self.summits)
+
+    def __repr__(self) -> str:
+        return f"<Summits: {len(self)} on {_core.format(self.area, 'area')}>"
+
+    def greenwood_williamson(self) -> GreenwoodWilliamson:
+        """Density, radius of mean curvature, deviation and mean of the heights; NaN without summits."""
+        return self._asperities
+
+
+class Segmentation(Comparable):
+    """A surface divided into hills around its peaks, or into dales around its pits.
+
+    Those too low to matter are pruned. ISO 25178-2:2012, 3.3.1; ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991).
+
+    Attributes
+    ----------
+    labels : ndarray
+        For each sample the number of its hill or dale, from 1 in the order of `motifs`; 0 without one.
+    motifs : ndarray
+        A record for each, highest peak or deepest pit first: the sample `ix`, `iy` of the peak or pit; its `height`, m; the
+        height of the `saddle` that it is connected to, m; `local_height` between the two, m; `prominence`, the threshold above
+        which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²; `volume`
+        above, or below, the saddle, m³; `closed`, whether it does not reach the rim at half the material.
+    """
+
+    _DTYPE = np.dtype(
+        [
+            ("ix", np.int64), ("iy", np.int64), ("height", np.float64), ("saddle", np.float64),
+            ("local_height", np.float64), ("prominence", np.float64), ("curvature", np.float64), ("area", np.float64),
+            ("volume", np.float64), ("closed", np.bool_),
+        ]
+    )  # fmt: skip
+
+    def __init__(self, found: Any) -> None:
+        self.labels: NDArray[np.uint32] = found[0]
+        self.motifs: NDArray[np.void] = np.array(found[1], dtype=self._DTYPE)
+
+    def __len__(self) -> int:
+        return len(self.motifs)
+
+    def __repr__(self) -> str:
+        nx, ny = self.labels.shape
+        return f"<Segmentation: {len(self)} motifs on {nx} × {ny} samples>"
+
+
+def parameters(given: _Given) -> Parameters:
+    """All parameters of ISO 25178."""
+    return Parameters(_core.parameters(given))
+
+
+def feature_parameters(given: _Given, pruning: float) -> Parameters:
+    """The feature parameters of ISO 25178."""
+    return Parameters(_core.feature_parameters(given, _share(pruning)))
+
+
+def profile(given: _Given, axis: str, index: int) -> Profile:
+    """The profile along an axis."""
+    heights, pitch = _core.profile(given, axis, _whole("index", index, 0))
+    return Profile(heights, pitch)
+
+
+def profile_parameters(given: _Given, axis: str, cutoff: Quantity) -> Parameters:
+    """Parameters of the roughness profiles along an axis."""
+    return Parameters(_core.profile_parameters(given, axis, quantity("cutoff", cutoff, "length")))
+
+
+def distribution(given: _Given, slope: str | None, classes: int | None) -> Distribution:
+    """The distribution of heights, or of a slope."""
+    count = None if classes is None else _whole("classes", classes, 1)
+    return Distribution(*_core.distribution(given, slope, count))
+
+
+def moments_by_differences(given: _Given) -> SpectralMoments:
+    """The spectral moments by differences between samples."""
+    return SpectralMoments(_core.moments_by_differences(given))
+
+
+def self_affinity_of_differences(given: _Given, axis: str, lags: tuple[float, float]) -> SelfAffinity:
+    """The law of the height differences."""
+    return _law(_core.self_affinity_of_differences(given, axis, _range("lags", lags)))
+
+
+def height_differences(given: _Given, axis: str) -> NDArray[np.void]:
+    """Mean square differences of the heights by their lags."""
+    return np.array(_core.height_differences(given, axis), dtype=_LAGS)
+
+
+def summits(given: _Given) -> Summits:
+    """The summits."""
+    return Summits(_core.summits(given))
+
+
+def segments(given: _Given, dales: bool, pruning: float) -> Segmentation:
+    """The hills or the dales."""
+    return Segmentation(_core.segments(given, dales, _share(pruning)))
+
+
+def _whole(key: str, value: Any, least: int) -> int:
+    if isinstance(value, bool) or not hasattr(value, "__index__") or value.__index__() < least:
+        message = f"'{key}' is {value!r}, expected a whole number of at least {least}"
+        raise _make("CaseError", message, {"key": key}, None)
+    return int(value.__index__())
+
+
+def _number(key: str, value: Any, least: float, most: float, expected: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = np.nan
+    if not least <= number <= most:
+        raise _make("CaseError", f"'{key}' is {value!r}, expected {expected}", {"key": key}, None)
+    return number
+
+
+def _share(pruning: Any) -> float:
+    return _number("pruning", pruning, 0.0, 1.0, "a share of Sz from 0 to 1")
+
+
+def _level(level: Any) -> float:
+    return _number("level", level, -1.0, np.nextafter(1.0, 0.0), "a part of R(0) below 1")
+
+
+def _range(key: str, value: Any) -> list[float]:
+    try:
+        low, high = (float(end) for end in value)
+    except (TypeError, ValueError):
+        low, high = np.nan, np.nan
+    if not 0.0 <= low < high:
+        raise _make("CaseError", f"'{key}' is {value!r}, expected two numbers that ascend", {"key": key}, None)
+    return [low, high]

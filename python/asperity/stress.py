@@ -1,0 +1,345 @@
+"""The stress below a surface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _case, _core
+from ._optional import need
+from ._same import Comparable
+from ._units import Pair, Quantity, lengths, quantity
+from .errors import _make
+from .material import Material, _poisson
+
+if TYPE_CHECKING:
+    from .contact import Contact
+
+COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+"""The components, in the order in which they are stored."""
+
+
+class Extreme(NamedTuple):
+    """The largest value of a stress, and where.
+
+    Attributes
+    ----------
+    value : float
+        The value, Pa.
+    position : tuple of float
+        x and y of the centre of the cell, and the depth, m.
+    cell : tuple of int
+        Index ``(ix, iy)`` of the cell.
+    """
+
+    value: float
+    position: tuple[float, float, float]
+    cell: tuple[int, int]
+
+
+class Stress(Comparable):
+    """Stress tensors, positive in tension, at any number of points; z points into the body.
+
+    Parameters
+    ----------
+    xx, yy, zz, yz, xz, xy : float or array_like
+        The components, all of one shape, Pa.
+
+    Raises
+    ------
+    asperity.errors.CaseError
+        If their shapes differ.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> asp.Stress(100e6, 0.0, 0.0, 0.0, 0.0, 0.0).von_mises
+    100000000.0
+    """
+
+    def __init__(
+        self, xx: ArrayLike, yy: ArrayLike, zz: ArrayLike, yz: ArrayLike, xz: ArrayLike, xy: ArrayLike
+    ) -> None:
+        parts = [np.asarray(part, dtype=np.float64) for part in (xx, yy, zz, yz, xz, xy)]
+        for name, part in zip(COMPONENTS, parts, strict=True):
+            if part.shape != parts[0].shape:
+                message = f"'{name}' has the shape {part.shape}, expected that of 'xx', {parts[0].shape}"
+                raise _make("CaseError", message, {"key": name}, None)
+        self._parts = parts
+
+    def _compared(self) -> dict[str, Any]:
+        return {"parts": self._parts}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name not in ("von_mises", "max_shear", "principal")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        if self.shape:
+            return f"<{type(self).__name__}: {' × '.join(map(str, self.shape))} points>"
+        return f"Stress({', '.join(f'{name}={getattr(self, name)!r}' for name in COMPONENTS)})"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of each component."""
+        return self._parts[0].shape
+
+    def __getitem__(self, component: str) -> Any:
+        """A component by its name."""
+        if component not in COMPONENTS:
+            raise KeyError(f"no component {component!r}, there are {', '.join(COMPONENTS)}")
+        part = self._parts[COMPONENTS.index(component)]
+        return part if self.shape else float(part)
+
+    @property
+    def xx(self) -> Any:
+        """Normal stress along x, Pa."""
+        return self["xx"]
+
+    @property
+    def yy(self) -> Any:
+        """Normal stress along y, Pa."""
+        return self["yy"]
+
+    @property
+    def zz(self) -> Any:
+        """Normal stress along z, Pa."""
+        return self["zz"]
+
+    @property
+    def yz(self) -> Any:
+        """Shear stress in the y–z plane, Pa."""
+        return self["yz"]
+
+    @property
+    def xz(self) -> Any:
+        """Shear stress in the x–z plane, Pa."""
+        return self["xz"]
+
+    @property
+    def xy(self) -> Any:
+        """Shear stress in the x–y plane, Pa."""
+        return self["xy"]
+
+    @cached_property
+    def von_mises(self) -> Any:
+        """Von Mises' equivalent stress, Pa: the yield stress in tension where the material begins to yield."""
+        return self._invariant("von_mises", ())
+
+    @cached_property
+    def max_shear(self) -> Any:
+        """Largest shear stress on any plane, ½(σ₁ − σ₃), Tresca's, Pa."""
+        return self._invariant("max_shear", ())
+
+    @cached_property
+    def principal(self) -> NDArray[np.float64]:
+        """Principal stresses σ₁ ≥ σ₂ ≥ σ₃, Pa: the first index tells which, those of the point follow."""
+        return np.asarray(self._invariant("principal", (3,)))
+
+    def _invariant(self, which: str, leading: tuple[int, ...]) -> Any:
+        values = _core.invariants(which, [np.ravel(part) for part in self._parts])
+        shape = leading + self.shape
+        return values.reshape(shape) if shape else float(values[0])
+
+
+class SubsurfaceStress(Stress):
+    """The stress in a body on planes parallel to its surface; components are arrays ``[iz, ix, iy]``.
+
+    Made by :func:`asperity.stress`.
+
+    Attributes
+    ----------
+    depths : ndarray
+        Depths of the planes, m.
+    pitch : tuple of float
+        Size of a cell along x and y, m.
+    body : str
+        ``"lower"`` or ``"upper"``.
+    """
+
+    def __init__(self, given: Any, depths: list[float], threads: int) -> None:
+        super().__init__(*_core.stress(given, depths, threads))
+        self.depths = np.array(depths)
+        self.pitch: tuple[float, float] = given[0][1]
+        self.body = "upper" if given[4] else "lower"
+        self._given = given
+
+    def _compared(self) -> dict[str, Any]:
+        return {"parts": self._parts, "depths": self.depths, "pitch": self.pitch, "body": self.body}
+
+    @cached_property
+    def _extremes(self) -> tuple[Extreme, Extreme]:
+        von_mises, shear = (
+            Extreme(value, ((cell[0] + 0.5) * self.pitch[0], (cell[1] + 0.5) * self.pitch[1], depth), (cell[0], cell[1]))
+            for value, cell, depth in _core.most_stressed(self._given, self.depths.tolist(), 0)
+        )
+        return von_mises, shear
+
+    @property
+    def most_stressed(self) -> Extreme:
+        """The largest von Mises' stress, and where it is.
+
+        It is looked for on a few planes more between those beside the most stressed point, so that its depth is found to about a
+        hundredth of the distance of the planes.
+        """
+        return self._extremes[0]
+
+    @property
+    def most_sheared(self) -> Extreme:
+        """The largest shear stress on any plane, and where it is, looked for as :attr:`most_stressed`."""
+        return self._extremes[1]
+
+    def to_xarray(self) -> Any:
+        """The components, von Mises' stress and the largest shear as a Dataset of xarray over z, x and y, m."""
+        xarray = need("xarray", "to_xarray()")
+        _, nx, ny = self.shape
+        x, y = (self.pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
+        coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", self.depths), ("x", x), ("y", y))}
+        arrays: Mapping[str, Any] = {**{name: self[name] for name in COMPONENTS}, "von_mises": self.von_mises}
+        arrays = {**arrays, "max_shear": self.max_shear}
+        return xarray.Dataset(
+            {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
+        )
+
+
+def stress(
+    source: Contact | ArrayLike,
+    depths: Quantity | Sequence[Quantity] | NDArray[np.float64],
+    *,
+    body: str = "lower",
+    poisson: float | None = None,
+    material: Material | None = None,
+    boundary: str | None = None,
+    shear: Sequence[ArrayLike | None] | None = None,
+    pitch: Pair | None = None,
+    threads: int | None = None,
+) -> SubsurfaceStress:
+    """Compute the stress below the surface of a body under given tractions.
+
+    Exact to round-off for tractions that are uniform in each cell (free), or for the harmonics of the values at the cells
+    (periodic). Under the mean pressure of a periodic contact the body cannot widen.
+
+    Parameters
+    ----------
+    source : Contact or array_like
+        A contact, which brings the tractions, pitch, boundary and Poisson's ratio along; or the pressure on each cell, a
+        matrix ``[ix, iy]``, Pa.
+    depths : float, str or sequence of them
+        Depths of the planes below the surface, ascending, at least 0, m; at 0 the limit from within.
+    body : str
+        ``"lower"`` or ``"upper"``. z points into the body, x and y are those of the contact.
+    poisson : float, optional
+        Poisson's ratio of the body, 0 to 0.5; or a `material` that has it.
+    material : Material, optional
+        What the body is made of.
+    boundary : str, optional
+        What lies beyond the rim, ``"free"``, the default, or ``"periodic"``.
+    shear : pair of array_like, optional
+        Shear tractions along +x and +y on the lower body, Pa, matrices of the same shape; ``None`` for none.
+    pitch : float, str or pair of them, optional
+        Size of a cell along x and y, m.
+    threads : int, optional
+        Threads that share the work; one for each core by default.
+
+    Returns
+    -------
+    SubsurfaceStress
+
+    Raises
+    ------
+    asperity.errors.BadInput
+        For arguments without meaning, a body with a coating, a boundary that is periodic along one axis alone.
+    asperity.errors.Memory
+        If the planes take more memory than there is.
+    KeyboardInterrupt
+        At Ctrl-C, between two planes.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity as asp
+    >>> ball = asp.reference.HertzSphere(1e-3, 115e9, 1.0)
+    >>> x = 1e-6 * (np.arange(65) - 32)
+    >>> pressure = ball.pressure(np.hypot(*np.meshgrid(x, x)))
+    >>> s = asp.stress(pressure, np.linspace(0.0, 12e-6, 4), poisson=0.3, pitch=1e-6)
+    >>> s.most_stressed.cell, f"{s.most_stressed.value / ball.peak_pressure():.2f}"
+    ((32, 32), '0.62')
+    """
+    if body not in ("lower", "upper"):
+        raise _bad("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+    if isinstance(source, Comparable) and hasattr(source, "fields"):
+        for key, value in (
+            ("poisson", poisson), ("material", material), ("boundary", boundary), ("shear", shear), ("pitch", pitch),
+        ):  # fmt: skip
+            if value is not None:
+                raise _bad(key, f"'{key}' is given beside a contact, which has its own")
+        given = _of_contact(source, body)
+    else:
+        given = _of_tractions(source, shear, pitch, boundary, _ratio(poisson, material), body)
+    return SubsurfaceStress(given, _depths(depths), _case.threads(threads))
+
+
+def _of_contact(contact: Any, body: str) -> Any:
+    if "coating" in contact.case[body]:
+        raise _bad("coating", "stresses under a coating are not known yet")
+    found = contact.fields
+    shear = [found[name].values if name in found else None for name in ("traction_x", "traction_y")]
+    boundary = contact.case["contact"]["boundary"]
+    return _of_tractions(contact.pressure, shear, contact.pitch, boundary, contact.case[body]["poisson"], body)
+
+
+def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson: float, body: str) -> Any:
+    if pitch is None:
+        raise _bad("pitch", "'pitch' is missing: how far apart are the tractions?")
+    normal = _traction("pressure", pressure, None)
+    parts: list[Any] = [None, None] if shear is None else list(shear)
+    if len(parts) != 2:
+        raise _bad("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
+    along = [None if part is None else _traction("shear", part, normal.shape) for part in parts]
+    if boundary is not None and not isinstance(boundary, str) and len(set(boundary)) == 1:
+        boundary = boundary[0]
+    edge = "free" if boundary is None else boundary
+    if edge not in ("free", "periodic"):
+        raise _bad("boundary", f"'boundary' is {boundary!r}, expected \"free\" or \"periodic\"")
+    return (normal, lengths("pitch", pitch)), along, [edge, edge], poisson, body == "upper"
+
+
+def _traction(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:
+    try:
+        found = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise _bad(key, f"'{key}' is no matrix of numbers: {error}") from error
+    if found.ndim != 2 or 0 in found.shape:
+        raise _bad(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
+    if shape is not None and found.shape != shape:
+        raise _bad(key, f"'{key}' has the shape {found.shape}, expected that of the pressure, {shape}")
+    if not np.isfinite(found).all():
+        raise _bad(key, f"'{key}' holds a number that is not finite")
+    return found
+
+
+def _ratio(poisson: float | None, material: Material | None) -> float:
+    if (poisson is None) == (material is None):
+        raise _bad("poisson", "give 'poisson' or 'material', one of them")
+    if material is None:
+        return _poisson(poisson)
+    if material.coating is not None:
+        raise _bad("material", "stresses under a coating are not known yet")
+    return material.poisson
+
+
+def _depths(depths: Any) -> list[float]:
+    one = isinstance(depths, str) or np.ndim(depths) == 0
+    found = [quantity("depths", depth, "length", positive=False) for depth in ([depths] if one else depths)]
+    if not found or found[0] < 0.0 or any(b <= a for a, b in zip(found, found[1:])):
+        raise _bad("depths", f"'depths' is {depths!r}, expected lengths of at least 0 that ascend")
+    return found
+
+
+def _bad(key: str, message: str) -> Exception:
+    return _make("CaseError", message, {"key": key}, None)
