@@ -15,8 +15,8 @@ Point = TypeVar("Point", float, NDArray[np.float64])
 def spread(places: tuple[Any, ...], answer: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Any:
     """What `answer` makes of each point: rows of coordinates in, rows of numbers out.
 
-    `places` are numbers or arrays, whose shapes are brought together as those of any function of NumPy. Of more than one number
-    there is a tuple.
+    `places` are numbers or arrays, whose shapes are brought together as those of any function of NumPy. Of more than one
+    number there is a tuple.
     """
     arrays = np.broadcast_arrays(*(np.asarray(place, dtype=np.float64) for place in places))
     shape = arrays[0].shape if arrays else ()

@@ -1,7 +1,7 @@
 """What a surface is like: what the methods of :class:`asperity.Surface` give that describe it.
 
-Nothing is levelled or filtered here: level and filter first. Numbers are SI, heights are taken from their mean, undefined samples
-are left out.
+Nothing is levelled or filtered here: level and filter first. Numbers are SI, heights are taken from their mean, undefined
+samples are left out.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Axis = Literal["x", "y"]
 """A direction in the plane of the surface."""
 
 Window = Literal["none", "hann", "radial-hann", "welch"]
-"""Weights that fall to zero at the rim: none for periodic surfaces; Hann's, along x and y or alike in all directions; Welch's."""
+"""Weights that fall to zero at the rim: none, for periodic surfaces; Hann's, along x and y or radial; Welch's."""
 
 WOLF_PRUNING: float = _core.WOLF_PRUNING
 """The Wolf pruning of ISO 25178-3, as a share of Sz."""
@@ -180,8 +180,8 @@ class Core(NamedTuple):
 class BearingCurve(Comparable):
     """The height above which a share of the samples lies, from their mean: the Abbott–Firestone curve.
 
-    The samples in descending order stand in the middle of their shares of the ratio; between them the curve is linear. A ratio
-    outside 0 … 1 counts as the nearer of the two. ISO 25178-2:2021, 4.5.
+    The samples in descending order stand in the middle of their shares of the ratio; between them the curve is linear. A
+    ratio outside 0 … 1 counts as the nearer of the two. ISO 25178-2:2021, 4.5.
 
     Parameters
     ----------
@@ -400,8 +400,8 @@ class GreenwoodWilliamson(NamedTuple):
 class SpectralMoments(Comparable):
     """Spectral moments: variances of the heights and, along x and y, of slope and curvature.
 
-    m₂ and m₄ rest on the shortest waves. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93,
-    398 (1971).
+    m₂ and m₄ rest on the shortest waves. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol.
+    93, 398 (1971).
 
     Attributes
     ----------
@@ -474,8 +474,8 @@ _LAGS = np.dtype([("lag", np.float64), ("value", np.float64)])
 class Spectrum(Comparable):
     """Power spectral density of a surface, C(q) = abs(z̃(q))²/A, m⁴.
 
-    Its integral over wave vectors of both signs over (2π)² is Sq² without a window. Undefined samples are spanned by a membrane.
-    Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
+    Its integral over wave vectors of both signs over (2π)² is Sq² without a window. Undefined samples are spanned by a
+    membrane. Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 
     Made by :meth:`asperity.Surface.spectrum`.
 
@@ -713,9 +713,9 @@ class Segmentation(Comparable):
         For each sample the number of its hill or dale, from 1 in the order of `motifs`; 0 without one.
     motifs : ndarray
         A record for each, highest peak or deepest pit first: the sample `ix`, `iy` of the peak or pit; its `height`, m; the
-        height of the `saddle` that it is connected to, m; `local_height` between the two, m; `prominence`, the threshold above
-        which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²; `volume`
-        above, or below, the saddle, m³; `closed`, whether it does not reach the rim at half the material.
+        height of the `saddle` that it is connected to, m; `local_height` between the two, m; `prominence`, the threshold
+        above which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²;
+        `volume` above, or below, the saddle, m³; `closed`, whether it does not reach the rim at half the material.
     """
 
     _DTYPE = np.dtype(

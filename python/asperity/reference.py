@@ -1,8 +1,8 @@
 """Closed forms: contacts whose answer is known, to judge a computation by.
 
 A contact is a class of its data (geometry, composite modulus E*, load), its answers are methods. Those of a position take a
-number or any array and give the same shape. Lengths, moduli and loads are numbers in SI, or text with a unit. Displacements are
-those of both bodies together, positive where they open the gap, 0 far away. The composite modulus of two materials is
+number or any array and give the same shape. Lengths, moduli and loads are numbers in SI, or text with a unit. Displacements
+are those of both bodies together, positive where they open the gap, 0 far away. The composite modulus of two materials is
 :func:`asperity.composite_modulus`.
 
 Examples
@@ -130,8 +130,8 @@ class _Form(Comparable):
 class HertzSphere(_Form):
     """Frictionless contact of two elastic spheres, or of a sphere and a plane, taken as paraboloids.
 
-    h = r²/2R,  a = (3WR/4E*)^(1/3),  δ = a²/R,  p = p₀ √(1 − r²/a²),  p₀ = 3W/2πa². Exact for the paraboloid; a sphere differs
-    by O(a²/R²).
+    h = r²/2R,  a = (3WR/4E*)^(1/3),  δ = a²/R,  p = p₀ √(1 − r²/a²),  p₀ = 3W/2πa². Exact for the paraboloid; a sphere
+    differs by O(a²/R²).
 
     Parameters
     ----------
@@ -207,8 +207,8 @@ class HertzSphere(_Form):
 class HertzLine(_Form):
     """Frictionless contact of two parallel elastic cylinders in plane strain, taken as parabolas.
 
-    h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: it depends on where
-    it is measured.
+    h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: it depends on
+    where it is measured.
 
     Parameters
     ----------
@@ -259,8 +259,8 @@ class HertzLine(_Form):
 class HertzEllipse(_Form):
     """Frictionless contact over an ellipse, h = x²/2Rx + y²/2Ry.
 
-    By complete elliptic integrals, whose parameter is solved for to round-off: relative accuracy 1e-13 for ratios of the radii up
-    to 1e6.
+    By complete elliptic integrals, whose parameter is solved for to round-off: relative accuracy 1e-13 for ratios of the
+    radii up to 1e6.
 
     Parameters
     ----------
@@ -534,8 +534,9 @@ class CattaneoMindlin(_Form):
 class MindlinDeresiewicz(_Form):
     """The push is taken back: partial slip under a tangential load that has grown to Q* and come down to Q.
 
-    Twice the answer to half the change is taken off the answer at Q*, since slip has to start anew, backwards. At Q = −Q* all is
-    as after a first push to −Q*; the way up from there is this one with the signs of Q, shear and displacement changed.
+    Twice the answer to half the change is taken off the answer at Q*, since slip has to start anew, backwards. At Q = −Q*
+    all is as after a first push to −Q*; the way up from there is this one with the signs of Q, shear and displacement
+    changed.
 
     Parameters
     ----------
@@ -571,8 +572,8 @@ class MindlinDeresiewicz(_Form):
 class Carter(_Form):
     """Tractive rolling, in the steady state, of elastically identical parallel cylinders in plane strain.
 
-    The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. Against the other body, the
-    one on which the tangential load acts along x moves along −x, at the creepage times the speed of rolling.
+    The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. Against the other
+    body, the one on which the tangential load acts along x moves along −x, at the creepage times the speed of rolling.
 
     Parameters
     ----------
@@ -624,7 +625,8 @@ class Carter(_Form):
 class SlidingSphere(_Form):
     """The stress under a Hertzian contact in full slip: pressure p and shear traction q = μp.
 
-    Exact for identical materials, or where the shear does not change the pressure. Far away about 3 log₁₀(r/a) digits are lost.
+    Exact for identical materials, or where the shear does not change the pressure. Far away about 3 log₁₀(r/a) digits are
+    lost.
 
     Parameters
     ----------
@@ -772,8 +774,8 @@ def stick_ratio(friction: ArrayLike, dundurs: ArrayLike) -> Any:
     """Stick ratio c/a of a round contact that is pressed together, 0 to 1.
 
     (1/2s) ln((1 + s)/(1 − s)) = (μ/abs(β)) K(√(1 − s²)), solved to round-off; 1 if β = 0. The same for a flat punch and any
-    power-law indenter. By Goodman's formulas, in which the shear does not act back on the pressure: they take too much to stick,
-    by at most 0.49 β².
+    power-law indenter. By Goodman's formulas, in which the shear does not act back on the pressure: they take too much to
+    stick, by at most 0.49 β².
 
     Parameters
     ----------

@@ -185,8 +185,8 @@ class SubsurfaceStress(Stress):
     def most_stressed(self) -> Extreme:
         """The largest von Mises' stress, and where it is.
 
-        It is looked for on a few planes more between those beside the most stressed point, so that its depth is found to about a
-        hundredth of the distance of the planes.
+        It is looked for on a few planes more between those beside the most stressed point, so that its depth is found to
+        about a hundredth of the distance of the planes.
         """
         return self._extremes[0]
 

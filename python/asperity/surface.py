@@ -277,7 +277,7 @@ class Surface(Comparable):
         return self.heights, self.pitch
 
     def parameters(self) -> Parameters:
-        """All parameters of ISO 25178 by families: heights, spatial, hybrid, functional, features; ``.Sq`` is a value, SI."""
+        """All parameters of ISO 25178: heights, spatial, hybrid, functional, features; ``.Sq`` is a value, SI."""
         return describe.parameters(self._grid)
 
     def feature_parameters(self, pruning: float = WOLF_PRUNING) -> Parameters:
@@ -315,7 +315,7 @@ class Surface(Comparable):
         return Correlation(self._grid, periodic)
 
     def moments(self, by: Literal["spectrum", "differences"] = "spectrum", window: Window = "hann") -> SpectralMoments:
-        """The spectral moments, by the spectrum under a window, or by differences between samples, which soften short waves."""
+        """The spectral moments, by the spectrum under a window, or by differences, which soften short waves."""
         if by not in ("spectrum", "differences"):
             raise _bad("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"", None)
         return describe.moments_by_differences(self._grid) if by == "differences" else self.spectrum(window).moments()

@@ -1,6 +1,7 @@
 //! Closed forms: one table of what can be asked of which.
 
 use asperity::material::{Coating, Compliances, Material};
+use asperity::ndarray::{Array2, s};
 use asperity::reference::{
     Carter, CattaneoMindlin, Cone, FlatPunch, HertzEllipse, HertzLine, HertzSphere, MindlinDeresiewicz,
     SlidingSphere, StickingPunch, StickingSphere, Westergaard, cattaneo, cell, rough, spence, westergaard,
@@ -10,6 +11,7 @@ use asperity::{Error, Result};
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
 use crate::arrays::ok;
 use crate::work;
@@ -185,29 +187,24 @@ pub(crate) fn closed_form<'py>(
     };
     let points = points.as_array().as_standard_layout().into_owned();
     let count = points.nrows();
-    let rows = |from: usize, out: &mut Vec<f64>| {
-        for point in points.outer_iter().skip(from).take(STRIDE) {
-            answer(point.as_slice().expect("rows stand one after the other"), out);
+    let stride = |number: usize| {
+        let mut values = Vec::new();
+        for point in points.slice(s![number * STRIDE..count.min((number + 1) * STRIDE), ..]).outer_iter() {
+            answer(point.as_slice().expect("rows stand one after the other"), &mut values);
         }
+        values
     };
     let values = if count <= STRIDE {
-        let mut values = Vec::new();
-        rows(0, &mut values);
-        values
+        stride(0)
     } else {
         work::run(py, 0, None, |watch| {
-            let mut values = Vec::new();
-            for from in (0..count).step_by(STRIDE) {
-                if watch.stop() {
-                    return Err(Error::Interrupted);
-                }
-                rows(from, &mut values);
-            }
-            Ok(values)
+            let watched = |number| if watch.stop() { Err(Error::Interrupted) } else { Ok(stride(number)) };
+            let strides = (0..count.div_ceil(STRIDE)).into_par_iter().map(watched);
+            Ok(strides.collect::<Result<Vec<_>>>()?.concat())
         })?
     };
     let width = values.len() / count.max(1);
-    let values = asperity::ndarray::Array2::from_shape_vec([count, width], values);
+    let values = Array2::from_shape_vec([count, width], values);
     Ok(values.expect("as many numbers at each point").into_pyarray(py))
 }
 
