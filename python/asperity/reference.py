@@ -29,7 +29,7 @@ from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
 from .errors import _make
 from .material import _poisson, tangential_modulus
-from .stress import Stress
+from ._stress import Stress
 
 __all__ = [
     "BGT_COEFFICIENT",

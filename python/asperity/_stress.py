@@ -17,7 +17,7 @@ from .errors import _make
 from .material import Material, _poisson
 
 if TYPE_CHECKING:
-    from .contact import Contact
+    from ._contact import Contact
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 """The components, in the order in which they are stored."""
