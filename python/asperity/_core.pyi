@@ -3,12 +3,41 @@ from os import PathLike
 from typing import Any, SupportsFloat, SupportsIndex, final
 
 @final
+class BearingCurve:
+    """
+    A material ratio curve.
+    """
+    def __new__(cls, /, samples: Incomplete) -> BearingCurve: ...
+    def at(self, /, what: str, places: Incomplete) -> Incomplete:
+        """
+        `"height"`, `"ratio"`, `"material_volume"` or `"void_volume"` at each of the places.
+        """
+    def core(self, /) -> list[tuple[str, float]] | None:
+        """
+        The core by the names of its parts; none of too few samples.
+        """
+    def heights(self, /) -> Incomplete: ...
+
+@final
+class Correlation:
+    """
+    An autocorrelation.
+    """
+    def __new__(cls, /, heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], periodic: bool) -> Correlation: ...
+    def along(self, /, axis: str) -> list[tuple[float, float]]: ...
+    def decay_length(self, /, angle: SupportsFloat | SupportsIndex, level: SupportsFloat | SupportsIndex) -> float: ...
+    def decay_lengths(self, /, level: SupportsFloat | SupportsIndex) -> list[float]: ...
+    def radial(self, /) -> list[tuple[float, float]]: ...
+    def values(self, /) -> Incomplete: ...
+    def variance(self, /) -> float: ...
+
+@final
 class Passes:
     """
     A motion under way.
     """
     def __new__(cls, /, source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex) -> Passes: ...
-    def contacts(self, /) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
+    def contacts(self, /, number: SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
         The contacts of the pass that is solved.
         """
@@ -36,15 +65,15 @@ class Passes:
         """
         The pass that is solved, in numbers as they are now.
         """
-    def remove(self, /, law: str, lower: Incomplete, upper: Incomplete) -> None:
+    def remove(self, /, number: SupportsIndex, law: str, lower: Incomplete, upper: Incomplete) -> None:
         """
         Takes depths off the bodies of the pass that is solved.
         """
     def solve(self, /, progress: Any | None) -> bool:
         """
-        Solves the next pass; false where there is none.
+        Solves the next pass; false where there is none. One that is solved already is forgotten.
         """
-    def steps(self, /) -> Any:
+    def steps(self, /, number: SupportsIndex) -> Any:
         """
         The positions of the pass that is solved, in numbers.
         """
@@ -68,6 +97,28 @@ class Results:
         """
     def sweep(self, /) -> Any: ...
 
+@final
+class Spectrum:
+    """
+    A power spectral density.
+    """
+    def __new__(cls, /, heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], window: str) -> Spectrum: ...
+    def along(self, /, axis: str) -> list[tuple[float, float, int]]: ...
+    def angular(self, /, directions: SupportsIndex) -> Incomplete: ...
+    def density(self, /) -> Incomplete: ...
+    def moments(self, /) -> tuple[float, list[float], list[float], float, float, float, list[float]]: ...
+    def nyquist(self, /) -> float: ...
+    def radial(self, /, per_decade: SupportsIndex | None = None) -> list[tuple[float, float, int]]: ...
+    def self_affinity(self, /, range: SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None, per_decade: SupportsIndex) -> tuple[float, float, list[float], int, float, float, str | None]:
+        """
+        The law of the points whose wave numbers lie in a range, or of the longest that follow one.
+        """
+    def variance(self, /) -> float: ...
+    def wave_numbers(self, /) -> list[Incomplete]:
+        """
+        The wave numbers along x, of both signs, and along y.
+        """
+
 def channels(path: str | PathLike[str]) -> list[str]:
     """
     The names of the height channels of a file, the default one first.
@@ -78,14 +129,79 @@ def check_surface(table: dict) -> None:
     Checks a table as far as it alone can tell.
     """
 
+def closed_form(question: str, data: SupportsGetItem[int, SupportsFloat | SupportsIndex], points: Incomplete) -> Incomplete:
+    """
+    The answers of a closed form of these `data` at `points`, a row of coordinates each: a row of numbers each.
+    """
+
+def compliances(lower: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None], upper: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None]) -> list[float]:
+    """
+    The compliances of a pair, 1/E*, 1/N*, 1/G*; E* and Dundurs' β of them; and the composite tangential modulus.
+    """
+
+def distribution(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], slope: str | None = None, classes: SupportsIndex | None = None) -> tuple[float, float, Incomplete]:
+    """
+    The distribution of the heights, or of a slope, over so many classes.
+    """
+
+def feature_parameters(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], pruning: SupportsFloat | SupportsIndex) -> list[tuple[str, float, str, str, str, str]]:
+    """
+    The feature parameters of ISO 25178, pruned at this share of Sz.
+    """
+
 def format(value: SupportsFloat | SupportsIndex, dimension: str) -> str:
     """
     A quantity as people write it.
     """
 
+def height_differences(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str) -> list[tuple[float, float]]:
+    """
+    Lags along an axis and the mean square differences of the heights there.
+    """
+
+def invariants(which: str, components: SupportsLenAndGetItem[Incomplete]) -> Incomplete:
+    """
+    Von Mises' stress, the largest shear or the principal stresses, one after the other, where the components are these.
+    """
+
+def line_heights(given: tuple[Incomplete, SupportsFloat | SupportsIndex, SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]]]) -> Incomplete:
+    """
+    The heights of a profile behind its filters.
+    """
+
+def line_parameters(given: tuple[Incomplete, SupportsFloat | SupportsIndex, SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]]]) -> list[tuple[str, float, str, str, str, str]]:
+    """
+    The parameters of ISO 21920 of a profile behind its filters.
+    """
+
 def main(arguments: SupportsGetItem[int, str]) -> int:
     """
     Runs the command with these arguments, the first of which is its name, and gives its exit code.
+    """
+
+def moments_by_differences(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]]) -> tuple[float, list[float], list[float], float, float, float, list[float]]:
+    """
+    The moments by differences between samples.
+    """
+
+def most_stressed(given: tuple[tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], SupportsLenAndGetItem[Incomplete | None], SupportsLenAndGetItem[str], SupportsFloat | SupportsIndex, bool], depths: SupportsGetItem[int, SupportsFloat | SupportsIndex], threads: SupportsIndex) -> tuple[tuple[float, list[int], float], tuple[float, list[int], float]]:
+    """
+    The largest von Mises' stress and the largest shear, on planes at the depths and between them.
+    """
+
+def parameters(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]]) -> list[tuple[str, float, str, str, str, str]]:
+    """
+    All parameters of ISO 25178.
+    """
+
+def profile(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str, index: SupportsIndex) -> tuple[Incomplete, float]:
+    """
+    The heights of a profile and their pitch.
+    """
+
+def profile_parameters(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str, cutoff: SupportsFloat | SupportsIndex) -> list[tuple[str, float, str, str, str, str]]:
+    """
+    Parameters of ISO 21920 of the roughness of all profiles along an axis, each the mean over them.
     """
 
 def quantity(key: str, value: Any, dimension: str, positive: bool = True, infinite: bool = False) -> float:
@@ -104,10 +220,45 @@ def run(source: dict | str | PathLike[str], handed: Incomplete, directory: str |
     Computes a case and writes its results to a directory.
     """
 
+def segments(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], dales: bool, pruning: SupportsFloat | SupportsIndex) -> tuple[Incomplete, list[tuple[int, int, float, float, float, float, float, float, float, bool]]]:
+    """
+    The hills, or the dales, with the number of its hill for each sample.
+    """
+
+def self_affinity_of_differences(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str, range: SupportsLenAndGetItem[SupportsFloat | SupportsIndex]) -> tuple[float, float, list[float], int, float, float, str | None]:
+    """
+    The law of the height differences whose lags lie in a range.
+    """
+
+def stress(given: tuple[tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], SupportsLenAndGetItem[Incomplete | None], SupportsLenAndGetItem[str], SupportsFloat | SupportsIndex, bool], depths: SupportsGetItem[int, SupportsFloat | SupportsIndex], threads: SupportsIndex) -> list[Incomplete]:
+    """
+    The components of the stress at the depths, each `[iz, ix, iy]`.
+    """
+
+def summits(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]]) -> tuple[list[tuple[int, int, float, float]], float, list[float]]:
+    """
+    The summits.
+    """
+
 def surface(table: dict, given: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]] | None = None) -> dict:
     """
     The topography that a table describes, as `[lower.topography]` of a case does, with what its preparation came upon.
     `given` are the heights that it names `given = "heights"`.
+    """
+
+def verdict(passed: SupportsIndex, failed: SupportsIndex) -> str:
+    """
+    The last line of the table.
+    """
+
+def verification_cases() -> list[tuple[str, str]]:
+    """
+    Name and source of each case.
+    """
+
+def verify(index: SupportsIndex, threads: SupportsIndex) -> tuple[str, list[tuple[str, str, list[int], list[float], float, str, bool]], str | None]:
+    """
+    Computes the case of this index: its part of the table of `asperity verify`, its checks, and the error that ended it.
     """
 
 def write_surface(path: str | PathLike[str], heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]]) -> None:

@@ -118,14 +118,14 @@ impl CorePasses {
     }
 
     /// The positions of the pass that is solved, in numbers.
-    fn steps<'py>(&self, py: Python<'py>, pass: usize) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &solved(&mut *self.state()?, Some(pass))?.steps())
+    fn steps<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &solved(&mut *self.state()?, Some(number))?.steps())
     }
 
     /// The contacts of the pass that is solved.
-    fn contacts<'py>(&self, py: Python<'py>, pass: usize) -> PyResult<Contacts<'py>> {
+    fn contacts<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Contacts<'py>> {
         let mut state = self.state()?;
-        let pass = solved(&mut state, Some(pass))?;
+        let pass = solved(&mut state, Some(number))?;
         let count = pass.contacts().iter().map(|contact| contact.pressure.len()).sum();
         let [mut position, mut lower, mut upper] = [(); 3].map(|()| Vec::with_capacity(count));
         let [mut pressure, mut plastic] = [(); 2].map(|()| Vec::with_capacity(count));
@@ -170,12 +170,12 @@ impl CorePasses {
     /// Takes depths off the bodies of the pass that is solved.
     fn remove(
         &self,
-        pass: usize,
+        number: usize,
         law: &str,
         lower: PyReadonlyArray2<'_, f64>,
         upper: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<()> {
-        solved(&mut *self.state()?, Some(pass))?.remove(law, &[field(&lower), field(&upper)]);
+        solved(&mut *self.state()?, Some(number))?.remove(law, &[field(&lower), field(&upper)]);
         Ok(())
     }
 }
