@@ -48,7 +48,8 @@ fn with_outputs(text: &str) -> (String, usize) {
         }
         match language {
             "sh" => printed = run(&block, folder.path()),
-            "python" => printed = python(&block, folder.path()),
+            // The tests of the Python package run what uses it.
+            "python" if !block.contains("import asperity") => printed = python(&block, folder.path()),
             _ => {}
         }
         made += "```\n";
