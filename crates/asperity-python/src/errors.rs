@@ -14,7 +14,7 @@ macro_rules! variant {
 
 /// The exception of an error of the library.
 pub(crate) fn exception(py: Python<'_>, error: &Error) -> PyErr {
-    raised(py, error).and_then(|raised| Ok(PyErr::from_value(raised))).unwrap_or_else(|failure| failure)
+    raised(py, error).map(PyErr::from_value).unwrap_or_else(|failure| failure)
 }
 
 /// The exception of a mistake of ours.

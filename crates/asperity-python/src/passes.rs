@@ -190,7 +190,8 @@ impl CorePasses {
 
 /// The pass that is solved, which is the one of that number, from 1, if one is asked for.
 fn solved(state: &mut State, number: Option<usize>) -> PyResult<&mut SolvedPass> {
-    let is_asked_for = |solved: &&mut SolvedPass| number.is_none_or(|number| solved.steps()[0].pass == number);
+    let is_asked_for =
+        |solved: &&mut SolvedPass| number.is_none_or(|number| solved.steps()[0].pass == number);
     state.solved.as_mut().filter(is_asked_for).ok_or_else(ended)
 }
 

@@ -87,5 +87,7 @@ pub(crate) fn is_bare(text: &str) -> bool {
 
 /// What is told of a number in quotes without a unit.
 pub(crate) fn bare(key: &str, text: &str) -> String {
-    format!("'{key}' is {text:?}, a text without a unit, expected a number in SI units, or a text with a unit")
+    format!(
+        "'{key}' is {text:?}, a text without a unit, expected a number in SI units, or a text with a unit"
+    )
 }

@@ -84,9 +84,9 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
 /// A static contact with all that is known of it.
 pub(super) enum Solved {
     /// In one step without friction.
-    Pressed(StaticContact),
+    Pressed(Box<StaticContact>),
     /// In stages, or rolling.
-    Loaded(Box<LoadedContact>, Option<LoadingWriter>),
+    Loaded(Box<LoadedContact>, Option<Box<LoadingWriter>>),
     /// A sweep: its points, the last as a whole.
     Swept(Outcome, Box<LoadedContact>),
 }
@@ -129,12 +129,12 @@ pub(super) fn solve(
         (Some(LoadingPath::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
             begin()?;
             let increments = stages.iter().map(|stage| stage.increments).sum();
-            let mut loading = writer.map(|writer| writer.loading(pair, increments));
+            let mut loading = writer.map(|writer| Box::new(writer.loading(pair, increments)));
             let contact = match &mut loading {
                 None => load_in_stages(pair, boundary, law, &stages, params, None, watch, &mut ())?,
                 Some(loading) => {
                     let done = loading.under_way()?;
-                    load_in_stages(pair, boundary, law, &stages, params, done, watch, loading)?
+                    load_in_stages(pair, boundary, law, &stages, params, done, watch, loading.as_mut())?
                 }
             };
             let warnings =
@@ -145,7 +145,7 @@ pub(super) fn solve(
             let contact = press(pair, boundary, control, params, watch)?;
             begin()?;
             let warnings = at_rest(pair, case, &contact.solution);
-            (Solved::Pressed(contact), warnings)
+            (Solved::Pressed(Box::new(contact)), warnings)
         }
     })
 }
@@ -172,7 +172,7 @@ impl Solved {
     }
 
     /// What has kept the increments of a loading.
-    pub(super) fn take_under_way(&mut self) -> Option<LoadingWriter> {
+    pub(super) fn take_under_way(&mut self) -> Option<Box<LoadingWriter>> {
         match self {
             Self::Loaded(_, loading) => loading.take(),
             Self::Pressed(_) | Self::Swept(..) => None,
@@ -183,7 +183,8 @@ impl Solved {
     pub(super) fn into_fields(self, pair: Pair) -> RestFields {
         let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
         let (solution, plastic, slip) = match self {
-            Self::Pressed(StaticContact { solution, .. }) => {
+            Self::Pressed(contact) => {
+                let StaticContact { solution, .. } = *contact;
                 let plastic = solution.plastic_interference();
                 (Equilibrium::Frictionless(Box::new(solution)), plastic, None)
             }
