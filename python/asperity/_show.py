@@ -1,0 +1,135 @@
+"""What pictures and tables share: words, units that suit, colours."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+_POWER = {"m²": 2, "m³": 3}
+"""A prefix stands before the metre, and is raised with it."""
+
+_PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+class Scale(NamedTuple):
+    """A unit that suits some numbers: what they are multiplied by, and its name."""
+
+    factor: float
+    unit: str
+
+
+def scale(unit: str, largest: float) -> Scale:
+    """The unit in which a number `largest` is read best: 1 to 1000 of a length, 0.001 to 10⁶ of a volume."""
+    if unit not in ("m", "m²", "m³", "Pa", "N", "J", "s", "N m") or not np.isfinite(largest) or largest <= 0.0:
+        return Scale(1.0, unit)
+    power = _POWER.get(unit, 1)
+    # Rounded up a little: 0.9999999 µm is 1 µm.
+    step = 3 * int(np.floor((np.log10(largest) / power + 0.5 * (power - 1) + 1e-6) / 3))
+    exponent = min(max(step, -9), 9 if unit == "Pa" else 3 if unit == "N" else 0)
+    return Scale(10.0 ** (-exponent * power), _PREFIXES[exponent] + unit)
+
+
+def largest(values: NDArray[Any]) -> float:
+    """The largest magnitude of the numbers that are there; 0 of none."""
+    finite = np.abs(values[np.isfinite(values)])
+    return float(finite.max()) if finite.size else 0.0
+
+
+# In the order in which they are looked for.
+_COLUMNS = (
+    (r"pass|step|point|stage|increment|.*cells|.*columns|.*iterations|convolutions|residual", "1"),
+    (r"friction_coefficient|.*fraction|force_ratio|creepage.*", "1"),
+    (r".*volume.*", "m³"),
+    (r".*area.*", "m²"),
+    (r".*pressure|max_shear", "Pa"),
+    (r".*load|.*force.*", "N"),
+    (r".*energy|dissipation", "J"),
+    (r"moment", "N m"),
+    (r"spin", "1/m"),
+    (r"stiffness", "N/m"),
+    (r".*_s", "s"),
+    (r"approach|offset|.*displacement.*|mean_gap|sq_.*", "m"),
+)
+
+
+def unit_of(column: str) -> str:
+    """The unit of a column of the tables of results."""
+    return next((unit for pattern, unit in _COLUMNS if re.fullmatch(pattern, column)), "1")
+
+
+_NAMES = {
+    "lower": "height of the lower body",
+    "upper": "underside of the upper body",
+    "heights": "height",
+    "plastic": "plastic interference",
+    "stick": "stick",
+    "cap": "most pressure that a cell bears",
+    "section_von_mises": "von Mises stress",
+}
+
+
+def words(name: str) -> str:
+    """The name of a field or a column as people say it."""
+    if name in _NAMES:
+        return _NAMES[name]
+    kept = re.fullmatch(r"(.*)_(\d{5})", name)
+    if kept is not None:
+        return f"{words(kept[1])} at position {int(kept[2])}"
+    of_body = re.fullmatch(r"(.*)_(lower|upper)(_interior)?", name)
+    if of_body is not None:
+        where = "interior of the " if of_body[3] else ""
+        what = "Sq" if of_body[1] == "sq" else words(of_body[1])
+        return f"{what}, {where}{of_body[2]} body"
+    stress = re.fullmatch(r"(?:section|column_\d+)_([xyz])([xyz])", name)
+    if stress is not None:
+        return f"stress σ{stress[1]}{stress[2]}"
+    deep = re.fullmatch(r"von_mises_(\d+)", name)
+    if deep is not None:
+        return f"von Mises stress in plane {int(deep[1])}"
+    name = re.sub(r"^(wall_time|min|max)(_s)?", lambda found: found[1].replace("wall_time", "time"), name)
+    return re.sub(r"\bmin ", "least ", re.sub(r"\bmax ", "largest ", name.replace("_", " ")))
+
+
+class Look(NamedTuple):
+    """How a field is coloured: a map of colours and its ends; what is not above `blank` in magnitude is left white."""
+
+    colours: str
+    low: float
+    high: float
+    blank: float | None = None
+
+    def is_blank(self, values: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which of the values are left white."""
+        if self.blank is None:
+            return np.zeros(values.shape, dtype=bool)
+        return np.asarray(np.abs(values) <= self.blank)
+
+
+def look(name: str, values: NDArray[np.float64]) -> Look:
+    """How a field of this name is coloured.
+
+    Pressures and what else is zero out of contact go from zero, and are white there; heights, gaps and displacements from the
+    least to the largest value; what has a sign has zero in the middle.
+    """
+    finite = values[np.isfinite(values)]
+    if finite.size == 0:
+        return Look("viridis", 0.0, 1.0)
+    low, high = float(finite.min()), float(finite.max())
+    if re.match(r"(mean_)?pressure|plastic|stick|cap|(section_)?von_mises", name):
+        return Look("viridis", 0.0, high or 1.0, None if "von_mises" in name else 0.0)
+    if name == "gap":
+        # Where bodies touch it is 0 within the residual of the solver, or below that by what has yielded.
+        high = max(high, 0.0) or 1.0
+        return Look("viridis", 0.0, high, 1e-4 * high)
+    if re.match(r"traction|slip|section|column|displacement_[xy]", name) and low < 0.0:
+        return Look("RdBu_r", -max(-low, high), max(-low, high))
+    if name in ("lower", "upper", "heights"):
+        # A few samples that stand out would leave one colour to all others.
+        inner = np.quantile(finite, [0.001, 0.999])
+        if inner[1] - inner[0] < 0.5 * (high - low) and inner[1] > inner[0]:
+            low, high = float(inner[0]), float(inner[1])
+        return Look("cividis", low, high if high > low else low + 1e-9)
+    return Look("viridis", low, high if high > low else low + (abs(low) or 1.0))
