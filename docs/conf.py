@@ -52,6 +52,12 @@ def links_out_of_the_documents(app, name, source):
     source[0] = re.sub(r"\]\((\.\./[^)#\s]+)(#[^)\s]*)?\)", lambda link: leads([link[0], link[1], link[2] or ""]), source[0])
 
 
+def without_aliases(app, what, name, member, skip, options):
+    """The fields of named tuples are told by their classes."""
+    return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
+
+
 def setup(app):
+    app.connect("autodoc-skip-member", without_aliases)
     app.connect("source-read", links_out_of_the_documents)
     return {"parallel_read_safe": True}

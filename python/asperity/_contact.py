@@ -42,7 +42,7 @@ class Contact(Comparable):
     mean_gap : float
         Mean deformed gap, m.
     elastic_energy : float
-        J.
+        Elastic energy, J.
     plastic_cells : int
         Number of cells at the hardness.
     plastic_volume : float

@@ -50,7 +50,7 @@ def low_pass(
 
     References
     ----------
-    Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32, 83 (1992).
+    Hu and Tonder, Int. J. Mach. Tools Manufact. 32, 83 (1992).
     """
     keys = {"shape": shape, "pitch": pitch, "sq": sq, "cutoff": cutoff, "band": band, "ssk": ssk, "sku": sku}
     return _generated("low-pass", {**keys, "seed": seed})

@@ -1,0 +1,20 @@
+import numpy as np
+import slippy
+from slippy import contact, surface
+
+
+def press(heights, side, mean_pressure, tolerance):
+    slippy.CORES = 1
+    spacing = side / len(heights)
+    # In space the kernel is Love's.
+    steel = contact.Elastic("steel", {"E": 210e9, "v": 0.3}, use_frequency_domain=False)
+    rough = surface.Surface(profile=heights, grid_spacing=spacing)
+    flat = surface.FlatSurface(shape=heights.shape, grid_spacing=spacing, generate=True)
+    rough.material, flat.material = contact.rigid, steel
+    model = contact.ContactModel("contact", rough, flat)
+    model.add_step(
+        contact.StaticStep(
+            "load", normal_load=mean_pressure * side**2, max_it=100_000, tolerance=tolerance, tolerance_outer=1e-12,
+        )
+    )
+    return np.asarray(model.solve()["loads_z"])
