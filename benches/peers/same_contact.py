@@ -102,7 +102,7 @@ class Contact:
 
 
 def code(name, boundary):
-    return f"```{{code-block}} python\n{(HERE / 'same' / f'{name}_{boundary}.py').read_text().strip()}\n```"
+    return f"```python\n{(HERE / 'same' / f'{name}_{boundary}.py').read_text().strip()}\n```"
 
 
 def table(rows):
@@ -141,8 +141,8 @@ How it was measured:
   decade from 10⁻⁴, that meets them; asperity's tolerance is η itself.
 - The **real area** is the share of cells with p > 0. Where the residuals are equal the areas are, but for single cells on the rims of
   spots.
-- The **time** is that of the whole call of `press`, as a user waits for it: model, influence coefficients, solution; imports are left out. One thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the
-  ratios within a round.
+- The **time** is that of the whole call of `press`, as a user waits for it: model, influence coefficients, solution; imports are left out. One
+  thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the ratios within a round.
 - Tamaas' wheel uses FFTW without wide vector instructions; one built on the machine may be faster. ContactMechanics also has dual conjugate
   gradients at a given approach, several times faster than its solver under a load. Both, convolutions, other sizes and areas are in
   [performance](performance.md#beside-the-peers); what must be known to run the peers well in [benches/peers](../benches/peers/README.md).

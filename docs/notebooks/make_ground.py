@@ -8,7 +8,7 @@ import asperity as asp
 
 shape, pitch = (128, 128), 0.5e-6
 ground = asp.generate.autocorrelation(
-    shape, pitch, sq="60 nm", correlation_length=("24 um", "6 um"), decay="gaussian", ssk=-0.6, sku=3.6, seed=11
+    shape, pitch, sq="50 nm", correlation_length=("14 um", "4 um"), decay="gaussian", ssk=-0.6, sku=3.6, seed=11
 )
 rng = np.random.default_rng(12)
 heights = ground.heights + 2.5e-9 * rng.standard_normal(shape)
