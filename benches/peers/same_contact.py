@@ -44,6 +44,7 @@ def arguments():
     parser.add_argument("--slippy-python", required=True)
     parser.add_argument("--asperity-python", required=True)
     parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--machine", default="this machine", help="what the page says it was measured on")
     parser.add_argument("--write", action="store_true")
     return parser.parse_args()
 
@@ -110,7 +111,7 @@ def table(rows):
     return "\n".join([head, "|---|---|---|---|---|---|---|", *rows])
 
 
-def page(tables, repeat):
+def page(tables, repeat, machine):
     codes = "\n\n".join(f"### {title}\n\n{code(name, 'periodic')}" for name, title in NAMES.items())
     free = {name: code(name, "free") for name in ("tamaas", "contactmechanics", "slippy")}
     return f"""\
@@ -142,7 +143,8 @@ How it was measured:
 - The **real area** is the share of cells with p > 0. Where the residuals are equal the areas are, but for single cells on the rims of
   spots.
 - The **time** is that of the whole call of `press`, as a user waits for it: model, influence coefficients, solution; imports are left out. One
-  thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the ratios within a round.
+  thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the ratios within a round. Measured on
+  {machine}.
 - Tamaas' wheel uses FFTW without wide vector instructions; one built on the machine may be faster. ContactMechanics also has dual conjugate
   gradients at a given approach, several times faster than its solver under a load. Both, convolutions, other sizes and areas are in
   [performance](performance.md#beside-the-peers); what must be known to run the peers well in [benches/peers](../benches/peers/README.md).
@@ -177,7 +179,7 @@ def main():
         tables = {
             boundary: list(Contact(Path(folder), boundary, pythons).rows(given.repeat)) for boundary in ("periodic", "free")
         }
-    text = page(tables, given.repeat)
+    text = page(tables, given.repeat, given.machine)
     if given.write:
         PAGE.write_text(text, encoding="utf-8")
     else:

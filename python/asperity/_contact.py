@@ -180,7 +180,7 @@ class Contact(Comparable):
         return dataset
 
     def plot(self, field: str = "pressure", **options: Any) -> Any:
-        """Draw a field with matplotlib; gives the axes. `options` go to ``imshow``."""
+        """Draw a field with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
         return self.fields[field].plot(**options)
 
     def __repr__(self) -> str:

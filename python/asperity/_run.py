@@ -162,13 +162,19 @@ class Run(Comparable):
         return frame(self.passes, "pass")
 
     def plot(self, quantity: str | None = None, **options: Any) -> Any:
-        """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass."""
+        """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass.
+
+        `ax` says on which axes; other `options` go to ``plot``. Gives the axes.
+        """
         from ._plot import run
 
         return run(self, quantity, **options)
 
     def animate(self, number: int | None = None, **options: Any) -> Any:
-        """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays."""
+        """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays.
+
+        `interval` is the time of each position, 100 ms by default; other `options` go to ``imshow``.
+        """
         from ._plot import animation
 
         return animation(self, self._number(number), **options)

@@ -75,7 +75,7 @@ class Field(Comparable):
         return xarray.DataArray(self.values, coordinates, self.axes, self.name, attributes)
 
     def plot(self, **options: Any) -> Any:
-        """Draw the field with matplotlib; gives the axes. `options` go to ``imshow``."""
+        """Draw the field with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
         from ._plot import field
 
         return field(self, **options)

@@ -376,7 +376,7 @@ class Surface(Comparable):
         return Field("heights", self.heights, "m", ("x", "y"), self.pitch, (0.5 * self.pitch[0], 0.5 * self.pitch[1])).to_xarray()
 
     def plot(self, **options: Any) -> Any:
-        """Draw the heights with matplotlib; gives the axes. `options` go to ``imshow``."""
+        """Draw the heights with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
         from ._plot import surface
 
         return surface(self, **options)
