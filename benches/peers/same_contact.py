@@ -142,7 +142,7 @@ How it was measured:
   decade from 10⁻⁴, that meets them; asperity's tolerance is η itself.
 - The **real area** is the share of cells with p > 0. Where the residuals are equal the areas are, but for single cells on the rims of
   spots.
-- The **time** is that of the whole call of `press`, as a user waits for it: model, influence coefficients, solution; imports are left out. One
+- The **time** is the processor time of the whole call of `press`, as a user makes it: model, influence coefficients, solution; imports are left out. One
   thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the ratios within a round. Measured on
   {machine}.
 - Tamaas' wheel uses FFTW without wide vector instructions; one built on the machine may be faster. ContactMechanics also has dual conjugate
