@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-import pathlib
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +22,9 @@ from .material import Material
 from .simulation import Pass, Simulation
 from .surface import Surface
 
+if TYPE_CHECKING:
+    import pathlib
+
 Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
 """What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
 
@@ -39,7 +41,7 @@ class Run(Comparable):
     """
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
-        self.directory = pathlib.Path(directory)
+        self.directory = _path(directory)
         self._core = _core.Results(os.fspath(directory))
         self._temporary: Temporary | None = None
 
@@ -64,7 +66,7 @@ class Run(Comparable):
         if "files" in state:
             temporary = Temporary()
             for name, content in state["files"].items():
-                path = pathlib.Path(temporary.path, name)
+                path = _path(temporary.path) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content)
             self.__init__(temporary.path)  # type: ignore[misc]
@@ -178,6 +180,13 @@ class Run(Comparable):
         from ._plot import animation
 
         return animation(self, self._number(number), **options)
+
+
+def _path(path: str | os.PathLike[str]) -> pathlib.Path:
+    # Imported where it is needed: the package would take a third longer to import.
+    import pathlib
+
+    return pathlib.Path(path)
 
 
 def simulate(

@@ -7,6 +7,7 @@ pub(crate) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+#[cfg(feature = "study")]
 /// The SHA-256 of the bytes of `numbers`, little-endian, hexadecimal.
 pub(crate) fn sha256_of(numbers: impl Iterator<Item = f64>) -> String {
     let mut digest = Sha256::new();
@@ -31,6 +32,7 @@ mod tests {
         assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 
+    #[cfg(feature = "study")]
     #[test]
     fn a_digest_of_numbers_is_that_of_their_bytes() {
         let numbers: Vec<f64> = (0..20_000).map(|k| 0.1 * f64::from(k)).collect();

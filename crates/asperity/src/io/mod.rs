@@ -7,4 +7,6 @@ pub(crate) mod regular; // regular files, read as a whole
 pub mod vti; // fields for ParaView
 
 pub use atomic::{replace, sweep};
-pub(crate) use digest::{sha256, sha256_of};
+pub(crate) use digest::sha256;
+#[cfg(feature = "study")]
+pub(crate) use digest::sha256_of;
