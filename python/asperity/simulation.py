@@ -237,12 +237,12 @@ class Simulation:
 
     def __iter__(self) -> Iterator[Pass]:
         (dx, dy), distance = self._core.grid()
-        while True:
-            self._core.finish()
-            with Teller(self._progress) as tell:
+        with Teller(self._progress) as tell:
+            while True:
+                self._core.finish()
                 if not self._core.solve(tell):
                     break
-            yield Pass(self._core, (dx, dy), distance)
+                yield Pass(self._core, (dx, dy), distance)
         self.close()
 
     def close(self) -> None:

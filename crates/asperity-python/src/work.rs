@@ -45,7 +45,12 @@ pub(crate) fn run<T: Send>(
     });
     match (raised, outcome.expect("the work has ended")) {
         (Some(exception), _) => Err(exception),
-        (None, Ok(result)) => result.map_err(|error| errors::exception(py, &error)),
+        (None, Ok(Ok(result))) => {
+            // What takes less than a tick is told of, too: it may be one of many.
+            looking.tell(progress)?;
+            Ok(result)
+        }
+        (None, Ok(Err(error))) => Err(errors::exception(py, &error)),
         (None, Err(panic)) => Err(errors::internal(py, &text(panic.as_ref()))),
     }
 }
