@@ -27,6 +27,7 @@
 //! | two topographies and materials | [`motion::Pair`] | what [`motion::press`], [`motion::load_in_stages`], [`motion::roll`] and [`motion::Simulation`] take |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
+//! | cells in contact and what heats them | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature, and what heat goes where |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and where it is largest |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
 //! | a doubt | [`reference`](mod@reference), [`verification`] | closed forms, and the order at which each is met |
@@ -57,7 +58,8 @@
 //! - Nothing adheres. A cell yields at the hardness, the cap on its pressure; what it has yielded is levelled, and leaves no
 //!   residual stress.
 //! - Friction is Coulomb's in each cell, up to a shear strength. All positions of a motion slide.
-//! - Nothing depends on time or on temperature: no inertia, no creep of the material, no frictional heat, no lubricant.
+//! - Nothing depends on time or on temperature: no inertia, no creep of the material, no lubricant. What friction heats is told by
+//!   [`temperature`], for half-spaces of constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
 //!
 //! [`study::estimate()`] and the results of [`study::run()`] warn where a case comes near to one of them.
@@ -98,6 +100,7 @@ pub mod kernel;
 pub mod operator;
 pub mod solver;
 pub mod subsurface;
+pub mod temperature;
 pub mod motion;
 pub mod verification;
 #[cfg(feature = "study")]

@@ -7,6 +7,8 @@ pub(crate) mod fft;
 pub(crate) mod good_size;
 pub(crate) mod mixed;
 mod quadrature;
+mod skew_convolution;
+mod sparse_inverse;
 pub(crate) mod sum;
 pub(crate) mod tensor_convolution;
 
@@ -16,4 +18,6 @@ pub(crate) use fft::RealFft2;
 pub(crate) use good_size::good_size;
 pub(crate) use mixed::{MixedConvolution, MixedKernel};
 pub(crate) use quadrature::{gauss_legendre, integrate};
+pub(crate) use skew_convolution::{SkewConvolution, SkewKernel};
+pub(crate) use sparse_inverse::SparseInverse;
 pub(crate) use tensor_convolution::{TensorConvolution, TensorKernel};

@@ -13,7 +13,6 @@ mod preconditioner;
 mod residual;
 mod sets;
 mod site;
-mod sparse_inverse;
 mod stiffness;
 mod together;
 mod watch;

@@ -29,6 +29,12 @@ pub type Joule = f64;
 pub type MetrePerSecond = f64;
 /// Time in seconds.
 pub type Second = f64;
+/// Absolute temperature, or a rise of it, in kelvins.
+pub type Kelvin = f64;
+/// Heat flow in watts.
+pub type Watt = f64;
+/// Heat flux in watts per square metre.
+pub type WattPerSquareMetre = f64;
 
 /// Writes an amount of memory, in bytes: `35 kB`, `1.2 GB`.
 pub fn bytes(count: f64) -> String {

@@ -20,6 +20,7 @@
 
 mod coated;
 mod dissimilar;
+mod heat;
 mod operators;
 mod partial_slip;
 mod rolling;
@@ -110,7 +111,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then what is solved with them; without friction, then with it.
+/// All cases: operators first, then what is solved with them; without friction, then with it; last what friction heats.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -150,6 +151,12 @@ pub const CASES: &[Case] = &[
     subsurface::LOADED_RECTANGLE,
     subsurface::SPHERE,
     subsurface::SLIDING_SPHERE,
+    heat::SQUARE,
+    heat::WAVE,
+    heat::DISC,
+    heat::HERTZIAN,
+    heat::TRANSIENT,
+    heat::DIVISION,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.

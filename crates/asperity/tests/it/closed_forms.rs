@@ -54,6 +54,12 @@ cases! {
     stresses_under_a_rectangle_are_those_of_its_parts: "Love: stress under a loaded rectangle",
     a_sphere_yields_below_its_contact: "Hertz: stress under a sphere",
     a_sliding_sphere_yields_nearer_to_the_surface: "Hamilton: stress under a sliding sphere, friction 0.25",
+    a_moving_square_is_hottest_behind_its_middle: "moving square: Pe 0, 1, 5, 10, 100",
+    a_wave_of_heat_lags_behind_its_source: "periodic heat: oblique sinusoid",
+    a_disc_warms_up_as_the_root_of_time_at_first: "heated disc: in time",
+    heat_spreads_as_displacement_does: "Hertzian flux at rest",
+    a_moving_square_comes_to_its_steady_temperature: "moving square, step by step",
+    equal_bodies_share_heat_and_none_is_lost: "heat: divided, and all of it",
 }
 
 fn holds(name: &str) {

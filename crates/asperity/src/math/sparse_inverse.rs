@@ -1,13 +1,11 @@
-//! A factorised sparse approximate inverse of the influence matrix on the free cells.
+//! A factorised sparse approximate inverse of an influence matrix on some of the cells of a grid.
 
-use crate::operator::Operator;
-use crate::solver::sets::Sets;
-
-/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ on the free cells: row i of G solves `C_JJ y = e_i` on the free ones J among the cell and its
-/// causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
+/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ of the influence matrix C on the free cells: row i of G solves
+/// `C_JJ y = e_i` on the free ones J among the cell and its causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J.
+/// Matrix Anal. Appl. 14, 45 (1993).
 ///
 /// A row depends on nothing but which of the neighbours are free: there are 64.
-pub(super) struct SparseInverse {
+pub(crate) struct SparseInverse {
     shape: [usize; 2],
     /// The row of G for each pattern of free neighbours.
     rows: [[f32; MEMBERS]; 1 << NEIGHBOURS],
@@ -25,18 +23,12 @@ const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1
 const REACH: [usize; 2] = [3, 4];
 
 impl SparseInverse {
-    pub(super) fn new(operator: &dyn Operator) -> Self {
-        let shape = operator.grid().shape;
-        // Neighbours that the grid is too small for never occur; periodic coefficients count from the far field.
-        let far = if operator.boundary().leaves_mean_free() {
-            operator.influence(shape[0] / 2, shape[1] / 2)
-        } else {
-            0.0
-        };
+    /// The inverse on a grid of `shape` of the matrix with the coefficients `influence(i, j)` at the offsets ±i, ±j, positive
+    /// definite.
+    pub(crate) fn new(shape: [usize; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
+        // Neighbours that the grid is too small for never occur.
         let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                if i < shape[0] && j < shape[1] { operator.influence(i, j) - far } else { 0.0 }
-            })
+            std::array::from_fn(|j| if i < shape[0] && j < shape[1] { influence(i, j) } else { 0.0 })
         });
         let rows = std::array::from_fn(|pattern| {
             let members: Vec<usize> =
@@ -58,24 +50,24 @@ impl SparseInverse {
         Self { shape, rows, patterns: Vec::with_capacity(shape[0] * shape[1]) }
     }
 
-    /// Adapts to the free cells of `sets`.
-    pub(super) fn adapt(&mut self, sets: &Sets) {
+    /// Adapts to the flat `free` cells, of which `is_free` knows each.
+    pub(crate) fn adapt(&mut self, free: impl Iterator<Item = usize>, is_free: impl Fn(usize) -> bool) {
         let [nx, ny] = self.shape.map(|n| n as isize);
         self.patterns.clear();
-        self.patterns.extend(sets.free().map(|cell| {
+        self.patterns.extend(free.map(|cell| {
             let (ix, iy) = (cell as isize / ny, cell as isize % ny);
             let free = |(di, dj): (isize, isize)| {
                 let (i, j) = (ix + di, iy + dj);
-                (0..nx).contains(&i) && (0..ny).contains(&j) && sets.is_free((i * ny + j) as usize)
+                (0..nx).contains(&i) && (0..ny).contains(&j) && is_free((i * ny + j) as usize)
             };
             (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
         }));
     }
 
-    /// Adds GᵀG r to `z`: fields on the grid, zero where it is not free.
-    pub(super) fn add(&self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+    /// Adds GᵀG r to `z`: fields on the grid, zero where it is not `free`, whose cells come as they were adapted to.
+    pub(crate) fn add(&self, free: impl Iterator<Item = usize>, r: &[f32], z: &mut [f32]) {
         let back = CAUSAL.map(|(di, dj)| (-di * self.shape[1] as isize - dj) as usize);
-        for (cell, pattern) in sets.free().zip(&self.patterns) {
+        for (cell, pattern) in free.zip(&self.patterns) {
             let row = &self.rows[*pattern as usize];
             // Absent neighbours have the coefficient 0, whatever cell they are taken for.
             let neighbours = back.map(|distance| cell.saturating_sub(distance));
