@@ -20,6 +20,8 @@ def tables(
     friction: Any = None,
     history: Sequence[Mapping[str, Any]] | None = None,
     motion: dict[str, Any] | None = None,
+    acceleration: Mapping[str, Any] | None = None,
+    temperature: Mapping[str, Any] | None = None,
     subsurface: Mapping[str, Any] | None = None,
     output: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
@@ -31,6 +33,10 @@ def tables(
         case["history"] = [dict(stage) for stage in history]
     if motion is not None:
         case["motion"] = given(motion)
+    if acceleration is not None:
+        case["acceleration"] = dict(acceleration)
+    if temperature is not None:
+        case["temperature"] = dict(temperature)
     if subsurface is not None:
         case["subsurface"] = dict(subsurface)
     if output:

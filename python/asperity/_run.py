@@ -92,7 +92,9 @@ class Run(Comparable):
     @property
     def is_done(self) -> bool:
         """Whether all passes are there."""
-        return len(self.passes) >= int(self.case["motion"]["passes"])
+        passes = self.passes
+        done = passes["represents"].sum() if "represents" in (passes.dtype.names or ()) else len(passes)
+        return int(done) >= int(self.case["motion"]["passes"])
 
     @property
     def passes(self) -> NDArray[np.void]:
@@ -206,6 +208,9 @@ def simulate(
     control: str | None = None,
     plastic_update: str | None = None,
     load_tolerance: float | None = None,
+    speed: Quantity | None = None,
+    acceleration: Mapping[str, Any] | None = None,
+    temperature: Mapping[str, Any] | None = None,
     boundary: str | Sequence[str] | None = None,
     method: str | None = None,
     tolerance: float | None = None,
@@ -244,6 +249,12 @@ def simulate(
         When plastic deformation changes the surfaces.
     load_tolerance : float, optional
         Relative tolerance on the mean load of a pass; 1e-4 by default.
+    speed : float or str, optional
+        Speed of the upper body in an overlap, m/s, where bodies wear, grow films or are heated.
+    acceleration : mapping, optional
+        How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed.
+    temperature : mapping, optional
+        `bulk`, K or text such as ``"100 °C"``, and `every`, whether the flash temperature is computed.
     boundary, method, tolerance, friction, title
         As of :func:`contact`; with friction the upper body slides.
     subsurface : mapping, optional
@@ -275,7 +286,8 @@ def simulate(
         lower, upper, lower_material, upper_material,
         load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
         speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
-        load_tolerance=load_tolerance, boundary=boundary, method=method, tolerance=tolerance, friction=friction,
+        load_tolerance=load_tolerance, speed=speed, acceleration=acceleration, temperature=temperature,
+        boundary=boundary, method=method, tolerance=tolerance, friction=friction,
         subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
         out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,
     )  # fmt: skip

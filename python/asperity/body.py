@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
@@ -28,9 +29,24 @@ class Body(Comparable):
         How the heights of an upper body face: measured material side up and turned over about y when it is mounted, or the
         heights of its underside already. Without it, an underside from results is taken as it is, and all else turned over. It
         means nothing of a lower body.
+    wear : mapping, optional
+        How it wears, with the keys of `[lower.wear]`: `coefficient`, `dimensionless` or `energy`; `under_film`.
+    film : mapping, optional
+        The tribofilm that grows on it, with the keys of `[lower.film]`.
+    thermal : mapping, optional
+        `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³, for a flash temperature.
     """
 
-    def __init__(self, surface: Surface, material: Material, mount: Mount | None = None) -> None:
+    def __init__(
+        self,
+        surface: Surface,
+        material: Material,
+        mount: Mount | None = None,
+        *,
+        wear: Mapping[str, Any] | None = None,
+        film: Mapping[str, Any] | None = None,
+        thermal: Mapping[str, Any] | None = None,
+    ) -> None:
         if not isinstance(surface, Surface):
             hint = "asp.Surface(heights, pitch=...) makes one of an array"
             message = f"'surface' is of type {type(surface).__name__}, expected an asperity.Surface"
@@ -41,6 +57,9 @@ class Body(Comparable):
         self.surface = surface
         self.material = material
         self.mount = mount
+        self.wear = None if wear is None else dict(wear)
+        self.film = None if film is None else dict(film)
+        self.thermal = None if thermal is None else dict(thermal)
 
     def __repr__(self) -> str:
         mount = "" if self.mount is None else f", mount={self.mount!r}"
@@ -72,6 +91,7 @@ class Handed:
                 raise _make("CaseError", message, {"key": f"{name}.hardness"}, None)
             self.hardness[name] = hardness
             table["hardness"] = {"given": name}
+        table |= {"wear": body.wear, "film": body.film, **(body.thermal or {})}
         if name == "upper" and body.mount is not None:
             table["mount"] = body.mount
         self.tables[name] = table

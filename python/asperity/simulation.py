@@ -178,6 +178,9 @@ class Simulation:
         control: str | None = None,
         plastic_update: str | None = None,
         load_tolerance: float | None = None,
+        speed: Quantity | None = None,
+        acceleration: Mapping[str, Any] | None = None,
+        temperature: Mapping[str, Any] | None = None,
         boundary: str | Sequence[str] | None = None,
         method: str | None = None,
         tolerance: float | None = None,
@@ -205,7 +208,10 @@ class Simulation:
             motion={
                 "strategy": strategy, "speed_lower": speed_lower, "speed_upper": speed_upper, "passes": passes,
                 "stride": stride, "control": control, "plastic_update": plastic_update, "load_tolerance": load_tolerance,
+                "speed": speed,
             },
+            acceleration=acceleration,
+            temperature=temperature,
             subsurface=subsurface,
             output={"pressure_every": pressure_every, "rim": rim, "paraview": paraview},
         )  # fmt: skip

@@ -246,3 +246,28 @@ def test_open_names_what_is_no_results(tmp_path: pathlib.Path) -> None:
         (tmp_path / "case.toml").write_text(CASE.format('[motion]\npasses = "two"'))
         asp.run(tmp_path / "case.toml", out=tmp_path / "out")
     assert caught.value.line == 27 and "'passes' is a string" in str(caught.value)
+
+
+def test_bodies_that_wear_and_grow_films(pair: Pair, tmp_path: pathlib.Path) -> None:
+    film = {
+        "law": "arrhenius", "max_thickness": "50 nm", "rate": "200 nm/s", "at_temperature": "100 °C", "at_stress": "1 GPa",
+        "activation_energy": "0.8 eV", "activation_volume": "3.8e-3 nm3",
+    }  # fmt: skip
+    heat = {"conductivity": 46.0, "heat_capacity": 460.0, "density": 7850.0}
+    lower = asp.Body(pair[0].surface, pair[0].material, wear={"coefficient": "2e-6 mm3/(N m)"}, film=film, thermal=heat)
+    upper = asp.Body(pair[1].surface, pair[1].material, wear={"energy": "2e-5 mm3/J"}, thermal=heat)
+    assert pickle.loads(pickle.dumps(lower)) == lower != pair[0]
+    run = asp.simulate(
+        lower, upper, load=0.02, boundary="periodic", strategy="shift", speed_upper="0.5 m/s", stride=4, passes=60,
+        friction={"coefficient": 0.1, "coupling": "none"}, acceleration={}, temperature={"bulk": "100 °C"}, out=tmp_path / "out",
+    )  # fmt: skip
+    assert run.is_done and run.passes["represents"].sum() == 60 and len(run.passes) < 60
+    # V = k W s of the lower body, α μ W s of the upper one.
+    work = (run.passes["represents"] * run.passes["mean_load"]).sum() * 8 * 4e-6
+    assert run.passes["wear_volume_lower"].sum() == pytest.approx(2e-15 * work, rel=1e-3)
+    assert run.passes["wear_volume_upper"].sum() == pytest.approx(2e-14 * 0.1 * work, rel=1e-3)
+    assert (np.diff(run.passes["mean_film_lower"]) > 0).all() and (run.passes["mean_film_upper"] == 0).all()
+    assert run.passes["max_flash_temperature"].min() > 373.15
+    assert run.fields()["film_lower"].values.mean() == pytest.approx(run.passes["mean_film_lower"][-1])
+    with pytest.raises(errors.CaseError, match="missing key 'speed'"):
+        asp.simulate(asp.Body(pair[0].surface, pair[0].material, wear={"coefficient": "1e-7 mm3/(N m)"}), upper, load=0.02)

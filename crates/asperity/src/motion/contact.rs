@@ -172,6 +172,7 @@ impl Contact {
             iterations: self.stats.iterations,
             convolutions: self.stats.convolutions,
             residual: self.residual,
+            heat: None,
         }
     }
 }

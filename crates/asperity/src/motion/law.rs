@@ -1,12 +1,15 @@
 //! The laws by which a pass changes the bodies.
 
+use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::record::LostVolume;
+use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
-use crate::units::{Metre, Pascal};
+use crate::solver::Sliding;
+use crate::temperature::FlashTemperature;
+use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second};
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
 ///
@@ -20,7 +23,7 @@ pub trait Law: Send + Sync {
     fn name(&self) -> &str;
 
     /// Prepares the bodies before their first pass: adds the state that the law keeps of them where it is not there yet.
-    fn prepare(&self, pair: &mut Pair) {
+    fn prepare(&mut self, pair: &mut Pair) {
         let _ = pair;
     }
 
@@ -32,6 +35,18 @@ pub trait Law: Send + Sync {
     /// Adds what the contact at one position does to the sums on the lower and on the upper body, which are zero at the
     /// beginning of the pass.
     fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]);
+
+    /// Whether passes that one stands for do again what it does: wear does, plastic flow does not.
+    fn repeats(&self) -> bool {
+        true
+    }
+
+    /// The most depth that the law takes off each body per pressure and distance slid, 1/Pa, where shear is `friction` times the
+    /// pressure: what decides how many passes one may stand for before pressures swing.
+    fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
+        let _ = friction;
+        [0.0; 2]
+    }
 
     /// Changes the state of the bodies by so many `passes` with these sums, and gives the height that each cell of the lower
     /// and of the upper body loses to the law, m: below 0 where a cell grows. The heights are lowered by the caller.
@@ -50,23 +65,45 @@ pub struct Touching<'a> {
     pub pressure: &'a [Pascal],
     /// Plastic interference w of each of these cells, m; 0 where the pressure is below what the cells bear.
     pub interference: &'a [Metre],
+    /// Magnitude of the shear traction on each of these cells, Pa; 0 without friction.
+    pub shear: &'a [Pascal],
+    /// Temperature of the surface of the lower and of the upper body on each of these cells, K; NaN where it is not known.
+    pub temperature: [&'a [Kelvin]; 2],
     /// Distance over which the bodies slide from this position to the next, m.
     pub sliding_distance: Metre,
+    /// Time from this position to the next, s; NaN where the speed is not known.
+    pub time: Second,
 }
 
-/// Applies `laws` to a `pair` after contacts on frozen bodies, which slide over a distance from each to the next. Returns what
-/// each law took, added to the `lost` so far.
-pub(super) fn apply(
+/// What laws see of a position besides the contact.
+#[derive(Clone, Copy)]
+pub(super) struct Passage {
+    /// How the bodies slide, if there is friction.
+    pub(super) sliding: Option<Sliding>,
+    /// Distance slid from one position to the next.
+    pub(super) distance: Metre,
+    /// Time from one position to the next.
+    pub(super) time: Second,
+    /// Temperatures of the bodies.
+    pub(super) bulk: [Kelvin; 2],
+}
+
+/// Sums of a law over a pass, on the lower and on the upper body.
+pub type Sums = [Vec<Field>; 2];
+
+/// The sums of `laws` over contacts on frozen bodies, and the temperatures at each of them where `heat` tells those of a pass; else
+/// the surfaces are as warm as the bodies.
+pub(super) fn sums(
     laws: &[Box<dyn Law>],
-    pair: &mut Pair,
+    pair: &Pair,
     contacts: &[Contact],
-    sliding_distance: Metre,
-    interiors: &[Interior; 2],
-    lost: &mut [LostVolume],
-) {
+    passage: &Passage,
+    mut heat: Option<&mut FlashTemperature>,
+) -> Result<(Vec<Sums>, Vec<HeatRecord>)> {
     let shapes = [pair.lower.heights.raw_dim(), pair.upper.heights.raw_dim()];
     let zeros = |law: &dyn Law| shapes.map(|shape| vec![Field::zeros(shape); law.sums()]);
     let mut sums: Vec<_> = laws.iter().map(|law| zeros(law.as_ref())).collect();
+    let mut warm = Vec::new();
     for contact in contacts {
         let cells = |body: usize| -> Vec<u32> {
             let of =
@@ -75,19 +112,78 @@ pub(super) fn apply(
         };
         let (lower, upper) = (cells(0), cells(1));
         let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| *p).collect();
+        let magnitude = |&p: &Pascal| {
+            passage
+                .sliding
+                .map_or(0.0, |sliding| sliding.shear(p).iter().fold(0.0, |q: f64, part| q.hypot(*part)))
+        };
+        let shear: Vec<Pascal> = pressure.iter().map(magnitude).collect();
+        let mut temperature = passage.bulk.map(|temperature| vec![temperature; pressure.len()]);
+        if let Some(heat) = &mut heat {
+            let speed = passage.distance / passage.time;
+            let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
+            let step = heat.step([&lower, &upper], &flux)?;
+            warm.push(HeatRecord {
+                friction_power: contact.tangential_force.abs() * speed,
+                max_flash_temperature: step.max_temperature().unwrap_or(passage.bulk[0].max(passage.bulk[1])),
+            });
+            temperature = [step.temperature.clone(), step.temperature];
+        }
         let touching = Touching {
             position: &contact.position,
             cells: [&lower, &upper],
             pressure: &pressure,
             interference: &contact.interference(),
-            sliding_distance,
+            shear: &shear,
+            temperature: [&temperature[0], &temperature[1]],
+            sliding_distance: passage.distance,
+            time: passage.time,
         };
         laws.iter().zip(&mut sums).for_each(|(law, sums)| law.add(pair, &touching, sums));
     }
-    for ((law, sums), lost) in laws.iter().zip(&sums).zip(lost) {
-        let depth = law.advance(pair, sums, 1.0);
+    Ok((sums, warm))
+}
+
+/// Lets `laws` change a `pair` by so many passes with these sums. What each law took is added to the `lost` so far, and the depths
+/// that it took are given.
+pub(super) fn advance(
+    laws: &[Box<dyn Law>],
+    pair: &mut Pair,
+    sums: &[Sums],
+    passes: f64,
+    interiors: &[Interior; 2],
+    lost: &mut [LostVolume],
+) -> Vec<[Field; 2]> {
+    let mut depths = Vec::new();
+    for ((law, sums), lost) in laws.iter().zip(sums).zip(lost) {
+        let depth = law.advance(pair, sums, passes);
         remove(pair, &depth, interiors, lost);
+        depths.push(depth);
     }
+    depths
+}
+
+/// The depths that `laws` would take off a `pair` in so many passes with these sums.
+pub(super) fn tried(laws: &[Box<dyn Law>], pair: &Pair, sums: &[Sums], passes: usize) -> Vec<[Field; 2]> {
+    let mut pair = pair.clone();
+    laws.iter().zip(sums).map(|(law, sums)| law.advance(&mut pair, sums, passes as f64)).collect()
+}
+
+/// The deepest that laws take off a cell of each body, of all laws together.
+pub(super) fn deepest(depths: &[[Field; 2]]) -> [Metre; 2] {
+    let most = |field: &Field| field.iter().fold(0.0, |most: f64, value| most.max(*value));
+    depths.iter().fold([0.0; 2], |sum: [f64; 2], depth| [sum[0] + most(&depth[0]), sum[1] + most(&depth[1])])
+}
+
+/// How far depths are from others: the largest difference of a cell, of all laws together.
+pub(super) fn difference(one: &[[Field; 2]], other: &[[Field; 2]]) -> Metre {
+    let of_field = |one: &Field, other: &Field| {
+        one.iter().zip(other).fold(0.0, |most: f64, (one, other)| most.max((one - other).abs()))
+    };
+    let of_law = |(one, other): (&[Field; 2], &[Field; 2])| {
+        of_field(&one[0], &other[0]).max(of_field(&one[1], &other[1]))
+    };
+    one.iter().zip(other).map(of_law).sum()
 }
 
 /// Takes a `depth` off each cell of the lower and of the upper body, m, and adds its volume to what is `lost`.

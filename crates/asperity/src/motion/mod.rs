@@ -3,6 +3,8 @@
 mod approach;
 mod body;
 mod contact;
+mod film;
+mod jump;
 mod law;
 mod loading;
 mod pair;
@@ -18,10 +20,13 @@ mod sweep;
 mod together;
 mod warm_start;
 mod watch;
+mod wear;
 
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
-pub use law::{Law, Touching};
+pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
+pub use jump::{Acceleration, Jump};
+pub use law::{Law, Sums, Touching};
 pub use loading::{
     Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
@@ -31,7 +36,8 @@ pub(crate) use pair::{facing_values, initial_gap};
 pub use path::{Position, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{
-    IncrementRecord, LostVolume, PassRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    HeatRecord, IncrementRecord, LostVolume, PassRecord, RunningRecord, ShearRecord, StaticRecord,
+    StepRecord, SweepRecord,
 };
 pub use report::{Output, PassReport};
 pub use rim::Interior;
@@ -43,11 +49,12 @@ pub use sweep::{Point, SweepOutput, sweep};
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Progress, Watch};
+pub use wear::{Wear, WearCoefficient, WearDriver};
 
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::solver::{Control, Friction, Sliding};
-use crate::units::{Metre, MetrePerSecond, Newton};
+use crate::units::{Kelvin, Metre, MetrePerSecond, Newton, Second};
 
 /// Where a load that is prescribed holds in a motion; an approach holds at every position of every pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,6 +150,10 @@ pub struct Motion {
     pub load_tolerance: f64,
     /// Friction of the sliding bodies, if they have any.
     pub friction: Option<Friction>,
+    /// Speed of the upper body over the lower one in an overlap, > 0, where it is known; a shift has its own speeds.
+    pub speed: Option<MetrePerSecond>,
+    /// Temperatures of the lower and of the upper body, > 0, where they are known.
+    pub bulk: Option<[Kelvin; 2]>,
 }
 
 impl Motion {
@@ -158,6 +169,8 @@ impl Motion {
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-4,
             friction: None,
+            speed: None,
+            bulk: None,
         }
     }
 
@@ -207,6 +220,37 @@ impl Motion {
     #[must_use]
     pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
         Self { friction: friction.into(), ..self }
+    }
+
+    /// The same at a speed of the upper body in an overlap, > 0.
+    #[must_use]
+    pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
+        Self { speed: speed.into(), ..self }
+    }
+
+    /// The same with bodies of these temperatures, > 0.
+    #[must_use]
+    pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
+        Self { bulk: bulk.into(), ..self }
+    }
+
+    /// Time from one position to the next of bodies of that pitch along x; NaN where the speed is not known.
+    pub fn step_time(&self, pitch: Metre) -> Second {
+        let step = self.stride as f64 * pitch;
+        match self.strategy {
+            Strategy::Overlap => self.speed.map_or(f64::NAN, |speed| step / speed),
+            Strategy::Shift { speed_lower, speed_upper } => step / speed_lower.abs().max(speed_upper.abs()),
+        }
+    }
+
+    /// What laws see of a position of bodies of that pitch along x besides the contact.
+    fn passage(&self, pitch: Metre) -> law::Passage {
+        law::Passage {
+            sliding: self.sliding(),
+            distance: self.sliding_distance(pitch),
+            time: self.step_time(pitch),
+            bulk: self.bulk.unwrap_or([f64::NAN; 2]),
+        }
     }
 
     /// How the bodies slide, if there is friction: the upper one towards where it goes.

@@ -18,12 +18,14 @@ use crate::operator::Operators;
 use crate::solver::{Control, Params};
 use crate::units::Newton;
 
-/// A pass at one prescribed load or approach: its contacts, and the pair as it leaves it.
+/// A pass at one prescribed load or approach: its contacts, and the pair, which the laws are to change if its positions have not.
 pub(super) struct Pass {
     /// The contacts at the positions.
     pub(super) contacts: Vec<Contact>,
-    /// The bodies after the pass.
+    /// The bodies, which each position may have changed.
     pub(super) pair: Pair,
+    /// Whether the laws have changed the bodies position by position.
+    pub(super) has_changed: bool,
     /// The volumes that each law took from the bodies.
     pub(super) lost: Vec<LostVolume>,
 }
@@ -116,25 +118,22 @@ impl Solver<'_> {
         };
         let mut after = pair.clone();
         let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let distance = self.motion.sliding_distance(pair.pitch()[0]);
-        let mut change = |after: &mut Pair, contacts: &[Contact]| {
-            law::apply(self.laws, after, contacts, distance, self.interiors, &mut lost);
-        };
+        let passage = self.motion.passage(pair.pitch()[0]);
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
             for index in 0..self.positions.len() {
                 let contact = solve(&after, index)?;
-                change(&mut after, std::slice::from_ref(&contact));
+                let (sums, _) = law::sums(self.laws, &after, std::slice::from_ref(&contact), &passage, None)?;
+                law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
                 contacts.push(contact);
             }
-            return Ok(Pass { contacts, pair: after, lost });
+            return Ok(Pass { contacts, pair: after, lost, has_changed: true });
         }
         let contacts: Vec<Contact> = (0..self.positions.len())
             .into_par_iter()
             .map(|index| solve(pair, index))
             .collect::<Result<_>>()?;
-        change(&mut after, &contacts);
-        Ok(Pass { contacts, pair: after, lost })
+        Ok(Pass { contacts, pair: after, lost, has_changed: false })
     }
 }
 

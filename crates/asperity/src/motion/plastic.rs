@@ -27,6 +27,10 @@ impl Law for PlasticFlow {
         }
     }
 
+    fn repeats(&self) -> bool {
+        false
+    }
+
     fn advance(&self, _: &mut Pair, [lower, upper]: &[Vec<Field>; 2], _: f64) -> [Field; 2] {
         [lower[0].clone(), upper[0].clone()]
     }

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre};
+use crate::units::{
+    CubicMetre, Joule, Kelvin, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre, Watt,
+};
 
 /// A static contact in numbers: `static` in `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -200,6 +202,9 @@ pub struct StepRecord {
     pub convolutions: f64,
     /// Scale-free complementarity residual η.
     pub residual: f64,
+    /// The heat of friction; none where the temperature is not computed.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatRecord>,
 }
 
 /// One pass: a row of `passes.csv`.
@@ -235,6 +240,9 @@ pub struct PassRecord {
     /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
     #[serde(flatten, with = "lost_volumes")]
     pub lost: Vec<LostVolume>,
+    /// What wear and films add; none without them.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub running: Option<RunningRecord>,
     /// Rms height of the lower surface after the pass.
     pub sq_lower: Metre,
     /// Rms height of the upper surface after the pass.
@@ -249,6 +257,50 @@ pub struct PassRecord {
     pub convolutions: f64,
     /// Time the pass took.
     pub wall_time_s: Second,
+}
+
+/// The heat of friction at a position: further columns of `steps.csv`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct HeatRecord {
+    /// Power of friction.
+    pub friction_power: Watt,
+    /// Largest temperature of the surfaces, absolute.
+    pub max_flash_temperature: Kelvin,
+}
+
+/// A pass of bodies that wear or grow films, which may stand for many.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct RunningRecord {
+    /// Passes of the motion that this computed one stands for, ≥ 1.
+    pub represents: usize,
+    /// Time since the beginning, at the end of these passes; NaN where the speed is not known.
+    #[serde(deserialize_with = "number_or_none")]
+    pub time: Second,
+    /// Distance that the bodies have slid over each other since the beginning.
+    pub distance: Metre,
+    /// Deepest wear of a cell of the lower body in these passes.
+    pub max_wear_lower: Metre,
+    /// Deepest wear of a cell of the upper body in these passes.
+    pub max_wear_upper: Metre,
+    /// Mean thickness of the film on the lower body after them; 0 without one.
+    pub mean_film_lower: Metre,
+    /// Mean thickness of the film on the upper body after them.
+    pub mean_film_upper: Metre,
+    /// Energy that friction took in these passes.
+    pub friction_work: Joule,
+    /// Largest temperature of the surfaces, absolute; that of the warmer body where the flash temperature is not computed, NaN
+    /// where that is not known.
+    #[serde(deserialize_with = "number_or_none")]
+    pub max_flash_temperature: Kelvin,
+    /// Estimate of the error of the heights from not computing every pass.
+    pub error_estimate: Metre,
+}
+
+/// A number, of which JSON has none where it is not known.
+fn number_or_none<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 /// The volumes that a law took from the bodies.
@@ -271,6 +323,11 @@ impl LostVolume {
 }
 
 impl PassRecord {
+    /// Passes of the motion that this computed one stands for, ≥ 1.
+    pub fn represents(&self) -> usize {
+        self.running.map_or(1, |running| running.represents)
+    }
+
     /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 where there is no such law.
     pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
         self.of(law).map_or([0.0; 2], |lost| lost.whole)

@@ -5,7 +5,7 @@ use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
-use crate::motion::warm_start::{Guess, WarmStart};
+use crate::motion::warm_start::WarmStart;
 use crate::solver::Sliding;
 
 /// A finished pass.
@@ -21,17 +21,11 @@ pub struct PassReport<'a> {
     pub pair: &'a Pair,
     /// How they slid, if there is friction.
     pub sliding: Option<Sliding>,
-    /// The guess with which the search of the next pass begins, if a mean load is prescribed.
-    pub guess: Option<Guess>,
+    /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
+    pub warm: &'a WarmStart,
 }
 
 impl PassReport<'_> {
-    /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same
-    /// bits.
-    pub fn warm_start(&self) -> WarmStart {
-        WarmStart::new(self.guess, self.contacts)
-    }
-
     /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));

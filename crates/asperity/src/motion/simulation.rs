@@ -1,26 +1,33 @@
 //! The motion itself: pass after pass.
 
+use std::sync::{Mutex, PoisonError};
+
 use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
 use crate::grid::Field;
 use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
+use crate::motion::body::Body;
 use crate::motion::contact::Contact;
-use crate::motion::law::{self, Law};
+use crate::motion::film::FILM;
+use crate::motion::jump::{self, Acceleration, Bounds, Jump};
+use crate::motion::law::{self, Law, Sums};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::plastic::PlasticFlow;
-use crate::motion::record::{LostVolume, PassRecord, StepRecord};
+use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::{Output, PassReport};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
 use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{LoadControl, Motion, Strategy, check_limit};
+use crate::motion::wear::WEAR;
+use crate::motion::{LoadControl, Motion, PlasticUpdate, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Control, Coupling, Params};
-use crate::units::{Dimension, Metre, Newton, Second};
+use crate::temperature::{FlashTemperature, Thermal};
+use crate::units::{CubicMetre, Dimension, Metre, Newton, Second};
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -35,6 +42,10 @@ pub struct Simulation {
     laws: Vec<Box<dyn Law>>,
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
+    acceleration: Acceleration,
+    /// The flash temperature over a pass, where it is wanted.
+    heat: Option<Mutex<FlashTemperature>>,
+    /// Passes that are computed.
     passes_done: usize,
     /// The state in which the next pass begins.
     warm: WarmStart,
@@ -48,6 +59,10 @@ pub struct SolvedPass {
     trials: usize,
     wall_time: Second,
     interiors: [Interior; 2],
+    running: Option<RunningRecord>,
+    jump: Option<Jump>,
+    /// Passes of the motion that are done with this one.
+    represented: usize,
 }
 
 impl SolvedPass {
@@ -69,7 +84,12 @@ impl SolvedPass {
     /// The pass in numbers, as they are now.
     pub fn record(&self) -> PassRecord {
         let record = summarise(&self.outcome, &self.interiors, &self.steps);
-        PassRecord { outer_iterations: self.trials, wall_time_s: self.wall_time, ..record }
+        PassRecord {
+            outer_iterations: self.trials,
+            wall_time_s: self.wall_time,
+            running: self.running,
+            ..record
+        }
     }
 
     /// Takes a `depth` off each cell of the lower and of the upper body, m, below 0 where a cell grows; its volume is lost to
@@ -115,12 +135,14 @@ impl Simulation {
             params,
             positions,
             operators,
+            acceleration: Acceleration::NONE,
+            heat: None,
             passes_done: 0,
             warm: WarmStart::default(),
         })
     }
 
-    /// The same motion with `passes` already done; the pair has the heights after them and the hardness of
+    /// The same motion with so many computed `passes` already done; the pair has the heights after them and the hardness of
     /// before, and `warm` is what they left ([`PassReport::warm_start`]). It goes on as if it had not stopped, to the last bit.
     ///
     /// # Panics
@@ -143,10 +165,53 @@ impl Simulation {
     /// The same motion, after whose passes a `law` changes the bodies, too: after those that do already, of which plastic flow
     /// is the first. The contacts of a pass are solved on the bodies as they were before it, or under
     /// [`crate::motion::PlasticUpdate::Step`] before its position.
-    pub fn with_law(mut self, law: impl Law + 'static) -> Self {
+    pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
         self.laws.push(Box::new(law));
         self
+    }
+
+    /// The same motion, whose computed passes stand for several.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], and [`Error::Unsupported`] where passes do not repeat, or change the bodies position by position.
+    pub fn with_acceleration(self, acceleration: Acceleration) -> Result<Self> {
+        let acceleration = acceleration.checked()?;
+        if acceleration.max_jump > 1 {
+            if !Acceleration::repeats(&self.motion.strategy) {
+                return Err(Error::Unsupported(
+                    "surfaces that do not move by whole rounds meet anew in each pass",
+                ));
+            }
+            if self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields() {
+                return Err(Error::Unsupported(
+                    "a pass that changes the bodies position by position stands for itself",
+                ));
+            }
+        }
+        Ok(Self { acceleration, ..self })
+    }
+
+    /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
+    /// cells in contact, which begin each pass at that of the bodies.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies; those of [`FlashTemperature::new`].
+    pub fn with_heat(self, thermal: [Thermal; 2]) -> Result<Self> {
+        let time = self.motion.step_time(self.pair.pitch()[0]);
+        let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
+            return Err(Error::Unsupported(
+                "a flash temperature is that of bodies with friction, a speed and temperatures",
+            ));
+        };
+        let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
+        let heat = FlashTemperature::new(grids, thermal, self.boundary, self.positions.len(), time, bulk)?;
+        Ok(Self { heat: Some(Mutex::new(heat)), ..self })
+    }
+
+    /// Passes of the motion that are done: those that the computed ones stand for.
+    pub fn represented(&self) -> usize {
+        self.warm.represented
     }
 
     /// The interiors of the lower and of the upper body.
@@ -174,7 +239,7 @@ impl Simulation {
     /// # Errors
     /// Those of [`Simulation::solve`], and those of the outputs.
     pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
-        while self.passes_done < self.motion.passes {
+        while self.represented() < self.motion.passes {
             let pass = self.solve(watch)?;
             self.finish(pass, watch, outputs)?;
         }
@@ -188,13 +253,162 @@ impl Simulation {
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
-        let (outcome, guess, trials) = self.solve_pass(pass, watch)?;
+        let (mut outcome, guess, trials) = self.solve_pass(watch)?;
         let step = |(k, contact): (usize, &Contact)| {
             contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1])
         };
-        let steps = outcome.contacts.iter().enumerate().map(step).collect();
+        let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
+        let (running, jump) =
+            if outcome.has_changed { (None, None) } else { self.advance(&mut outcome, &mut steps)? };
+        let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
+        let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
-        Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors: self.interiors.clone() })
+        Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors, running, jump, represented })
+    }
+
+    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for.
+    fn advance(
+        &self,
+        pass: &mut Pass,
+        steps: &mut [StepRecord],
+    ) -> Result<(Option<RunningRecord>, Option<Jump>)> {
+        let passage = self.motion.passage(self.pair.pitch()[0]);
+        let mut heat = self.heat.as_ref().map(|heat| heat.lock().unwrap_or_else(PoisonError::into_inner));
+        if let Some(heat) = &mut heat {
+            heat.begin();
+        }
+        let (mut sums, warm) =
+            law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, heat.as_deref_mut())?;
+        drop(heat);
+        steps.iter_mut().zip(&warm).for_each(|(step, warm)| step.heat = Some(*warm));
+        // Those that do not repeat come first.
+        let once = self.laws.iter().take_while(|law| !law.repeats()).count();
+        let (flow, laws) = self.laws.split_at(once);
+        let repeated = sums.split_off(once);
+        let mut lost = std::mem::take(&mut pass.lost);
+        law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
+        if laws.is_empty() && self.heat.is_none() {
+            pass.lost = lost;
+            return Ok((None, None));
+        }
+        let flown = lost.iter().flat_map(|lost| lost.whole).sum();
+        let (passes, mean, error_estimate) = self.jump(pass, laws, &repeated, flown, passage.distance)?;
+        let taken =
+            law::advance(laws, &mut pass.pair, &mean, passes as f64, &self.interiors, &mut lost[once..]);
+        pass.lost = lost;
+        let wear =
+            laws.iter().position(|law| law.name() == WEAR).map(|index| law::deepest(&taken[index..=index]));
+        let [max_wear_lower, max_wear_upper] = wear.unwrap_or_default();
+        let film = |body: &Body| body.state.get(FILM).map_or(0.0, |film| film.values.mean().unwrap_or(0.0));
+        let positions = self.positions.len() as f64;
+        let done = (self.represented() + passes) as f64;
+        let rubbed = pass.contacts.iter().map(|contact| contact.tangential_force.abs()).sum::<f64>();
+        let running = RunningRecord {
+            represents: passes,
+            time: done * positions * passage.time,
+            distance: done * positions * passage.distance,
+            max_wear_lower,
+            max_wear_upper,
+            mean_film_lower: film(&pass.pair.lower),
+            mean_film_upper: film(&pass.pair.upper),
+            friction_work: passes as f64 * rubbed * passage.distance,
+            max_flash_temperature: match warm.iter().map(|warm| warm.max_flash_temperature).reduce(f64::max) {
+                Some(warmest) => warmest,
+                None => passage.bulk[0].max(passage.bulk[1]),
+            },
+            error_estimate,
+        };
+        Ok((Some(running), Some(Jump { passes, sums: repeated })))
+    }
+
+    /// How many passes a solved one stands for, the mean over them of what its `laws` have summed, and the estimate of the error.
+    fn jump(
+        &self,
+        pass: &Pass,
+        laws: &[Box<dyn Law>],
+        sums: &[Sums],
+        flown: CubicMetre,
+        distance: Metre,
+    ) -> Result<(usize, Vec<Sums>, Metre)> {
+        let [single, chequered] = self.softness();
+        let relaxation = self.relaxation(pass, distance);
+        if relaxation >= 2.0 * chequered {
+            return Err(Error::Unsupported(
+                "a single pass wears more than pressures of single cells bear without swinging: a smaller wear coefficient, \
+                 larger cells or a shorter pass are needed",
+            ));
+        }
+        let one = law::tried(laws, &pass.pair, sums, 1);
+        let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
+        let bounds = Bounds {
+            left: self.motion.passes - self.represented(),
+            volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
+            deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
+            stable: chequered / relaxation,
+        };
+        let before = self.warm.jump.as_ref();
+        let mut passes = self.acceleration.most(&bounds, before);
+        let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
+        let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
+        let allowed = self.acceleration.tolerance * single * highest;
+        while passes > 1
+            && let Some(before) = before
+        {
+            let mean = jump::extrapolated(sums, before, passes);
+            let error = law::difference(
+                &law::tried(laws, &pass.pair, sums, passes),
+                &law::tried(laws, &pass.pair, &mean, passes),
+            );
+            if error <= allowed {
+                return Ok((passes, mean, error));
+            }
+            // The error of wear grows as the square.
+            let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
+            passes = fewer.clamp(1, passes - 1);
+        }
+        Ok((1, sums.to_vec(), 0.0))
+    }
+
+    /// Depth to which a pressure of 1 presses a single cell, and that to which a chequered one does: the extremes of what the
+    /// surfaces answer, m/Pa.
+    fn softness(&self) -> [f64; 2] {
+        let pitch = self.pair.pitch();
+        let response = self.pair.response();
+        let influence = response.influence(pitch);
+        /// Cells over which the alternating sum is taken; it is faded out towards them.
+        const REACH: i32 = 32;
+        let fade = |k: i32| (0.5 * std::f64::consts::PI * f64::from(k) / f64::from(REACH)).cos().powi(2);
+        let mut chequered = 0.0;
+        for i in -REACH..=REACH {
+            for j in -REACH..=REACH {
+                let sign = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
+                chequered +=
+                    sign * fade(i) * fade(j) * influence.at(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
+            }
+        }
+        if self.boundary.repeats(0) || self.boundary.repeats(1) {
+            let shortest = pitch.map(|pitch| std::f64::consts::PI / pitch);
+            chequered = chequered.min(response.harmonic_displacement(shortest[0], shortest[1]));
+        }
+        [influence.at(0.0, 0.0), chequered]
+    }
+
+    /// Depth that the cell which is in contact longest loses in a pass to a pressure of 1, of both bodies, m/Pa.
+    fn relaxation(&self, pass: &Pass, distance: Metre) -> f64 {
+        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+        let mut count = [&pass.pair.lower, &pass.pair.upper].map(|body| vec![0_u32; body.heights.len()]);
+        for contact in &pass.contacts {
+            for &(cell, _) in &contact.pressure {
+                let cells = pass.pair.cells_of_bodies(&contact.position, cell as usize);
+                count.iter_mut().zip(cells).for_each(|(count, cell)| count[cell] += 1);
+            }
+        }
+        let longest = count.map(|count| count.into_iter().max().map_or(0.0, f64::from) * distance);
+        let wear = |law: &dyn Law| {
+            let per_pressure = law.per_pressure(friction);
+            per_pressure[0] * longest[0] + per_pressure[1] * longest[1]
+        };
+        self.laws.iter().map(|law| wear(law.as_ref())).sum()
     }
 
     /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
@@ -208,13 +422,14 @@ impl Simulation {
         outputs: &mut [&mut dyn Output],
     ) -> Result<()> {
         let record = pass.record();
-        let SolvedPass { outcome: Pass { contacts, pair, .. }, steps, guess, .. } = pass;
+        let SolvedPass { outcome: Pass { contacts, pair, .. }, steps, guess, jump, represented, .. } = pass;
+        let warm = WarmStart::new(guess, &contacts, jump, represented);
         for output in outputs.iter_mut() {
             let sliding = self.motion.sliding();
-            let (record, steps, contacts, pair) = (&record, &steps, &contacts, &pair);
-            output.pass(&PassReport { record, steps, contacts, pair, sliding, guess })?;
+            let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);
+            output.pass(&PassReport { record, steps, contacts, pair, sliding, warm })?;
         }
-        self.warm = WarmStart::new(guess, &contacts);
+        self.warm = warm;
         self.pair = pair;
         self.passes_done = record.pass;
         watch.pass(&record);
@@ -222,11 +437,11 @@ impl Simulation {
     }
 
     /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
-    fn solve_pass(&self, pass: usize, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+    fn solve_pass(&self, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
         let mut earlier: Vec<Vec<Contact>> =
             self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
         let progress = Progress {
-            pass,
+            pass: self.represented() + 1,
             passes: self.motion.passes,
             trial: 1,
             solved: 0,
@@ -457,6 +672,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         largest_spot_cells: steps.iter().map(|s| s.largest_spot_cells).max().unwrap_or(0),
         max_pressure: most(|s| s.max_pressure),
         lost: outcome.lost.clone(),
+        running: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),
         sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),
@@ -471,7 +687,6 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
 mod tests {
     use super::*;
     use crate::material::Material;
-    use crate::motion::PlasticUpdate;
     use crate::solver::Method;
     use crate::surface::{Amplitude, SelfAffine};
 
@@ -500,6 +715,8 @@ mod tests {
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-6,
             friction: None,
+            speed: None,
+            bulk: None,
         };
         let mut simulation = Simulation::new(
             pair,
@@ -534,6 +751,8 @@ mod tests {
             plastic_update: PlasticUpdate::Pass,
             load_tolerance: 1e-4,
             friction: None,
+            speed: None,
+            bulk: None,
         };
         for method in [Method::Direct, Method::ActiveSet] {
             let params = Params { method, ..Params::default() };

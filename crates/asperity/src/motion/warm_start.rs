@@ -1,6 +1,7 @@
 //! The warm start that a pass leaves to the next besides the bodies.
 
 use crate::motion::contact::Contact;
+use crate::motion::jump::Jump;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::solver::Stats;
@@ -15,6 +16,10 @@ pub struct WarmStart {
     pub guess: Option<Guess>,
     /// The bearing cells at each position of the last pass; nothing before the first.
     pub positions: Vec<Bearing>,
+    /// The last jump; none before the first pass, nor where nothing wears.
+    pub jump: Option<Jump>,
+    /// Passes of the motion that are done.
+    pub represented: usize,
 }
 
 /// A guess with which the search for the approach of a pass begins.
@@ -40,9 +45,14 @@ pub struct Bearing {
 
 impl WarmStart {
     /// The warm start that the contacts of a pass leave.
-    pub(super) fn new(guess: Option<Guess>, contacts: &[Contact]) -> Self {
+    pub(super) fn new(
+        guess: Option<Guess>,
+        contacts: &[Contact],
+        jump: Option<Jump>,
+        represented: usize,
+    ) -> Self {
         let bearing = |c: &Contact| Bearing { approach: c.approach, pressure: c.pressure.clone() };
-        Self { guess, positions: contacts.iter().map(bearing).collect() }
+        Self { guess, positions: contacts.iter().map(bearing).collect(), jump, represented }
     }
 
     /// The contacts from which the positions begin, which have cost nothing yet; none before the first pass.

@@ -31,6 +31,6 @@ pub use rest::{NamedField, Rest, RestFields, rest};
 pub use results::{Existing, PassWriter, Results, Writer, cap_name, pressure_name, traction_name};
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
-pub use summary::{Outcome, Summary};
+pub use summary::{Outcome, RunningIn, Summary};
 pub use sweep::SweepWriter;
 pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};

@@ -53,7 +53,9 @@ impl Passes {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
                 simulation
             }
-            done if done >= motion.passes => simulation,
+            _ if output.passes().iter().map(PassRecord::represents).sum::<usize>() >= motion.passes => {
+                simulation
+            }
             done => {
                 let mut pair = simulation.pair().clone();
                 let [lower, upper] = writer.results().surfaces_after(done)?;
@@ -71,6 +73,11 @@ impl Passes {
         self.output.passes()
     }
 
+    /// Passes of the motion that are done: those that the finished ones stand for.
+    fn represented(&self) -> usize {
+        self.done().iter().map(PassRecord::represents).sum()
+    }
+
     /// The motion, with the bodies as they are now.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
@@ -81,7 +88,7 @@ impl Passes {
     /// # Errors
     /// Those of [`Simulation::solve`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
-        match self.done().len() < self.motion.passes {
+        match self.represented() < self.motion.passes {
             true => self.simulation.solve(watch).map(Some),
             false => Ok(None),
         }
@@ -111,5 +118,6 @@ impl Passes {
 }
 
 fn simulation(case: &Case, pair: Pair, motion: Motion) -> Result<Simulation> {
-    Simulation::new(pair, case.contact.boundary, motion, params(case))?.with_rim(case.output.rim)
+    let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
+    case.running(simulation.with_rim(case.output.rim)?)
 }

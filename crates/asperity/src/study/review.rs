@@ -3,8 +3,9 @@
 use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
+use crate::motion::{Acceleration, Interior, LoadedContact, Pair, PassRecord, SweepRecord};
 use crate::operator::Boundary;
+use crate::units::{self, Dimension};
 
 /// The warnings of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
@@ -49,7 +50,35 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
 /// The warnings of a motion of bodies of these `shapes`, by its passes.
 pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
-    ploughed(case, shapes, passes).into_iter().chain(too_few_cells(largest)).collect()
+    let all = ploughed(case, shapes, passes).into_iter().chain(too_few_cells(largest));
+    all.chain(thick_films(passes)).chain(all_computed(case, passes)).collect()
+}
+
+/// The warning that a film is thicker than the roughness that it stands on, whose contact it then is.
+fn thick_films(passes: &[PassRecord]) -> Option<String> {
+    let last = passes.last()?;
+    let running = last.running?;
+    let bodies = [
+        ("lower", running.mean_film_lower, last.sq_lower),
+        ("upper", running.mean_film_upper, last.sq_upper),
+    ];
+    let (name, film, sq) = bodies.into_iter().find(|(_, film, sq)| film > sq)?;
+    let [film, sq] = [film, sq].map(|length| units::format(length, Dimension::Length));
+    Some(format!(
+        "the film on the {name} body is thicker, {film}, than the body is rough, {sq}: it is taken to be as stiff as the body"
+    ))
+}
+
+/// The warning that every pass was computed where few would have done.
+fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
+    /// Passes from which on it is worth a word.
+    const MANY: usize = 100;
+    let strategy = case.motion?.strategy;
+    let repeats = Acceleration::repeats(&strategy);
+    let all = case.acceleration.is_none() && case.runs_in() && passes.len() >= MANY;
+    (all && repeats).then(|| {
+        format!("all {} passes were computed: with `[acceleration]` one stands for many, within an error that is told", passes.len())
+    })
 }
 
 /// The warning that most of the plastic volume is lost at the free ends, more than their area accounts for.

@@ -16,7 +16,7 @@ use crate::study::prepare::{Bodies, bodies};
 use crate::study::rest;
 use crate::study::results::{Existing, Writer};
 use crate::study::subsurface::SubsurfaceRecord;
-use crate::study::summary::{Outcome, Summary};
+use crate::study::summary::{Outcome, RunningIn, Summary};
 
 /// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`, which is the writer's until
 /// that is dropped: figures may be added to them.
@@ -74,7 +74,12 @@ pub(super) fn conclude(
     if case.output.paraview {
         writer.write_for_paraview()?;
     }
+    let running_in = match &outcome {
+        Outcome::Passes(passes) => RunningIn::of(passes),
+        Outcome::Static(_) | Outcome::Sweep(_) => None,
+    };
     let summary = Summary {
+        running_in,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,

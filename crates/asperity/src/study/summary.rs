@@ -1,5 +1,6 @@
 //! `summary.json`: what was computed, in numbers.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize, Serializer};
@@ -8,7 +9,7 @@ use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::motion::{PassRecord, StaticRecord, SweepRecord};
-use crate::units::Second;
+use crate::units::{CubicMetre, Metre, Second};
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +22,9 @@ pub struct Summary {
     /// The outcome, in the file under the key `static`, `sweep` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
+    /// What the passes of bodies that wear or grow films come to together; none of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub running_in: Option<RunningIn>,
     /// The most stressed point, of a static contact once, of a motion for each pass; none where the stress was not
     /// wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -29,6 +33,42 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Time the whole computation took.
     pub wall_time_s: Second,
+}
+
+/// The passes of bodies that wear or grow films, together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct RunningIn {
+    /// Passes that were computed.
+    pub computed: usize,
+    /// Passes of the motion that they stand for.
+    pub represented: usize,
+    /// How far heights may be off of not computing the others: the sum of the estimates, m.
+    pub error_bound: Metre,
+    /// Volumes that the lower and the upper body have lost to each law; below 0 where a film has grown.
+    pub lost: BTreeMap<String, [CubicMetre; 2]>,
+}
+
+impl RunningIn {
+    /// Of these passes, if bodies wear or grow films in them.
+    pub(super) fn of(passes: &[PassRecord]) -> Option<Self> {
+        passes.first()?.running?;
+        let mut lost = BTreeMap::<String, [CubicMetre; 2]>::new();
+        for volumes in passes.iter().flat_map(|pass| &pass.lost) {
+            let sum = lost.entry(volumes.law.clone()).or_default();
+            sum.iter_mut().zip(volumes.whole).for_each(|(sum, volume)| *sum += volume);
+        }
+        Some(Self {
+            computed: passes.len(),
+            represented: passes.iter().map(PassRecord::represents).sum(),
+            error_bound: passes
+                .iter()
+                .filter_map(|pass| pass.running)
+                .map(|running| running.error_estimate)
+                .sum(),
+            lost,
+        })
+    }
 }
 
 /// What was computed.
@@ -105,6 +145,7 @@ mod tests {
         let summary = Summary {
             version: "0.1.0".into(),
             case: serde_json::json!({"contact": {"load": 2.0}}),
+            running_in: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {
                 pass: None,

@@ -148,7 +148,10 @@ pub(super) fn read_increments(path: &Path) -> Result<Vec<IncrementRecord>> {
 /// # Errors
 /// [`Error::File`].
 pub(super) fn write_steps(path: &Path, steps: &[StepRecord]) -> Result<()> {
-    write(path, &STEP_COLUMNS, steps)
+    let rows: Vec<Row> = steps.iter().map(Row::of).collect();
+    let columns = rows.first().map_or(STEP_COLUMNS.to_vec(), Row::columns);
+    let values: Vec<_> = rows.iter().map(|row| row.values(&columns)).collect();
+    write(path, &columns, &values)
 }
 
 /// Reads `steps.csv`, to resume.
@@ -272,6 +275,7 @@ mod tests {
             contact_area_interior: 0.0,
             largest_spot_cells: 1,
             max_pressure: 4e9,
+            heat: None,
             plastic_cells: 0,
             plastic_volume: 0.0,
             plastic_volume_interior: 0.0,
@@ -283,6 +287,7 @@ mod tests {
 
     fn pass() -> PassRecord {
         PassRecord {
+            running: None,
             pass: 1,
             approach: 1e-7,
             mean_load: 2.0,

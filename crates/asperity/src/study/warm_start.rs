@@ -1,25 +1,45 @@
 //! Where a motion begins its next pass: the file from which a run goes on with the same bits.
 //!
 //! ```text
-//! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed)
+//! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed);
+//!                represented, the passes of the motion that are done; jump, those that the last one stands for
 //! /approach      of each position, m
 //! /bearing       cells with p > 0 at each position
 //! /cell          those cells, position by position: flat index
 //! /pressure      their pressure, Pa
+//! /sum_lower_1_1 what the first law that repeats has summed first over the last pass of the lower body; and so on, where
+//!                bodies wear or grow films
 //! ```
 
 use std::path::Path;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::io::fields::{Attribute, FieldFile, Fields};
-use crate::motion::{Bearing, Guess, WarmStart};
+use crate::motion::{Bearing, Guess, Jump, WarmStart};
 
 /// Writes where the pass after `pass` begins into `file`, which says of which run it is.
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn write(mut file: FieldFile, path: &Path, pass: usize, warm: &WarmStart) -> Result<()> {
-    file.set("pass", pass);
+pub(super) fn write(
+    mut file: FieldFile,
+    path: &Path,
+    pass: usize,
+    grids: &[Grid; 2],
+    warm: &WarmStart,
+) -> Result<()> {
+    file.set("pass", pass).set("represented", warm.represented);
+    if let Some(jump) = &warm.jump {
+        file.set("jump", jump.passes);
+        for (law, sums) in jump.sums.iter().enumerate() {
+            for (body, grid) in grids.iter().enumerate() {
+                for (index, sum) in sums[body].iter().enumerate() {
+                    file.add_field(&sum_name(law, body, index), "1", grid, [0.0, 0.0], sum);
+                }
+            }
+        }
+    }
     if let Some(Guess { approach, slope }) = warm.guess {
         file.set("approach", approach).set("slope", slope);
     }
@@ -38,6 +58,11 @@ pub(super) fn write(mut file: FieldFile, path: &Path, pass: usize, warm: &WarmSt
         }
     }
     file.write(path)
+}
+
+/// Name of the field of a sum of one of the laws that repeat over the last computed pass of a body; all are counted from 0.
+fn sum_name(law: usize, body: usize, index: usize) -> String {
+    format!("sum_{}_{}_{}", ["lower", "upper"][body], law + 1, index + 1)
 }
 
 /// Reads what [`write`] wrote.
@@ -68,5 +93,22 @@ pub(super) fn read(path: &Path) -> Result<WarmStart> {
     let positions = positions.collect();
     let guess = number("approach").zip(number("slope"));
     let guess = guess.map(|(approach, slope)| Guess { approach, slope });
-    Ok(WarmStart { guess, positions })
+    let count = |name: &str| match attributes.get(name) {
+        Some(Attribute::Integer(count)) => usize::try_from(*count).ok(),
+        _ => None,
+    };
+    let sums = |law: usize, body: usize| {
+        let known = (0..).map(|index| sum_name(law, body, index)).take_while(|name| names.contains(name));
+        let sum = |name: String| {
+            fields.read(&name)?.into_field().ok_or(Error::Unsupported("a sum that is not a matrix"))
+        };
+        known.map(sum).collect::<Result<Vec<_>>>()
+    };
+    let jump = count("jump").map(|passes| {
+        let laws = (0..).take_while(|law| names.contains(&sum_name(*law, 0, 0)));
+        let sums = laws.map(|law| Ok([sums(law, 0)?, sums(law, 1)?])).collect::<Result<_>>()?;
+        Ok::<_, Error>(Jump { passes, sums })
+    });
+    let represented = count("represented").or(count("pass")).unwrap_or(0);
+    Ok(WarmStart { guess, positions, jump: jump.transpose()?, represented })
 }

@@ -4,8 +4,8 @@ mod quantity;
 mod range;
 
 pub use quantity::{
-    Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number, format_within,
-    parse,
+    CELSIUS, Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number,
+    format_within, parse,
 };
 pub use range::{MAX_COUNT, NUMBERS, Range};
 
@@ -29,6 +29,8 @@ pub type Joule = f64;
 pub type MetrePerSecond = f64;
 /// Time in seconds.
 pub type Second = f64;
+/// Volume lost per load and distance slid, or per energy of friction, in 1/Pa.
+pub type PerPascal = f64;
 /// Absolute temperature, or a rise of it, in kelvins.
 pub type Kelvin = f64;
 /// Heat flow in watts.

@@ -23,6 +23,20 @@ pub enum Dimension {
     Time,
     /// Newtons per metre.
     Stiffness,
+    /// Volume lost per load and distance slid, or per energy of friction: 1/Pa, which is m³/(N m) and m³/J.
+    WearCoefficient,
+    /// A rate per pressure and distance slid, 1/(Pa m).
+    RemovalRate,
+    /// Kelvins; degrees Celsius are read.
+    Temperature,
+    /// Watts per metre and kelvin.
+    Conductivity,
+    /// Joules per kilogram and kelvin.
+    HeatCapacity,
+    /// Kilograms per cubic metre.
+    Density,
+    /// Watts.
+    Power,
 }
 
 /// Why a text is no quantity of the dimension wanted.
@@ -81,14 +95,24 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let not_a_quantity = || UnitError::NotAQuantity { text: text.to_owned(), expected };
     let Number { mantissa, exponent, rest } = split_number(trimmed).ok_or_else(not_a_quantity)?;
     let unit = rest.trim();
-    if unit.starts_with([',', '.', '_', '+', '-']) || unit.starts_with(|c: char| c.is_ascii_digit()) {
+    let is_number = unit.starts_with(|c: char| c.is_ascii_digit()) && !unit.starts_with("1/");
+    if is_number || unit.starts_with([',', '.', '_', '+', '-']) {
         return Err(not_a_quantity());
     }
     let (power_of_ten, factor) = if unit.is_empty() { (0, 1.0) } else { find_unit(text, unit, expected)? };
     let decimal = format!("{mantissa}e{}", exponent.saturating_add(power_of_ten));
     let value = decimal.parse::<f64>().map_err(|_| not_a_quantity())? * factor;
+    let is_celsius =
+        expected == Dimension::Temperature && !unit.is_empty() && unit != "K" && unit.ends_with('C');
+    let value = if is_celsius { value + CELSIUS } else { value };
     if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: text.to_owned(), expected }) }
 }
+
+/// The unit in which wear coefficients are told.
+const MM3_PER_NM: &str = "mm³/(N m)";
+
+/// 0 °C in kelvins.
+pub const CELSIUS: f64 = 273.15;
 
 /// Writes a quantity with four significant digits and the prefix that suits it: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
 ///
@@ -126,6 +150,9 @@ pub fn format_within(value: f64, dimension: Dimension, within: f64) -> String {
 pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String {
     if dimension == Dimension::Angle {
         return format!("{}°", decimal(value.to_degrees(), digits));
+    }
+    if dimension == Dimension::WearCoefficient {
+        return format!("{:e} {MM3_PER_NM}", round(value * 1e9, digits));
     }
     let Scale { base, power, .. } = dimension.scale();
     let suffix = base.suffix();
@@ -214,6 +241,13 @@ impl Dimension {
             Self::Angle => "an angle",
             Self::Time => "a time",
             Self::Stiffness => "a stiffness",
+            Self::WearCoefficient => "a volume per load and distance",
+            Self::RemovalRate => "a rate per pressure and distance",
+            Self::Temperature => "a temperature",
+            Self::Conductivity => "a thermal conductivity",
+            Self::HeatCapacity => "a heat capacity",
+            Self::Density => "a density",
+            Self::Power => "a power",
         }
     }
 
@@ -230,6 +264,13 @@ impl Dimension {
             Self::Angle => "5 deg",
             Self::Time => "1 ms",
             Self::Stiffness => "4 MN/m",
+            Self::WearCoefficient => "1e-7 mm3/(N m)",
+            Self::RemovalRate => "1e-11 1/(Pa m)",
+            Self::Temperature => "100 °C",
+            Self::Conductivity => "46 W/(m K)",
+            Self::HeatCapacity => "460 J/(kg K)",
+            Self::Density => "7850 kg/m3",
+            Self::Power => "2 W",
         }
     }
 
@@ -237,7 +278,7 @@ impl Dimension {
         format!("{} such as \"{}\"", self.noun(), self.example())
     }
 
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 17] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -248,6 +289,13 @@ impl Dimension {
         Self::Angle,
         Self::Time,
         Self::Stiffness,
+        Self::WearCoefficient,
+        Self::RemovalRate,
+        Self::Temperature,
+        Self::Conductivity,
+        Self::HeatCapacity,
+        Self::Density,
+        Self::Power,
     ];
 
     fn scale(self) -> Scale {
@@ -263,6 +311,13 @@ impl Dimension {
             Self::Angle => scale(Base::Of("rad"), 1, 0),
             Self::Time => scale(Base::Of("s"), 1, 0),
             Self::Stiffness => scale(Base::Of("N/m"), 1, 12),
+            Self::WearCoefficient => scale(Base::Of("1/Pa"), 1, 0),
+            Self::RemovalRate => scale(Base::Of("1/(Pa m)"), 1, 0),
+            Self::Temperature => scale(Base::Of("K"), 1, 0),
+            Self::Conductivity => scale(Base::Of("W/(m K)"), 1, 3),
+            Self::HeatCapacity => scale(Base::Of("J/(kg K)"), 1, 0),
+            Self::Density => scale(Base::Of("kg/m³"), 1, 0),
+            Self::Power => scale(Base::Of("W"), 1, 12),
         }
     }
 
@@ -270,6 +325,9 @@ impl Dimension {
     pub fn multiple(self, value: f64) -> Multiple {
         if self == Self::Angle {
             return Multiple { factor: std::f64::consts::PI / 180.0, symbol: "°".to_owned() };
+        }
+        if self == Self::WearCoefficient {
+            return Multiple { factor: 1e-9, symbol: MM3_PER_NM.to_owned() };
         }
         let Scale { base, power, .. } = self.scale();
         let (prefix, exponent) = self.prefix(round(value, 4)).unwrap_or(("", 0));
@@ -279,11 +337,27 @@ impl Dimension {
 
     /// The prefix that suits a value, and its exponent; none for what is below the least.
     fn prefix(self, value: f64) -> Option<(&'static str, i32)> {
+        if !self.takes_prefixes() {
+            return (1e-3..1e6).contains(&value.abs()).then_some(("", 0));
+        }
         let Scale { power, largest, .. } = self.scale();
         let suits = |exponent: i32| value.abs() >= 10f64.powi(power * exponent) * self.smallest(exponent);
         let prefixes =
             PREFIXES.iter().rev().filter(|(_, exponent)| *exponent <= largest && exponent % 3 == 0);
         prefixes.copied().find(|(_, exponent)| suits(*exponent))
+    }
+
+    /// Whether its unit is written with prefixes.
+    fn takes_prefixes(self) -> bool {
+        !matches!(
+            self,
+            Self::WearCoefficient
+                | Self::RemovalRate
+                | Self::Temperature
+                | Self::Conductivity
+                | Self::HeatCapacity
+                | Self::Density
+        )
     }
 
     /// The smallest number written with the prefix 10^`exponent`.
@@ -304,6 +378,34 @@ impl Dimension {
             Self::Pressure => &[("bar", 5, 1.0), ("N/mm²", 6, 1.0), ("N/mm2", 6, 1.0), ("N/mm^2", 6, 1.0)],
             Self::Angle => &[("deg", 0, PI / 180.0), ("°", 0, PI / 180.0)],
             Self::Time => &[("min", 0, 60.0), ("h", 0, 3600.0)],
+            Self::Energy => &[("eV", -19, 1.602176634)],
+            Self::WearCoefficient => &[
+                ("mm3/(N m)", -9, 1.0),
+                ("mm³/(N m)", -9, 1.0),
+                ("mm^3/(N m)", -9, 1.0),
+                ("mm3/Nm", -9, 1.0),
+                ("mm³/Nm", -9, 1.0),
+                ("mm3/N/m", -9, 1.0),
+                ("m3/(N m)", 0, 1.0),
+                ("m2/N", 0, 1.0),
+                ("m²/N", 0, 1.0),
+                ("mm3/J", -9, 1.0),
+                ("mm³/J", -9, 1.0),
+                ("m3/J", 0, 1.0),
+            ],
+            Self::RemovalRate => &[("1/Pa/m", 0, 1.0), ("1/(Pa*m)", 0, 1.0)],
+            Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
+            Self::HeatCapacity => {
+                &[("J/kg/K", 0, 1.0), ("J/(kgK)", 0, 1.0), ("J/kgK", 0, 1.0), ("J/(g K)", 3, 1.0)]
+            }
+            Self::Density => &[
+                ("kg/m3", 0, 1.0),
+                ("kg/m^3", 0, 1.0),
+                ("g/cm3", 3, 1.0),
+                ("g/cm³", 3, 1.0),
+                ("g/cm^3", 3, 1.0),
+            ],
+            Self::Temperature => &[("°C", 0, 1.0), ("degC", 0, 1.0), ("C", 0, 1.0)],
             _ => &[],
         }
     }
@@ -327,6 +429,7 @@ impl Dimension {
         let known = |exponent: i32| exponent % 3 == 0 || base.symbol() == "m";
         let exponent = match prefix {
             "" => 0,
+            _ if !self.takes_prefixes() => return None,
             "u" | "\u{3bc}" => -6,
             _ => PREFIXES.iter().find(|(name, exponent)| *name == prefix && known(*exponent))?.1,
         };
@@ -396,6 +499,7 @@ fn suggest(unit: &str, expected: Dimension) -> Option<String> {
     let mut candidates: Vec<_> = PREFIXES
         .iter()
         .filter(|(_, exponent)| exponent % 3 == 0 && *exponent <= largest)
+        .filter(|(prefix, _)| prefix.is_empty() || expected.takes_prefixes())
         .map(|(prefix, _)| format!("{prefix}{}{}", base.symbol(), base.suffix()))
         .collect();
     if expected == Dimension::Pressure {
@@ -460,7 +564,10 @@ fn decimal(value: f64, digits: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Dimension::{Angle, Area, Energy, Force, Length, Pressure, Speed, Time, Volume};
+    use super::Dimension::{
+        Angle, Area, Conductivity, Density, Energy, Force, HeatCapacity, Length, Pressure, RemovalRate,
+        Speed, Temperature, Time, Volume, WearCoefficient,
+    };
     use super::*;
 
     #[test]
@@ -503,6 +610,17 @@ mod tests {
             ("4 um2", Area, 4e-12),
             ("8 µm³", Volume, 8e-18),
             ("3 nJ", Energy, 3e-9),
+            ("0.8 eV", Energy, 0.8 * 1.602176634e-19),
+            ("3.8e-3 nm3", Volume, 3.8e-30),
+            ("1e-7 mm3/(N m)", WearCoefficient, 1e-16),
+            ("1e-6 mm3/J", WearCoefficient, 1e-15),
+            ("1e-11 1/(Pa m)", RemovalRate, 1e-11),
+            ("100 °C", Temperature, 373.15),
+            ("300 K", Temperature, 300.0),
+            ("46 W/(m K)", Conductivity, 46.0),
+            ("0.46 J/(g K)", HeatCapacity, 460.0),
+            ("7850 kg/m3", Density, 7850.0),
+            ("7.85 g/cm3", Density, 7850.0),
         ] {
             assert_eq!(parse(text, dimension), Ok(value), "{text}");
         }

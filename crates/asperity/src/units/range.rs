@@ -36,6 +36,13 @@ impl Dimension {
             Self::Angle => (1e-15, 1e6, "rad"),
             Self::Time => (1e-15, 1e15, "s"),
             Self::Stiffness => (1e-21, 1e21, "N/m"),
+            Self::WearCoefficient => (1e-30, 1e-3, "1/Pa"),
+            Self::RemovalRate => (1e-30, 1e9, "1/(Pa m)"),
+            Self::Temperature => (1e-3, 1e5, "K"),
+            Self::Conductivity => (1e-6, 1e6, "W/(m K)"),
+            Self::HeatCapacity => (1e-3, 1e9, "J/(kg K)"),
+            Self::Density => (1e-3, 1e6, "kg/m³"),
+            Self::Power => (1e-18, 1e15, "W"),
         };
         Range { least, most, unit }
     }

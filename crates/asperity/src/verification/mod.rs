@@ -25,6 +25,7 @@ mod operators;
 mod partial_slip;
 mod rolling;
 mod rough;
+mod running_in;
 mod shear;
 mod sinusoid;
 mod smooth;
@@ -157,6 +158,8 @@ pub const CASES: &[Case] = &[
     heat::HERTZIAN,
     heat::TRANSIENT,
     heat::DIVISION,
+    running_in::GROOVES,
+    running_in::FILM_GROWTH,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.

@@ -60,6 +60,8 @@ cases! {
     heat_spreads_as_displacement_does: "Hertzian flux at rest",
     a_moving_square_comes_to_its_steady_temperature: "moving square, step by step",
     equal_bodies_share_heat_and_none_is_lost: "heat: divided, and all of it",
+    grooves_wear_as_a_power_of_e: "grooves wear: A₀ e^(−(k₁+k₂)E*πs/L)",
+    a_film_tends_to_its_steady_thickness: "a film grows",
 }
 
 fn holds(name: &str) {

@@ -22,7 +22,7 @@ impl Law for Wear {
         "wear"
     }
 
-    fn prepare(&self, pair: &mut Pair) {
+    fn prepare(&mut self, pair: &mut Pair) {
         let zeros = Field::zeros(pair.lower.heights.raw_dim());
         let state = || State { unit: "m".to_owned(), values: zeros };
         pair.lower.state.entry("slid".to_owned()).or_insert_with(state);
@@ -133,7 +133,7 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     struct Warm(Kept, Option<asperity::motion::WarmStart>);
     impl Output for Warm {
         fn pass(&mut self, report: &PassReport) -> Result<()> {
-            self.1 = Some(report.warm_start());
+            self.1 = Some(report.warm.clone());
             self.0.pass(report)
         }
     }

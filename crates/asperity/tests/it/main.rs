@@ -19,6 +19,7 @@ mod moving_surfaces;
 mod random_motions;
 mod real_surface;
 mod response;
+mod running_in;
 mod sliding;
 mod solver;
 mod subsurface;

@@ -724,7 +724,7 @@ impl Output for Kept {
         self.steps.extend_from_slice(report.steps);
         self.pairs.push(report.pair.clone());
         self.mean_pressure.push(report.mean_pressure());
-        self.warm_starts.push(report.warm_start());
+        self.warm_starts.push(report.warm.clone());
         Ok(())
     }
 }

@@ -199,6 +199,12 @@ impl<'a> Entry<'a> {
         self.number_or_infinite(|value| value.is_finite() && good(value), expected)
     }
 
+    /// A number without a unit, of any magnitude: a constant whose unit has no name.
+    pub(super) fn number_of_any_size(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
+        let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?;
+        if value.is_finite() && good(value) { Ok(value) } else { Err(self.unexpected(expected, None)) }
+    }
+
     /// A number without a unit, or infinity.
     pub(super) fn number_or_infinite(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
         let value = match self.value.as_str() {

@@ -5,9 +5,38 @@ use super::document::join;
 use crate::error::Result;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 9] = [
-    ("lower", &["young", "poisson", "hardness", "coating", "topography"]),
-    ("upper", &["young", "poisson", "hardness", "coating", "topography", "mount"]),
+const TABLES: [(&str, &[&str]); 15] = [
+    (
+        "lower",
+        &[
+            "young",
+            "poisson",
+            "hardness",
+            "coating",
+            "topography",
+            "wear",
+            "film",
+            "conductivity",
+            "heat_capacity",
+            "density",
+        ],
+    ),
+    (
+        "upper",
+        &[
+            "young",
+            "poisson",
+            "hardness",
+            "coating",
+            "topography",
+            "mount",
+            "wear",
+            "film",
+            "conductivity",
+            "heat_capacity",
+            "density",
+        ],
+    ),
     ("lower.coating", &["thickness", "young", "poisson"]),
     ("upper.coating", &["thickness", "young", "poisson"]),
     (
@@ -35,6 +64,7 @@ const TABLES: [(&str, &[&str]); 9] = [
             "control",
             "plastic_update",
             "load_tolerance",
+            "speed",
         ],
     ),
     (
@@ -56,6 +86,32 @@ const TABLES: [(&str, &[&str]); 9] = [
     ),
     ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
     ("output", &["pressure_every", "rim", "paraview"]),
+    ("acceleration", &["tolerance", "max_jump", "max_wear"]),
+    ("temperature", &["bulk", "every"]),
+    ("lower.wear", WEAR),
+    ("upper.wear", WEAR),
+    ("lower.film", FILM),
+    ("upper.film", FILM),
+];
+
+/// The keys of a body's wear.
+const WEAR: &[&str] = &["coefficient", "dimensionless", "energy", "under_film"];
+
+/// The keys of a body's film.
+const FILM: &[&str] = &[
+    "law",
+    "max_thickness",
+    "rate",
+    "at_temperature",
+    "at_stress",
+    "activation_energy",
+    "activation_volume",
+    "stress",
+    "removal",
+    "hardness",
+    "x",
+    "c3",
+    "c4",
 ];
 
 /// The keys that each kind of topography has beyond the common ones.

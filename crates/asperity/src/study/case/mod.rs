@@ -10,6 +10,7 @@ mod hardness;
 mod keys;
 mod parse;
 mod prescribed;
+mod running;
 mod source;
 mod subsurface;
 mod sweep;
@@ -23,6 +24,7 @@ use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{GivenMap, Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
+pub use self::running::{FilmKeys, FilmSpec, TemperatureSpec, WearKey, WearSpec};
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 pub use self::sweep::Sweep;
@@ -30,9 +32,10 @@ use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::material::{Coating, Material};
-use crate::motion::{LoadControl, Motion, PlasticUpdate, Strategy};
+use crate::motion::{Acceleration, LoadControl, Motion, PlasticUpdate, Strategy};
 pub use crate::operator::{Boundary, Edge};
 pub use crate::solver::Method;
+use crate::temperature::Thermal;
 use crate::units::SquareMetre;
 
 /// A case, resolved to SI.
@@ -57,6 +60,12 @@ pub struct Case {
     /// How they move; a static contact if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
+    /// How many passes a computed one may stand for; each is computed if absent.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "with_jumps")]
+    pub acceleration: Option<Acceleration>,
+    /// Temperatures of the bodies; not known if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<TemperatureSpec>,
     /// What is looked at under the surface; nothing if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
@@ -75,6 +84,15 @@ pub struct Body {
     pub material: Material,
     /// The most pressure that the body's cells bear; infinite where the file gives none.
     pub hardness: Hardness,
+    /// What it conducts and stores of heat; not known if absent.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<Thermal>,
+    /// How it wears; not at all if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wear: Option<WearSpec>,
+    /// The tribofilm that grows on it; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub film: Option<FilmSpec>,
     /// The body's surface.
     pub topography: TopographySpec,
     /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
@@ -145,6 +163,9 @@ pub struct MotionSpec {
     pub plastic_update: PlasticUpdate,
     /// Relative, on the pass-mean load, 0 < tolerance < 1.
     pub load_tolerance: f64,
+    /// Speed of the upper body over the lower one in an overlap, where it is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
 }
 
 /// The control of a motion without its value.
@@ -260,6 +281,8 @@ impl Case {
             plastic_update: spec.plastic_update,
             load_tolerance: spec.load_tolerance,
             friction: self.friction.as_ref().map(|friction| friction.law),
+            speed: spec.speed,
+            bulk: self.temperature.map(|temperature| temperature.bulk),
         })
     }
 
@@ -311,6 +334,24 @@ fn with_infinities<S: Serializer>(
     }
     let Material { young, poisson, coating, .. } = *material;
     Keys { young: young.into(), poisson, coating }.serialize(serializer)
+}
+
+fn with_jumps<S: Serializer>(
+    acceleration: &Option<Acceleration>,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        tolerance: f64,
+        max_jump: usize,
+        max_wear: f64,
+    }
+    let keys = acceleration.map(|Acceleration { tolerance, max_jump, max_wear, .. }| Keys {
+        tolerance,
+        max_jump,
+        max_wear,
+    });
+    keys.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

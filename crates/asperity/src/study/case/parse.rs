@@ -8,6 +8,7 @@ use super::friction::friction;
 use super::hardness::hardness;
 use super::keys::{belongs, known_in, known_of_topographies, suits};
 use super::prescribed::prescribed;
+use super::running;
 use super::subsurface::subsurface;
 use super::sweep::{self, sweep};
 use super::{
@@ -17,7 +18,7 @@ use super::{
 use crate::error::Result;
 use crate::grid::MAX_CELLS;
 use crate::material::{self, Coating, Material};
-use crate::motion::{PlasticUpdate, Strategy};
+use crate::motion::{Acceleration, PlasticUpdate, Strategy};
 use crate::solver::Coupling;
 use crate::surface::UNDERSIDE;
 use crate::surface::{
@@ -47,8 +48,19 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
     /// The tables and keys of the root of a case file.
-    const ROOT: [&str; 9] =
-        ["title", "lower", "upper", "contact", "friction", "history", "motion", "subsurface", "output"];
+    const ROOT: [&str; 11] = [
+        "title",
+        "lower",
+        "upper",
+        "contact",
+        "friction",
+        "history",
+        "motion",
+        "acceleration",
+        "temperature",
+        "subsurface",
+        "output",
+    ];
     root.known(&ROOT, |key| belongs(key, ""))?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),
@@ -80,6 +92,11 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         let message = "surfaces of equal speeds do not slide over each other".to_owned();
         return Err(root.required_table("friction")?.error(message, Some(hint)));
     }
+    running::runs_in(&root, [&lower, &upper], motion.as_ref())?;
+    let acceleration =
+        root.table("acceleration")?.map(|table| accelerated(&table, [&lower, &upper], motion.as_ref()));
+    let acceleration = acceleration.transpose()?;
+    let temperature = running::temperature(&root, [&lower, &upper], motion.as_ref())?;
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
@@ -101,7 +118,36 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         pressed_alone(&root, &contact, friction.as_ref(), motion.is_some())?;
     }
     let output = output(root.table("output")?.as_ref())?;
-    Ok(Case { title, lower, upper, contact, friction, history, motion, subsurface, output, document })
+    Ok(Case {
+        title,
+        lower,
+        upper,
+        contact,
+        friction,
+        history,
+        motion,
+        acceleration,
+        temperature,
+        subsurface,
+        output,
+        document,
+    })
+}
+
+/// `[acceleration]`, of bodies that run in by passes that repeat.
+fn accelerated(table: &Table<'_>, bodies: [&Body; 2], motion: Option<&MotionSpec>) -> Result<Acceleration> {
+    let acceleration = running::acceleration(table)?;
+    if bodies.iter().all(|body| body.wear.is_none() && body.film.is_none()) {
+        let hint = "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out".to_owned();
+        return Err(table.error("[acceleration] is of bodies that wear or grow films".to_owned(), Some(hint)));
+    }
+    if acceleration.max_jump > 1 && motion.is_some_and(|motion| !Acceleration::repeats(&motion.strategy)) {
+        let hint = "set `max_jump = 1`, or speeds of which one is 0 or which are equal".to_owned();
+        let message =
+            "surfaces that do not move by whole rounds meet anew in each pass: no pass stands for others";
+        return Err(table.error(message.to_owned(), Some(hint)));
+    }
+    Ok(acceleration)
 }
 
 /// What a coated body answers to is a pressure, on a surface that is free or periodic: an error where more is asked for.
@@ -220,6 +266,9 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     let poisson = poisson(table)?;
     let hardness = hardness(table, folder)?;
     let coating = table.table("coating")?.map(|table| coating(&table)).transpose()?;
+    let film = table.table("film")?.map(|table| running::film(&table, &hardness)).transpose()?;
+    let wear =
+        table.table("wear")?.map(|table| running::wear(&table, &hardness, film.as_ref())).transpose()?;
     let topography = topography(&table.required_table("topography")?, folder)?;
     let mount = match table.get("mount") {
         Some(entry) => Some(entry.choice()?),
@@ -229,7 +278,8 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     };
     // Checked above, entry by entry: this can find nothing new.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
-    Ok(Body { material, hardness, topography, mount })
+    let thermal = running::thermal(table)?;
+    Ok(Body { material, hardness, thermal, wear, film, topography, mount })
 }
 
 fn poisson(table: &Table<'_>) -> Result<f64> {
@@ -545,7 +595,18 @@ fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Re
         control: control(table, contact.prescribed)?,
         plastic_update: table.choice_or("plastic_update", PlasticUpdate::Pass)?,
         load_tolerance: fraction_or(table, "load_tolerance", 1e-4)?,
+        speed: speed(table, is_shift)?,
     })
+}
+
+/// The speed of the upper body, of an overlap alone.
+fn speed(table: &Table<'_>, is_shift: bool) -> Result<Option<f64>> {
+    let Some(entry) = table.get("speed") else { return Ok(None) };
+    if is_shift {
+        let hint = "a shift has `speed_lower` and `speed_upper`".to_owned();
+        return Err(entry.error("'speed' belongs to strategy = \"overlap\"".to_owned(), Some(hint)));
+    }
+    entry.positive(Dimension::Speed).map(Some)
 }
 
 fn overlap(table: &Table<'_>) -> Result<Strategy> {

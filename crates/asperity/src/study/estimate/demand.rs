@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::material::Compliances;
 use crate::motion::{PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
-use crate::solver::{Coupling, Friction, Method, Sliding};
+use crate::solver::{Control, Coupling, Friction, Method, Sliding};
 use crate::study::case::{Body, Case, ControlKind, Layer, LoadingPath, Source};
 use crate::study::given::Given;
 use crate::study::prepare::grids;
@@ -196,6 +196,32 @@ impl Sizes<'_> {
     }
 
     /// The work, in units of a cell times the binary logarithm of the cells of its contact.
+    /// How many of so many passes are computed, about: as many as stability and the deepest wear of a jump want.
+    fn computed_passes(&self, passes: usize) -> f64 {
+        /// Depth that the cell which wears the most loses, over the mean.
+        const DEEPEST: f64 = 8.0;
+        let (case, passes) = (self.case, passes as f64);
+        let (Some(acceleration), Some(compliances)) = (case.acceleration, self.compliances()) else {
+            return passes;
+        };
+        let [nx, ny] = self.facing();
+        let area = nx * ny * self.lower.cell_area();
+        let Some(motion) = case.motion(area) else { return passes };
+        let friction = case.friction.as_ref().map_or(0.0, |friction| friction.law.coefficient);
+        let worn: f64 =
+            [&case.lower, &case.upper].into_iter().map(|body| body.wear_per_pressure(friction)).sum();
+        let slid = self.overlaps.len() as f64 * motion.sliding_distance(self.lower.pitch[0]);
+        let mean = match motion.control {
+            Control::Load(load) => load / area,
+            Control::Approach(_) => 0.0,
+        };
+        let stable =
+            0.45 * self.lower.pitch[0].min(self.lower.pitch[1]) / (compliances.modulus() * worn * slid);
+        let shallow = acceleration.max_wear / (DEEPEST * worn * mean * slid);
+        let jump = stable.min(shallow).min(acceleration.max_jump as f64).min(passes).max(1.0);
+        passes.min(passes / jump + jump.log2())
+    }
+
     fn effort(&self, threads: usize) -> f64 {
         let case = self.case;
         let ny = self.lower.shape[1] as f64;
@@ -218,7 +244,7 @@ impl Sizes<'_> {
                 };
                 let sliding = if self.is_coupled() { 8.0 } else { 1.0 };
                 let at_once = threads.clamp(1, self.overlaps.len().max(1)) as f64;
-                motion.passes as f64 * searches * sliding * normal * all / at_once.powf(0.85)
+                self.computed_passes(motion.passes) * searches * sliding * normal * all / at_once.powf(0.85)
             }
             (None, friction) => {
                 let [nx, ny] = self.facing();
@@ -249,7 +275,7 @@ impl Sizes<'_> {
         if let Some(spec) = &case.subsurface {
             let [nx, _] = self.facing();
             let tractions = if case.friction.is_some() { 2.0 } else { 1.0 };
-            let passes = case.motion.map_or(1, |motion| motion.passes) as f64;
+            let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
             effort += passes * STRESS * tractions * (spec.layers + spec.planes.len()) as f64 * work(nx);
         }
         let made: f64 = self.making().iter().map(|[cells, _]| cells * cells.max(2.0).log2()).sum();

@@ -228,7 +228,8 @@ impl Output for PassWriter {
         }
         let passes = report.record.pass;
         let file = FieldFile::of_run(&self.identity);
-        warm_start::write(file, &results.warm_start_path(passes), passes, &report.warm_start())?;
+        let grids = [pair.lower_grid(), pair.upper_grid()];
+        warm_start::write(file, &results.warm_start_path(passes), passes, &grids, report.warm)?;
         self.steps.extend_from_slice(report.steps);
         self.passes.push(report.record.clone());
         tables::write_steps(&results.steps_path(), &self.steps)?;

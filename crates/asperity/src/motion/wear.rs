@@ -1,0 +1,163 @@
+//! Wear: what sliding takes off a body.
+
+use crate::error::{Error, Result, check_in};
+use crate::grid::Field;
+use crate::motion::film::{Film, Growing};
+use crate::motion::law::{Law, Touching};
+use crate::motion::pair::Pair;
+use crate::units::{Dimension, PerPascal};
+
+/// Name of the law of wear.
+pub(super) const WEAR: &str = "wear";
+
+/// What wears a body: the depth that a cell loses while it slides by ds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct WearCoefficient {
+    /// The coefficient of the bare body k₀, > 0.
+    pub bare: PerPascal,
+    /// The coefficient where its film is at its thickest k_f, 0 to k₀; the same as that of the bare body without one.
+    pub under_film: PerPascal,
+    /// What it is multiplied with.
+    pub driver: WearDriver,
+}
+
+/// What wears in proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WearDriver {
+    /// The pressure: k p ds, Archard's law.
+    Pressure,
+    /// The shear traction: α |q| ds, wear in proportion to the energy of friction.
+    Shear,
+}
+
+impl WearCoefficient {
+    /// Archard's law with the coefficient k in 1/Pa: volume over load and distance.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn archard(bare: PerPascal) -> Result<Self> {
+        Self { bare, under_film: bare, driver: WearDriver::Pressure }.checked()
+    }
+
+    /// Wear per energy of friction α in 1/Pa, which is m³/J.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn energy(bare: PerPascal) -> Result<Self> {
+        Self { bare, under_film: bare, driver: WearDriver::Shear }.checked()
+    }
+
+    /// The same with another coefficient where the film is at its thickest.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for one that is below 0 or above that of the bare body.
+    pub fn with_film(self, under_film: PerPascal) -> Result<Self> {
+        Self { under_film, ..self }.checked()
+    }
+
+    fn checked(self) -> Result<Self> {
+        let dimension = Dimension::WearCoefficient;
+        let finite = self.bare > 0.0 && self.bare.is_finite();
+        check_in(dimension, "coefficient", self.bare, finite, "a coefficient above 0")?;
+        let less = (0.0..=self.bare).contains(&self.under_film);
+        check_in(
+            dimension,
+            "under_film",
+            self.under_film,
+            less,
+            "a coefficient from 0 to that of the bare body",
+        )?;
+        Ok(self)
+    }
+
+    /// The coefficient under a film that fills such a `part` of its largest thickness.
+    fn under(&self, part: f64) -> PerPascal {
+        self.bare - (self.bare - self.under_film) * part.min(1.0)
+    }
+}
+
+/// Wear of both bodies, lowered by their films.
+///
+/// A pass at frozen contact takes the depth k Σ p |Δs| off a cell. Over many passes that one stands for, k is its mean while
+/// the film grows or is rubbed off at the rates of that one.
+#[derive(Debug, Clone)]
+pub struct Wear {
+    coefficients: [Option<WearCoefficient>; 2],
+    films: [Option<Film>; 2],
+}
+
+impl Wear {
+    /// The wear of the lower and of the upper body, with their `films`; none of a body that does not wear.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a coefficient under a film that there is not.
+    pub fn new(coefficients: [Option<WearCoefficient>; 2], films: [Option<Film>; 2]) -> Result<Self> {
+        for (coefficient, film) in coefficients.iter().zip(&films) {
+            if coefficient.is_some_and(|k| k.under_film != k.bare) && film.is_none() {
+                return Err(Error::Unsupported("a body without a film has no wear coefficient under one"));
+            }
+        }
+        Ok(Self { coefficients, films })
+    }
+
+    /// The depths that so many `passes` take off, with the coefficients in the mean over them.
+    fn depths(&self, pair: &Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
+        [0, 1].map(|body| {
+            let work = &sums[body][0];
+            let Some(coefficient) = self.coefficients[body] else { return Field::zeros(work.raw_dim()) };
+            let depth = |k: PerPascal, work: f64| k * work * passes;
+            let Some(film) = &self.films[body] else {
+                return work.mapv(|work| depth(coefficient.bare, work));
+            };
+            let states = film.states([&pair.lower, &pair.upper][body]);
+            let mut depths = work.clone();
+            let growing = Growing::of(&sums[body][1..]);
+            for (cell, value) in depths.iter_mut().enumerate() {
+                let thickness = film.mean_thickness(states.at(cell), growing.at(cell), passes);
+                *value = depth(coefficient.under(thickness / film.max_thickness()), *value);
+            }
+            depths
+        })
+    }
+}
+
+impl Law for Wear {
+    fn name(&self) -> &str {
+        WEAR
+    }
+
+    fn sums(&self) -> usize {
+        1 + Growing::SUMS
+    }
+
+    fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+        for (body, sums) in sums.iter_mut().enumerate() {
+            if let Some(coefficient) = self.coefficients[body] {
+                let work = sums[0].as_slice_mut().expect("standard layout");
+                let driver = match coefficient.driver {
+                    WearDriver::Pressure => touching.pressure,
+                    WearDriver::Shear => touching.shear,
+                };
+                for (&cell, value) in touching.cells[body].iter().zip(driver) {
+                    work[cell as usize] += value * touching.sliding_distance;
+                }
+                if let Some(film) = &self.films[body] {
+                    film.add_rates(pair, body, touching, &mut sums[1..]);
+                }
+            }
+        }
+    }
+
+    fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
+        self.coefficients.map(|coefficient| match coefficient {
+            None => 0.0,
+            Some(WearCoefficient { bare, driver: WearDriver::Pressure, .. }) => bare,
+            Some(WearCoefficient { bare, driver: WearDriver::Shear, .. }) => bare * friction,
+        })
+    }
+
+    fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
+        self.depths(pair, sums, passes)
+    }
+}

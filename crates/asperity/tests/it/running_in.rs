@@ -1,0 +1,318 @@
+//! Wear, films and jumps over passes that are not computed.
+
+use std::f64::consts::PI;
+
+use asperity::material::Material;
+use asperity::motion::{
+    Acceleration, FILM, Film, FilmLaw, FilmStress, Films, LoadControl, Motion, Output, Pair, PassRecord,
+    PassReport, Simulation, Strategy, Wear, WearCoefficient,
+};
+use asperity::operator::Boundary;
+use asperity::solver::{Control, Params};
+use asperity::surface::{Amplitude, Form, SelfAffine, Topography};
+use asperity::{Field, Grid, Result};
+
+const PITCH: f64 = 1e-6;
+const SLIDE: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.5 };
+
+/// The passes, and the bodies after the last of them.
+#[derive(Default)]
+struct Kept {
+    passes: Vec<PassRecord>,
+    pair: Option<Pair>,
+    /// Σ W Δs of each computed pass.
+    work: Vec<f64>,
+}
+
+impl Output for Kept {
+    fn pass(&mut self, report: &PassReport) -> Result<()> {
+        self.passes.push(report.record.clone());
+        self.pair = Some(report.pair.clone());
+        self.work.push(report.contacts.iter().map(|contact| contact.load).sum());
+        Ok(())
+    }
+}
+
+impl Kept {
+    fn of(mut simulation: Simulation) -> Self {
+        let mut kept = Self::default();
+        simulation.run(&(), &mut [&mut kept]).unwrap();
+        kept
+    }
+
+    fn heights(&self) -> [&Field; 2] {
+        let pair = self.pair.as_ref().unwrap();
+        [&pair.lower.heights, &pair.upper.heights]
+    }
+
+    fn represented(&self) -> usize {
+        self.passes.iter().map(PassRecord::represents).sum()
+    }
+
+    fn error(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.running.unwrap().error_estimate).sum()
+    }
+}
+
+fn steel(hardness: f64) -> Material {
+    Material::new(210e9, 0.3, hardness).unwrap()
+}
+
+fn archard(k: f64) -> Wear {
+    let coefficient = Some(WearCoefficient::archard(k).unwrap());
+    Wear::new([coefficient, coefficient], [None, None]).unwrap()
+}
+
+fn rms(field: &Field) -> f64 {
+    (field.mapv(|z| z * z).mean().unwrap()).sqrt()
+}
+
+const LENGTH: usize = 16;
+const AMPLITUDE: f64 = 20e-9;
+
+/// Grooves along the sliding direction, pressed flat: the gap between the bodies has the waves of one of them.
+fn grooves(passes: usize, jump: usize, exponent: f64) -> f64 {
+    let grid = Grid::new([4, LENGTH], [PITCH; 2]).unwrap();
+    let length = LENGTH as f64 * PITCH;
+    let waves =
+        Form::Sinusoid { amplitude: AMPLITUDE, wavelength: [f64::INFINITY, length] }.on(&grid).unwrap();
+    let flat = Form::Flat.on(&grid).unwrap();
+    let material = steel(f64::INFINITY);
+    let pair = Pair::new(waves, flat, [&material, &material]).unwrap();
+    let modulus = pair.modulus();
+    let mean = 1.5 * PI * modulus * AMPLITUDE / length;
+    let control = Control::Load(mean * grid.area());
+    // One position a pass, which slides over the length of the grid.
+    let motion =
+        Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
+    let distance = passes as f64 * 4.0 * PITCH;
+    let k = exponent * length / (2.0 * PI * modulus * distance);
+    let params = Params::default().with_tolerance(1e-10);
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
+    let acceleration =
+        Acceleration::default().with_tolerance(1e6).with_max_wear(f64::INFINITY).with_max_jump(jump);
+    let kept = Kept::of(simulation.with_law(archard(k)).with_acceleration(acceleration).unwrap());
+    assert_eq!(kept.represented(), passes);
+    let [lower, upper] = kept.heights();
+    let gap = upper - lower;
+    let wave = |j: usize| (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).cos();
+    let cos: f64 = gap.row(0).iter().enumerate().map(|(j, z)| z * wave(j)).sum();
+    let sin: f64 = gap
+        .row(0)
+        .iter()
+        .enumerate()
+        .map(|(j, z)| z * (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).sin())
+        .sum();
+    2.0 / LENGTH as f64 * cos.hypot(sin) / AMPLITUDE
+}
+
+#[test]
+fn grooves_along_the_sliding_wear_as_their_closed_form() {
+    let exact = (-1.0f64).exp();
+    let error = |passes, jump| (grooves(passes, jump, 1.0) / exact - 1.0).abs();
+    // Every pass computed: order 1.
+    let [coarse, fine] = [error(80, 1), error(160, 1)];
+    assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse:e}, {fine:e}");
+    // Jumps: order 2.
+    let [coarse, fine] = [error(1280, 32), error(1280, 16)];
+    assert!((3.4..4.8).contains(&(coarse / fine)), "{coarse:e}, {fine:e}");
+    assert!(fine < 1e-4, "{fine:e}");
+}
+
+fn rough(hardness: f64, n: usize) -> Pair {
+    let grid = Grid::new([n, n], [PITCH; 2]).unwrap();
+    let form =
+        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(8e-6), amplitude: Amplitude::Sq(30e-9) };
+    let material = steel(hardness);
+    let surface = |seed| -> Topography { form.generate(&grid, seed).unwrap() };
+    Pair::new(surface(1), surface(2).underside(), [&material, &material]).unwrap()
+}
+
+fn run_in(hardness: f64, passes: usize, acceleration: Acceleration) -> Kept {
+    let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(passes).with_stride(4);
+    let simulation =
+        Simulation::new(rough(hardness, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
+    Kept::of(simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap())
+}
+
+#[test]
+fn jumps_lead_where_all_passes_do_and_within_their_bound() {
+    for (hardness, passes) in [(f64::INFINITY, 300), (1.5e9, 200)] {
+        let all = run_in(hardness, passes, Acceleration::NONE);
+        let few = run_in(hardness, passes, Acceleration::default().with_max_wear(20e-9));
+        assert_eq!((all.passes.len(), all.represented(), few.represented()), (passes, passes, passes));
+        assert!(few.passes.len() <= 40, "{} passes computed", few.passes.len());
+        assert_eq!(all.error(), 0.0);
+        let before = rough(hardness, 16);
+        let before = [&before.lower.heights, &before.upper.heights];
+        for (body, before) in before.into_iter().enumerate() {
+            let (change, error) = (all.heights()[body] - before, few.heights()[body] - all.heights()[body]);
+            assert!(rms(&error) < 5e-3 * rms(&change), "{:e} of {:e}", rms(&error), rms(&change));
+            let largest = error.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+            assert!(largest <= few.error(), "{largest:e} beyond the bound {:e}", few.error());
+        }
+        let plastic = |kept: &Kept| kept.passes.iter().map(|pass| pass.lost("plastic")[0]).sum::<f64>();
+        if hardness.is_finite() {
+            assert!((plastic(&few) / plastic(&all) - 1.0).abs() < 0.01);
+        }
+    }
+}
+
+#[test]
+fn the_volume_is_archards_and_the_ledger_balances() {
+    let kept = run_in(1.5e9, 60, Acceleration::default().with_max_wear(20e-9));
+    let before = rough(1.5e9, 16);
+    let before = [&before.lower.heights, &before.upper.heights];
+    for (body, before) in before.into_iter().enumerate() {
+        let mut lost = 0.0;
+        for (pass, work) in kept.passes.iter().zip(&kept.work) {
+            let worn = pass.lost("wear")[body];
+            let expected = 4e-15 * work * 4.0 * PITCH * pass.represents() as f64;
+            // Between jumps the load is met within its tolerance, and so is the volume of what is taken for granted.
+            let within = if pass.represents() == 1 { 1e-12 } else { 3e-4 };
+            assert!((worn / expected - 1.0).abs() < within, "{worn:e}, {expected:e}");
+            lost += worn + pass.lost("plastic")[body];
+        }
+        let sign = [-1.0, 1.0][body];
+        let fell = sign * (kept.heights()[body] - before).sum() * PITCH * PITCH;
+        assert!((fell / lost - 1.0).abs() < 1e-9, "{fell:e}, {lost:e}");
+    }
+}
+
+fn zddp(removal: f64) -> Film {
+    let law = FilmLaw::Arrhenius {
+        rate: 2e-6,
+        at_temperature: 373.15,
+        at_stress: 1e9,
+        activation_energy: 0.8 * 1.602_176_634e-19,
+        activation_volume: 3.8e-30,
+        stress: FilmStress::Pressure,
+        removal,
+    };
+    Film::new(law, 10e-9, None).unwrap()
+}
+
+/// Flat bodies: the pressure is the same everywhere, and so is the film.
+fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> f64 {
+    let grid = Grid::new([8, 8], [PITCH; 2]).unwrap();
+    let material = steel(f64::INFINITY);
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let pair = Pair::new(flat(), flat(), [&material, &material]).unwrap();
+    let control = Control::Load(1e9 * grid.area());
+    let motion =
+        Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
+    let motion = motion.with_bulk([373.15; 2]);
+    let film = law.map_or_else(|| zddp(removal), |law| Film::new(law, 10e-9, None).unwrap());
+    let films = Films::new([Some(film), None], &pair).unwrap();
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
+    let kept = Kept::of(simulation.with_law(films).with_acceleration(acceleration).unwrap());
+    let film = &kept.pair.as_ref().unwrap().lower.state[FILM].values;
+    let mean = film.mean().unwrap();
+    assert!(film.iter().all(|f| (f / mean - 1.0).abs() < 1e-9));
+    // What the film grows, the surface rises by.
+    let rise = kept.heights()[0].mean().unwrap();
+    assert!((rise / mean - 1.0).abs() < 1e-9, "{rise:e}, {mean:e}");
+    mean
+}
+
+#[test]
+fn a_film_is_exact_over_any_jump_and_tends_to_its_steady_value() {
+    let time = |passes: usize| passes as f64 * 8.0 * PITCH / 0.5;
+    let (growth, removal, most) = (2e-6, 1e-7, 10e-9);
+    let rate = growth / most + removal * 1e9 * 0.5;
+    let steady = growth / rate;
+    for passes in [100, 3000] {
+        let exact = steady * (1.0 - (-rate * time(passes)).exp());
+        for jump in [1, 64, 10_000] {
+            let found = flat_film(passes, jump, removal, None);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{passes} passes by {jump}: {found:e}, {exact:e}");
+        }
+    }
+    let law = FilmLaw::MechanoChemical { x: 1e-11, c3: 4e-9, c4: 50.0 };
+    let thick = flat_film(100_000, 10_000, 0.0, Some(law));
+    assert!((thick / 6e-9 - 1.0).abs() < 1e-6, "{thick:e}: f_max − C₃");
+}
+
+#[test]
+fn more_wear_in_a_pass_than_single_cells_bear_is_refused() {
+    let pair = rough(f64::INFINITY, 16);
+    // The bound of wear passes: (k₁ + k₂) Σ|Δs| < 2 · 0.45 Δx/E*, of a cell that bears all the way.
+    let bound = 2.0 * 0.45 * PITCH / pair.modulus() / (2.0 * 16.0 * PITCH);
+    let run = |k: f64, load: f64| {
+        let motion =
+            Motion::new(SLIDE, Control::Load(load)).with_stride(4).with_load_control(LoadControl::Step);
+        let simulation =
+            Simulation::new(pair.clone(), Boundary::PERIODIC, motion, Params::default()).unwrap();
+        simulation.with_law(archard(k)).run(&(), &mut [])
+    };
+    // Pressed flat: all cells bear.
+    assert!(run(0.9 * bound, 3.0).is_ok());
+    let error = run(1.1 * bound, 3.0).unwrap_err().to_string();
+    assert!(error.contains("wears more than pressures of single cells bear"), "{error}");
+}
+
+#[test]
+fn an_interrupted_run_goes_on_with_the_same_jumps() {
+    struct Warm(Option<asperity::motion::WarmStart>, usize);
+    impl Output for Warm {
+        fn pass(&mut self, report: &PassReport) -> Result<()> {
+            self.0 = Some(report.warm.clone());
+            self.1 += 1;
+            if self.1 == 6 { Err(asperity::Error::Interrupted) } else { Ok(()) }
+        }
+    }
+    let acceleration = Acceleration::default().with_max_wear(20e-9);
+    let begin = |pair: Pair| {
+        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(100).with_stride(4);
+        let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+        simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap()
+    };
+    let whole = Kept::of(begin(rough(1.5e9, 16)));
+    let mut kept = Kept::default();
+    let mut warm = Warm(None, 0);
+    assert!(begin(rough(1.5e9, 16)).run(&(), &mut [&mut kept, &mut warm]).is_err());
+    let rest = Kept::of(begin(kept.pair.unwrap()).resumed(6, warm.0.unwrap()));
+    assert_eq!(rest.heights(), whole.heights());
+    let jumps = |kept: &Kept| kept.passes.iter().map(PassRecord::represents).collect::<Vec<_>>();
+    assert_eq!(jumps(&rest), jumps(&whole)[6..]);
+}
+
+#[test]
+fn friction_heats_the_cells_and_films_see_it() {
+    use asperity::solver::{Coupling, Friction};
+    use asperity::temperature::Thermal;
+
+    let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
+    let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
+    let run = |speed: f64, heated: bool| {
+        let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
+        let motion = Motion::new(strategy, Control::Load(0.05))
+            .with_passes(2)
+            .with_stride(4)
+            .with_friction(friction)
+            .with_bulk([373.15; 2]);
+        let pair = rough(1.5e9, 16);
+        let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
+        let simulation =
+            Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
+        Kept::of(if heated { simulation.with_heat([steel; 2]).unwrap() } else { simulation })
+    };
+    let [cold, slow, fast] = [run(0.5, false), run(0.5, true), run(5.0, true)];
+    let warmest = |kept: &Kept| kept.passes[1].running.unwrap().max_flash_temperature - 373.15;
+    assert_eq!(warmest(&cold), 0.0);
+    assert!(
+        warmest(&slow) > 0.5 && warmest(&fast) > 3.0 * warmest(&slow),
+        "{} {}",
+        warmest(&slow),
+        warmest(&fast)
+    );
+    // The work is that of friction, whatever the speed: μ Σ W Δs.
+    for kept in [&slow, &fast] {
+        let work = kept.passes[0].running.unwrap().friction_work;
+        assert!((work / (0.1 * kept.work[0] * 4.0 * PITCH) - 1.0).abs() < 1e-12);
+    }
+    // In the same time a warm film grows more.
+    let grown = |kept: &Kept| kept.passes[1].running.unwrap().mean_film_lower;
+    assert!(grown(&slow) > 1.001 * grown(&cold), "{:e} {:e}", grown(&slow), grown(&cold));
+}
