@@ -18,7 +18,7 @@ struct Kit {
 }
 
 /// The examples that the command writes.
-const KITS: [Kit; 5] = [
+const KITS: [Kit; 6] = [
     Kit {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -42,6 +42,11 @@ const KITS: [Kit; 5] = [
             ("disc.x3p", include_bytes!("../examples/measured/disc.x3p")),
             ("README.md", include_bytes!("../examples/measured/README.md")),
         ],
+    },
+    Kit {
+        name: "running-in",
+        about: "wear, tribofilm and flash temperature over 100 000 passes, 141 of them computed",
+        files: &[("case.toml", include_bytes!("../examples/running-in/case.toml"))],
     },
     Kit {
         name: "paper",

@@ -6,6 +6,7 @@ mod motion;
 mod pressure;
 mod profile;
 mod rest;
+mod running;
 mod sheet;
 mod stored;
 mod subsurface;

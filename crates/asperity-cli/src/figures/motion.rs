@@ -11,6 +11,7 @@ use asperity::{Field, Grid};
 
 use super::pressure;
 use super::profile::{Facing, Profile, boundary, materials};
+use super::running;
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
@@ -25,20 +26,22 @@ const PARAMETERS: usize = 24;
 pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome<String> {
     let steps = results.steps()?;
     let pass = passes.len();
+    let done = done(passes);
     let [first, last] = [results.fields_after(0)?, results.fields_after(pass)?];
     let before = [Stored::read(&first, "lower")?, Stored::read(&first, "upper")?];
     let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
     let cap = Cap::read(&last)?;
     let load = |record: &PassRecord| format!("mean load {}", format(record.mean_load, Dimension::Force));
-    let of = format!("{}, pass {pass}", load(&passes[pass - 1]));
+    let all = done[pass];
+    let of = format!("{}, pass {all}", load(&passes[pass - 1]));
     let throughout = match pass {
         1 => of.clone(),
-        _ => format!("{}, passes 1 to {pass}", load(&passes[0])),
+        _ => format!("{}, passes 1 to {all}", load(&passes[0])),
     };
-    let after_pass = format!("{}, after pass {pass}", load(&passes[pass - 1]));
+    let after_pass = format!("{}, after pass {all}", load(&passes[pass - 1]));
 
     sheet.add("topographies", "topographies before and after", &throughout, || {
-        Ok(topographies(&before, &after, pass))
+        Ok(topographies(&before, &after, all))
     })?;
     for (name, title, body) in [
         ("relief_lower", "lower body in perspective", &after[0]),
@@ -57,7 +60,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     if cap.is_finite() {
         plastic_depth(&before, &after, &throughout, sheet)?;
     }
-    pressures(results, &last, &steps, pass, before[0].grid, &cap, &of, sheet)?;
+    pressures(results, &last, &steps, [pass, all], before[0].grid, &cap, &of, sheet)?;
     for (name, title, unit, value) in [
         ("load", "load", Unit::Force, (|s| s.load) as fn(&StepRecord) -> f64),
         ("friction", "friction force", Unit::Force, |s| s.tangential_force.abs()),
@@ -65,18 +68,30 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     ] {
         if name != "friction" || steps.iter().any(|step| step.tangential_force != 0.0) {
             sheet.add(name, &format!("{title} over the positions"), &throughout, || {
-                Ok(over_positions(&steps, pass, title, unit, value))
+                Ok(over_positions(&steps, &done, title, unit, value))
             })?;
         }
     }
-    sheet.add("roughness", "roughness over the passes", &throughout, || Ok(roughness(passes, &before)))?;
+    sheet.add("roughness", "roughness over the passes", &throughout, || {
+        Ok(roughness(passes, &done, &before))
+    })?;
     sheet.add("parameters", "surface parameters over the passes, material upwards", &throughout, || {
-        parameters(results, pass)
+        parameters(results, &done)
     })?;
     sheet.add("approach", "approach and plastic volume over the passes", &throughout, || {
-        Ok(approach(passes))
+        Ok(approach(passes, &done))
     })?;
+    running::draw(passes, &before, &throughout, sheet)?;
     Ok(of)
+}
+
+/// Passes of the motion that are done before the first and after each of the computed ones.
+fn done(passes: &[PassRecord]) -> Vec<usize> {
+    let mut done = vec![0];
+    for pass in passes {
+        done.push(done[done.len() - 1] + pass.represents());
+    }
+    done
 }
 
 /// Both bodies before and after, each on one scale, so that its change shows.
@@ -124,7 +139,7 @@ fn pressures(
     results: &Results,
     fields: &Fields,
     steps: &[StepRecord],
-    pass: usize,
+    [pass, done]: [usize; 2],
     lower: Grid,
     cap: &Cap,
     of: &str,
@@ -175,7 +190,7 @@ fn pressures(
     sheet.animate("pressure", "pressure on the lower body", Colours::Pressure, || {
         let words = kept.iter().map(|step| {
             let load = format(step.load, Dimension::Force);
-            format!("pass {pass}, position {}, load {load}", step.step)
+            format!("pass {done}, position {}, load {load}", step.step)
         });
         let maps = frames.iter().map(|stored| Maps::new(vec![stored.pressure("").range(range)]));
         Ok(words.zip(maps).collect())
@@ -235,25 +250,26 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
 /// A quantity of the positions in the first, a middle and the last pass.
 fn over_positions(
     steps: &[StepRecord],
-    passes: usize,
+    done: &[usize],
     quantity: &str,
     unit: Unit,
     value: fn(&StepRecord) -> f64,
 ) -> Charts {
+    let passes = done.len() - 1;
     let mut shown = vec![1, passes.div_ceil(2), passes];
     shown.dedup();
     let series = shown.into_iter().map(|pass| {
         let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
-        Series::new(format!("pass {pass}"), points, Mark::Line)
+        Series::new(format!("pass {}", done[pass]), points, Mark::Line)
     });
     let x = Axis::linear("offset of the upper body", Unit::Length);
     Chart::new("", x, Axis::linear(quantity, unit), series.collect()).into()
 }
 
-fn roughness(passes: &[PassRecord], before: &[Stored; 2]) -> Charts {
+fn roughness(passes: &[PassRecord], done: &[usize], before: &[Stored; 2]) -> Charts {
     let points = |body: usize, value: fn(&PassRecord) -> f64| {
         let first = [0.0, before[body].field.std(0.0)];
-        std::iter::once(first).chain(passes.iter().map(|p| [p.pass as f64, value(p)])).collect()
+        std::iter::once(first).chain(passes.iter().map(|p| [done[p.pass] as f64, value(p)])).collect()
     };
     let series = vec![
         Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
@@ -263,7 +279,8 @@ fn roughness(passes: &[PassRecord], before: &[Stored; 2]) -> Charts {
 }
 
 /// Sa, Sq, Ssk, Sk, Spk and Svk of both bodies.
-fn parameters(results: &Results, passes: usize) -> Outcome<Charts> {
+fn parameters(results: &Results, done: &[usize]) -> Outcome<Charts> {
+    let passes = done.len() - 1;
     let every = passes.div_ceil(PARAMETERS);
     let mut shown: Vec<usize> = (0..=passes).step_by(every).collect();
     if shown.last() != Some(&passes) {
@@ -279,7 +296,7 @@ fn parameters(results: &Results, passes: usize) -> Outcome<Charts> {
             let (height, core) = (HeightParameters::of(surface), FunctionalParameters::of(surface));
             let values = [height.sa, height.sq, height.ssk, core.sk, core.spk, core.svk];
             for (curve, value) in curves.iter_mut().zip(values) {
-                curve[body].push([pass as f64, value]);
+                curve[body].push([done[pass] as f64, value]);
             }
         }
     }
@@ -294,8 +311,9 @@ fn parameters(results: &Results, passes: usize) -> Outcome<Charts> {
     Ok(Charts { charts: NAMES.into_iter().zip(curves).map(chart).collect(), columns: 3, aspect: 0.8 })
 }
 
-fn approach(passes: &[PassRecord]) -> Charts {
-    let points = |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [p.pass as f64, value(p)]).collect();
+fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
+    let points =
+        |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
     let x = Axis::linear("pass", Unit::Count);
     let series = vec![
         Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),

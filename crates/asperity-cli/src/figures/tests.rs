@@ -126,6 +126,44 @@ fn any_motion_has_all_its_figures() {
     assert!(seed < 2 * cases + 10, "of {seed} cases only {drawn} could be computed");
 }
 
+#[test]
+fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
+    let body = |seed: usize, wear: &str| {
+        format!(
+            "{{ young = 210e9, poisson = 0.3, topography = {{ generate = \"self-affine\", shape = [16, 16], \
+             pitch = 1e-6, sq = 20e-9, hurst = 0.8, shortest = 4e-6, seed = {seed} }}{wear} }}"
+        )
+    };
+    let text = format!(
+        "lower = {}\nupper = {}\ncontact = {{ mean_pressure = 50e6, boundary = \"periodic\" }}\n\
+             motion = {{ strategy = \"shift\", speed_upper = 0.5, passes = 200, stride = 8 }}\n\
+             acceleration = {{ max_jump = 100 }}\noutput = {{ pressure_every = 0 }}\n",
+        body(1, ", wear = { coefficient = 1e-17 }"),
+        body(2, "")
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap();
+    let directory = folder.path().join("results");
+    study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).unwrap();
+    let results = Results::open(&directory).unwrap();
+    let passes = results.passes().unwrap();
+    assert!(passes.len() < 50, "{} of 200 passes are computed", passes.len());
+    let format = crate::draw::Format::Svg;
+    let wanted = Wanted { paper: Paper { format, ..Paper::default() }, only: Vec::new() };
+    let paths = draw(&results, &wanted, &|| false).unwrap();
+    let read = |name: &str| {
+        let path = paths.iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)).unwrap();
+        std::fs::read_to_string(path).unwrap()
+    };
+    let figure = read("running-in");
+    for (words, shown) in [("wear volume", true), ("sliding distance", true), ("film", false), ("°C", false)]
+    {
+        assert_eq!(figure.contains(words), shown, "{words}");
+    }
+    assert!(read("roughness").contains("passes 1 to 200"));
+    assert!(read("topographies").contains("after pass 200"));
+}
+
 fn case_of(seed: u64) -> String {
     // SplitMix64.
     let bytes: Vec<u8> = (1..=32)

@@ -1,6 +1,6 @@
 //! A table whose rows come one after the other: columns of one unit each, points below points.
 
-use asperity::units::{Dimension, Multiple, format_number};
+use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
 /// Characters of a column, eight of which stand beside the count on a terminal of 80, and of its part from the point on.
 const WIDTH: usize = 9;
@@ -18,6 +18,8 @@ enum Kind {
     Of(Dimension),
     Share,
     Number,
+    Celsius,
+    Growing(Dimension, f64),
 }
 
 impl Cell {
@@ -34,6 +36,16 @@ impl Cell {
     /// A pure number, which may be small beside 1.
     pub(super) fn number(head: &'static str, value: f64) -> Self {
         Self { head, kind: Kind::Number, value: Some(value) }
+    }
+
+    /// An absolute temperature, told in degrees Celsius.
+    pub(super) fn celsius(head: &'static str, value: f64) -> Self {
+        Self { head, kind: Kind::Celsius, value: Some(value - CELSIUS) }
+    }
+
+    /// A quantity that begins with next to nothing, told in the unit that suits at least so much of it.
+    pub(super) fn growing(head: &'static str, dimension: Dimension, least: f64, value: f64) -> Self {
+        Self { head, kind: Kind::Growing(dimension, least), value: Some(value) }
     }
 
     fn unit(&self) -> Multiple {
@@ -54,6 +66,8 @@ impl Cell {
             }
             Kind::Share => of(0.01, "%"),
             Kind::Number => of(1.0, ""),
+            Kind::Celsius => of(1.0, "°C"),
+            Kind::Growing(dimension, least) => dimension.multiple(self.value.unwrap_or(least).max(least)),
         }
     }
 }
@@ -62,12 +76,19 @@ impl Cell {
 #[derive(Default)]
 pub(super) struct Columns {
     units: Vec<Multiple>,
+    /// Digits of the largest count.
+    digits: usize,
 }
 
 impl Columns {
+    /// A table whose rows count to such a number.
+    pub(super) fn counting_to(most: usize) -> Self {
+        Self { digits: most.to_string().len(), ..Self::default() }
+    }
+
     /// A row, the first one under its heads: what is counted, the number of this row, its cells.
     pub(super) fn row(&mut self, counted: &str, number: usize, cells: &[Cell]) -> String {
-        let first = counted.len().max(4);
+        let first = counted.len().max(4).max(self.digits);
         let mut text = String::new();
         if self.units.is_empty() {
             self.units = cells.iter().map(Cell::unit).collect();

@@ -1,7 +1,7 @@
 //! The rows of passes and of points.
 
-use asperity::motion::{PassRecord, SweepRecord};
-use asperity::study::case::{Case, Source};
+use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
+use asperity::study::case::{Case, ControlKind, Source};
 use asperity::units::Dimension::{Area, Force, Length, Pressure, Stiffness, Volume};
 
 use super::columns::{Cell, Columns};
@@ -17,51 +17,104 @@ pub(super) struct Rows {
     rim: f64,
     slides: bool,
     yields: bool,
+    wears: bool,
+    grows: bool,
+    /// Whether the passes have the approach given.
+    at_approach: bool,
+    /// Passes of the motion that are done, and the wear of both bodies in them, m³.
+    done: usize,
+    wear: f64,
 }
 
 impl Rows {
     pub(super) fn new(case: &Case) -> Self {
+        let bodies = [&case.lower, &case.upper];
+        let motion = case.motion.as_ref();
         let has_ends = case.contact.boundary != asperity::operator::Boundary::PERIODIC;
         Self {
-            columns: Columns::default(),
+            columns: motion.map_or_else(Columns::default, |motion| Columns::counting_to(motion.passes)),
             planes: planes(case),
             apart: false,
-            rim: if has_ends && case.motion.is_some() { case.output.rim } else { 0.0 },
+            rim: if has_ends && motion.is_some() { case.output.rim } else { 0.0 },
             slides: case.friction.is_some(),
-            yields: [&case.lower, &case.upper].iter().any(|body| body.hardness.yields()),
+            yields: bodies.iter().any(|body| body.hardness.yields()),
+            wears: bodies.iter().any(|body| body.wear.is_some()),
+            grows: bodies.iter().any(|body| body.film.is_some()),
+            at_approach: motion.is_some_and(|motion| motion.control == ControlKind::Approach),
+            done: 0,
+            wear: 0.0,
         }
     }
 
     /// The row of a pass, the first below the heads of the columns and what they are.
+    ///
+    /// Where bodies run in, what was prescribed and the largest pressure make room for wear, film and temperature.
     pub(super) fn pass(&mut self, pass: &PassRecord) -> String {
-        let mut cells = vec![
-            self.approach(pass.pass == 1, pass.approach),
-            Cell::of("load", Force, pass.mean_load),
-            Cell::of("p max", Pressure, pass.max_pressure),
-            Cell::of("area", Area, pass.mean_contact_area_interior),
-        ];
+        self.done += pass.represents();
+        let running = pass.running.as_ref();
+        let approach = self.approach(pass.pass == 1, pass.approach);
+        let load = Cell::of("load", Force, pass.mean_load);
+        let mut cells = match running {
+            None => vec![approach, load, Cell::of("p max", Pressure, pass.max_pressure)],
+            Some(_) => vec![if self.at_approach { load } else { approach }],
+        };
+        cells.push(Cell::of("area", Area, pass.mean_contact_area_interior));
         if self.yields {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
             cells.push(Cell::of("plastic", Volume, plastic));
         }
         cells.push(Cell::of("Sq lower", Length, pass.sq_lower_interior));
         cells.push(Cell::of("Sq upper", Length, pass.sq_upper_interior));
-        if self.slides {
-            cells.push(Cell::number("friction", pass.friction_coefficient));
+        match running {
+            Some(running) => cells.extend(self.running(pass, running)),
+            None if self.slides => cells.push(Cell::number("friction", pass.friction_coefficient)),
+            None => {}
         }
-        let mut above = String::new();
-        if pass.pass == 1 {
-            above = "load and area: means over the pass".to_owned();
-            if self.apart {
-                above += &format!("; apart: between the {}", self.planes);
-            }
-            above += "\n";
-            if self.rim > 0.0 {
-                let of = if self.yields { "area, plastic volume, Sq" } else { "area, Sq" };
-                above += &format!("{of}: without the rim, {} of the length at free ends\n", self.rim);
-            }
+        let above = if pass.pass == 1 { self.above(running) } else { String::new() };
+        above + &self.columns.row("pass", self.done, &cells)
+    }
+
+    /// What wear, films and friction's heat add to the row of a pass.
+    fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        if self.wears {
+            self.wear += pass.lost_inside("wear")[0] + pass.lost_inside("wear")[1];
+            cells.push(Cell::growing("wear", Volume, 1e-18, self.wear));
         }
-        above + &self.columns.row("pass", pass.pass, &cells)
+        if self.grows {
+            let film = running.mean_film_lower.max(running.mean_film_upper);
+            cells.push(Cell::growing("film", Length, 1e-9, film));
+        }
+        if running.max_flash_temperature.is_finite() {
+            cells.push(Cell::celsius("T max", running.max_flash_temperature));
+        }
+        cells
+    }
+
+    /// What the columns of passes are.
+    fn above(&self, running: Option<&RunningRecord>) -> String {
+        let means = match running {
+            Some(_) if !self.at_approach => "area: mean over the pass",
+            _ => "load and area: means over the pass",
+        };
+        let mut above = means.to_owned();
+        if self.apart && (running.is_none() || !self.at_approach) {
+            above += &format!("; apart: between the {}", self.planes);
+        }
+        if self.wears {
+            above += "; wear: of both bodies so far";
+        }
+        if self.grows {
+            above += "; film: mean of the thicker";
+        }
+        above += "\n";
+        if self.rim > 0.0 {
+            let of = [("area", true), ("plastic volume", self.yields), ("Sq", true), ("wear", self.wears)];
+            let of: Vec<&str> = of.into_iter().filter(|(_, shown)| *shown).map(|(name, _)| name).collect();
+            above +=
+                &format!("{}: without the rim, {} of the length at free ends\n", of.join(", "), self.rim);
+        }
+        above
     }
 
     /// The row of a point of a sweep, the first below the heads of the columns.

@@ -361,17 +361,21 @@ fn a_channel_that_is_not_there_names_those_that_are() {
 }
 
 #[test]
-fn every_example_is_accepted_by_check_without_a_warning() {
+fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride() {
     let folder = folder();
     let list = ok(&run(folder.path(), "example"));
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["quickstart", "hertz", "friction", "measured", "paper"]);
+    assert_eq!(names, ["quickstart", "hertz", "friction", "measured", "running-in", "paper"]);
     for name in names {
         ok(&run(folder.path(), &format!("example {name}")));
         let output = run(folder.path(), &format!("check {name}/case.toml"));
         let page = ok(&output);
         assert!(page.contains("E* 115.4 GPa"), "{page}");
-        assert_eq!(stderr(&output), "", "{name}");
+        // That it moves by sixteen cells at a time is said.
+        match name {
+            "running-in" => assert!(stderr(&output).starts_with("warning: with `stride = 16`"), "{name}"),
+            _ => assert_eq!(stderr(&output), "", "{name}"),
+        }
         let error = refused(&run(folder.path(), &format!("example {name}")));
         assert!(error.contains("exists"), "{error}");
     }

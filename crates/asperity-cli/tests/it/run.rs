@@ -1093,6 +1093,31 @@ fn folder_with(name: &str, text: &str) -> TempDir {
     folder
 }
 
+#[test]
+fn the_table_of_bodies_that_run_in_counts_the_passes_of_the_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = "young = 210e9\npoisson = 0.3\n[NAME.topography]\ngenerate = \"self-affine\"\nshape = [16, 16]\n\
+                pitch = 1e-6\nsq = 20e-9\nhurst = 0.8\nshortest = 4e-6\nseed = 1\n[NAME.wear]\n\
+                coefficient = 1e-17\n";
+    let bodies = ["lower", "upper"].map(|name| format!("[{name}]\n{}", body.replace("NAME", name))).concat();
+    let case = format!(
+        "{bodies}[contact]\nmean_pressure = 50e6\nboundary = \"periodic\"\n[motion]\nstrategy = \"shift\"\n\
+         speed_upper = 0.5\npasses = 20000\nstride = 8\n[acceleration]\n[output]\npressure_every = 0\n"
+    );
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    let table = ok(&run(&folder, "case.toml --out results"));
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split_whitespace().collect()).collect();
+    let heads = lines.iter().find(|words| words.first() == Some(&"pass")).unwrap();
+    assert_eq!(heads[2..], ["area", "Sq", "lower", "Sq", "upper", "wear"], "{table}");
+    let rows: Vec<f64> = lines.iter().filter_map(|words| words.first()?.parse().ok()).collect();
+    assert!(rows.starts_with(&[1.0, 3.0]) && rows.ends_with(&[20_000.0]), "{table}");
+    // k W s of both bodies, whatever stood for what.
+    let worn: f64 = lines.last().unwrap().last().unwrap().parse().unwrap();
+    let volume = 2.0 * 1e-17 * 50e6 * (16e-6f64).powi(2) * 20_000.0 * 16e-6 / 1e-18;
+    assert!((worn / volume - 1.0).abs() < 2e-3, "{worn} µm³, not {volume}");
+    assert!(table.lines().all(|line| line.chars().count() <= 80 || line.contains(';')), "{table}");
+}
+
 /// `asperity run`; `arguments` are split at spaces.
 fn run(folder: &TempDir, arguments: &str) -> Output {
     asperity(folder, &format!("run {arguments}"))

@@ -1,0 +1,70 @@
+//! The figure of bodies that run in: what becomes of them over the distance that they slide.
+
+use asperity::motion::PassRecord;
+use asperity::units::CELSIUS;
+
+use super::sheet::Sheet;
+use super::stored::Stored;
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use crate::report::Outcome;
+
+/// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
+const DECADES: f64 = 100.0;
+
+type Curve = Vec<[f64; 2]>;
+
+/// Draws it, if there is what it shows: roughness, contact area, wear, film and temperature, each where there is any.
+pub(super) fn draw(passes: &[PassRecord], before: &[Stored; 2], of: &str, sheet: &mut Sheet) -> Outcome {
+    let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
+    let (Some(least), Some(most)) = (distances.first(), distances.last()) else { return Ok(()) };
+    let log = *most > DECADES * least;
+    sheet.add("running-in", "running in over the sliding distance", of, || {
+        Ok(charts(passes, before.each_ref().map(|body| body.field.std(0.0)), log))
+    })
+}
+
+fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
+    let x = match log {
+        true => Axis::log("sliding distance", Unit::Of("m")),
+        false => Axis::linear("sliding distance", Unit::Length),
+    };
+    let over = |value: &dyn Fn(&PassRecord) -> f64| -> Curve {
+        passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()
+    };
+    let from = |first: f64, curve: Curve| -> Curve { std::iter::once([0.0, first]).chain(curve).collect() };
+    let worn = |body: usize| {
+        let mut sum = 0.0;
+        let each = passes.iter().filter_map(|p| {
+            sum += p.lost("wear")[body];
+            Some([p.running?.distance, sum])
+        });
+        each.collect()
+    };
+    let film =
+        |body: usize| over(&|p| p.running.map_or(0.0, |r| [r.mean_film_lower, r.mean_film_upper][body]));
+    let bodies = |curves: [Curve; 2]| {
+        // Broken, so that neither hides the other where they are the same.
+        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
+        looks.zip(curves).map(|((name, mark), curve)| Series::new(name, curve, mark)).collect()
+    };
+    let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
+    let wear =
+        if log { Axis::log("wear volume", Unit::Volume) } else { Axis::linear("wear volume", Unit::Volume) };
+    let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
+    let shown: Vec<(Axis, Vec<Series>)> = vec![
+        (
+            Axis::linear("Sq", Unit::Length),
+            bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
+        ),
+        (Axis::linear("real contact area", Unit::Area), alone("both bodies", over(&|p| p.mean_contact_area))),
+        (wear, bodies([worn(0), worn(1)])),
+        (Axis::linear("mean film", Unit::Length), bodies([film(0), film(1)])),
+        (Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)),
+    ];
+    let is_there = |(_, series): &(Axis, Vec<Series>)| {
+        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
+    };
+    let charts = shown.into_iter().filter(is_there);
+    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
+    Charts { charts, columns: 2, aspect: 0.7 }
+}
