@@ -367,12 +367,17 @@ mod lost_volumes {
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Vec<LostVolume>, D::Error> {
-        let columns = BTreeMap::<String, CubicMetre>::deserialize(deserializer)?;
+        // All columns that no field has come here, those of numbers that there are not among them.
+        let columns = BTreeMap::<String, Option<CubicMetre>>::deserialize(deserializer)?;
         let laws = columns.keys().filter_map(|column| column.strip_suffix(COLUMNS[0]));
         laws.map(|law| {
             let value = |column: &str| {
                 let column = format!("{law}{column}");
-                columns.get(&column).copied().ok_or_else(|| D::Error::custom(format!("no column `{column}`")))
+                columns
+                    .get(&column)
+                    .copied()
+                    .flatten()
+                    .ok_or_else(|| D::Error::custom(format!("no column `{column}`")))
             };
             let [a, b, c, d] = COLUMNS.map(value);
             Ok(LostVolume { law: law.to_owned(), whole: [a?, b?], interior: [c?, d?] })

@@ -261,6 +261,7 @@ fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::{HeatRecord, RunningRecord};
 
     fn step(step: usize) -> StepRecord {
         StepRecord {
@@ -389,6 +390,34 @@ mod tests {
         let points = [point(None), point(Some(1.0 / 3.0 * 1e7))];
         write_sweep(&path, &points).unwrap();
         assert_eq!(read_sweep(&path).unwrap(), points);
+    }
+
+    #[test]
+    fn a_pass_of_bodies_that_wear_reads_back_with_what_is_not_known_of_it() {
+        let running = RunningRecord {
+            represents: 30,
+            time: f64::NAN,
+            distance: 0.1 + 0.2,
+            max_wear_lower: 1e-12,
+            max_wear_upper: 0.0,
+            mean_film_lower: 0.0,
+            mean_film_upper: 1.0 / 3.0,
+            friction_work: 0.0,
+            max_flash_temperature: f64::NAN,
+            error_estimate: 1e-15,
+        };
+        let worn = PassRecord { running: Some(running), ..pass() };
+        let json = serde_json::to_string(&worn).unwrap();
+        let read: PassRecord = serde_json::from_str(&json).unwrap();
+        assert_eq!(format!("{read:?}"), format!("{worn:?}"));
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("table.csv");
+        write_passes(&path, &[worn.clone(), worn.clone()]).unwrap();
+        assert_eq!(format!("{:?}", read_passes(&path).unwrap()), format!("{:?}", [worn.clone(), worn]));
+        let warm = HeatRecord { friction_power: 0.1, max_flash_temperature: 373.15 };
+        let steps = [step(1), step(2)].map(|step| StepRecord { heat: Some(warm), ..step });
+        write_steps(&path, &steps).unwrap();
+        assert_eq!(format!("{:?}", read_steps(&path).unwrap()), format!("{steps:?}"));
     }
 
     #[test]
