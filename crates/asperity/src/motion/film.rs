@@ -1,6 +1,9 @@
 //! Tribofilms: what grows on a body where it is rubbed, and is rubbed off again.
 
-use crate::error::{Error, Result, check_in};
+use serde::Serialize;
+
+use crate::choice::choice;
+use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::body::{Body, State};
 use crate::motion::law::{Law, Touching};
@@ -27,8 +30,9 @@ pub struct Film {
     bare: Option<CellValues>,
 }
 
-/// How a film grows and is removed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How a film grows and is removed. It serialises under the keys of a case file.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "law", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FilmLaw {
     /// df/dt = G (1 − f/f_max) − R f, where G follows Arrhenius under a stress σ and R = r p v.
@@ -70,7 +74,7 @@ pub enum FilmStress {
     Shear,
 }
 
-crate::choice::choice!(FilmStress: "pressure" => Pressure, "shear" => Shear);
+choice!(FilmStress: "pressure" => Pressure, "shear" => Shear);
 
 impl Film {
     /// A film of at most `max_thickness`, > 0, that follows a law, and at its thickest bears at most the pressure `hardness`, which
@@ -121,10 +125,10 @@ impl Film {
                 }
             }
             FilmLaw::MechanoChemical { x, c3, c4 } => {
-                crate::error::check("x", x, positive(x), "a number above 0")?;
+                check("x", x, positive(x), "a number above 0")?;
                 let within = (0.0..=max_thickness).contains(&c3);
                 check_in(Dimension::Length, "c3", c3, within, "a thickness from 0 to max_thickness")?;
-                crate::error::check("c4", c4, at_least_0(c4), "a rate from 0, 1/s")?;
+                check("c4", c4, at_least_0(c4), "a rate from 0, 1/s")?;
             }
         }
         Ok(Self { law, max_thickness, hardness, bare: None })
@@ -137,7 +141,7 @@ impl Film {
 
     /// Adds the rates of growth and removal over a position to their sums on a body, 0 or 1: ∫G dt in m and ∫R dt, or of the
     /// mechano-chemical law the exponents of growth and removal.
-    pub(super) fn add_rates(&self, _: &Pair, body: usize, touching: &Touching, sums: &mut [Field]) {
+    pub(super) fn add_rates(&self, body: usize, touching: &Touching, sums: &mut [Field]) {
         let [growth, removal] = sums else { unreachable!("two sums") };
         let [growth, removal] = [growth, removal].map(|sum| sum.as_slice_mut().expect("standard layout"));
         for (index, &cell) in touching.cells[body].iter().enumerate() {
@@ -321,10 +325,10 @@ impl Law for Films {
         Growing::SUMS
     }
 
-    fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(film) = &self.films[body] {
-                film.add_rates(pair, body, touching, sums);
+                film.add_rates(body, touching, sums);
             }
         }
     }

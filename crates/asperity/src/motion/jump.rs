@@ -1,9 +1,14 @@
 //! How many passes a computed one stands for.
 
+use std::f64::consts::PI;
+
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::motion::Strategy;
-use crate::motion::law::Sums;
+use crate::motion::contact::Contact;
+use crate::motion::law::{Law, Sums};
+use crate::motion::pair::Pair;
+use crate::operator::Boundary;
 use crate::units::{Dimension, MAX_COUNT, Metre};
 
 /// How far passes that are not computed may be taken for granted.
@@ -92,10 +97,81 @@ pub(super) struct Bounds {
     pub(super) stable: f64,
 }
 
+/// How many passes a computed one stands for.
+pub(super) struct Leap {
+    /// The passes, ≥ 1.
+    pub(super) passes: usize,
+    /// What laws sum over a pass in the mean of these passes; none of one pass, whose sums are its own.
+    pub(super) mean: Option<Vec<Sums>>,
+    /// Estimate of the error of the heights.
+    pub(super) error: Metre,
+}
+
+impl Leap {
+    /// The pass stands for itself.
+    pub(super) const ONE: Self = Self { passes: 1, mean: None, error: 0.0 };
+}
+
+/// How far the surfaces give way to a pressure of 1 at the shortest waves that cells have, m/Pa.
+#[derive(Clone, Copy)]
+pub(super) struct Softness {
+    /// To the pressure on a single cell.
+    pub(super) single: f64,
+    /// To a chequered pressure, the least of all.
+    pub(super) chequered: f64,
+}
+
+impl Softness {
+    /// That of a pair with a boundary.
+    pub(super) fn of(pair: &Pair, boundary: Boundary) -> Self {
+        /// Cells over which the alternating sum is taken; it is faded out towards them.
+        const REACH: i32 = 32;
+        let pitch = pair.pitch();
+        let response = pair.response();
+        let influence = response.influence(pitch);
+        let fade = |k: i32| (0.5 * PI * f64::from(k) / f64::from(REACH)).cos().powi(2);
+        let mut chequered = 0.0;
+        for i in -REACH..=REACH {
+            for j in -REACH..=REACH {
+                let sign = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
+                chequered +=
+                    sign * fade(i) * fade(j) * influence.at(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
+            }
+        }
+        if boundary.repeats(0) || boundary.repeats(1) {
+            let shortest = pitch.map(|pitch| PI / pitch);
+            chequered = chequered.min(response.harmonic_displacement(shortest[0], shortest[1]));
+        }
+        Self { single: influence.at(0.0, 0.0), chequered }
+    }
+}
+
+/// Depth that `laws` take in a pass off the cell which is in contact longest, under a pressure of 1, of both bodies, m/Pa.
+pub(super) fn relaxation(
+    pair: &Pair,
+    contacts: &[Contact],
+    laws: &[Box<dyn Law>],
+    friction: f64,
+    distance: Metre,
+) -> f64 {
+    let mut count = [&pair.lower, &pair.upper].map(|body| vec![0_u32; body.heights.len()]);
+    for contact in contacts {
+        for &(cell, _) in &contact.pressure {
+            let cells = pair.cells_of_bodies(&contact.position, cell as usize);
+            count.iter_mut().zip(cells).for_each(|(count, cell)| count[cell] += 1);
+        }
+    }
+    let longest = count.map(|count| count.into_iter().max().map_or(0.0, f64::from) * distance);
+    let wear = |law: &dyn Law| {
+        let per_pressure = law.per_pressure(friction);
+        per_pressure[0] * longest[0] + per_pressure[1] * longest[1]
+    };
+    laws.iter().map(|law| wear(law.as_ref())).sum()
+}
+
 impl Acceleration {
     /// The most passes that the computed one may stand for, as far as the error allows it.
-    pub(super) fn most(&self, bounds: &Bounds, before: Option<&Jump>) -> usize {
-        let Some(before) = before else { return 1 };
+    pub(super) fn most(&self, bounds: &Bounds, before: &Jump) -> usize {
         let [plastic, worn] = bounds.volumes;
         let most = if plastic > worn * before.passes as f64 {
             // What flows is not repeated: the surfaces shake down first.

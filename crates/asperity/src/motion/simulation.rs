@@ -10,7 +10,7 @@ use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::film::FILM;
-use crate::motion::jump::{self, Acceleration, Bounds, Jump};
+use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
 use crate::motion::law::{self, Law, Sums};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
@@ -43,6 +43,8 @@ pub struct Simulation {
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     acceleration: Acceleration,
+    /// How far single cells give way; known once a law repeats.
+    softness: Option<Softness>,
     /// The flash temperature over a pass, where it is wanted.
     heat: Option<Mutex<FlashTemperature>>,
     /// Passes that are computed.
@@ -136,6 +138,7 @@ impl Simulation {
             positions,
             operators,
             acceleration: Acceleration::NONE,
+            softness: None,
             heat: None,
             passes_done: 0,
             warm: WarmStart::default(),
@@ -163,11 +166,18 @@ impl Simulation {
     }
 
     /// The same motion, after whose passes a `law` changes the bodies, too: after those that do already, of which plastic flow
-    /// is the first. The contacts of a pass are solved on the bodies as they were before it, or under
-    /// [`crate::motion::PlasticUpdate::Step`] before its position.
+    /// is the first; a law that does not repeat before those that do. The contacts of a pass are solved on the bodies as they
+    /// were before it, or under [`crate::motion::PlasticUpdate::Step`] before its position.
     pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
-        self.laws.push(Box::new(law));
+        if law.repeats() {
+            self.softness.get_or_insert_with(|| Softness::of(&self.pair, self.boundary));
+            self.laws.push(Box::new(law));
+        } else {
+            // What a pass does once comes first: how many passes it stands for depends on it.
+            let once = self.laws.iter().take_while(|law| !law.repeats()).count();
+            self.laws.insert(once, Box::new(law));
+        }
         self
     }
 
@@ -183,7 +193,7 @@ impl Simulation {
                     "surfaces that do not move by whole rounds meet anew in each pass",
                 ));
             }
-            if self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields() {
+            if self.changes_at_every_step() {
                 return Err(Error::Unsupported(
                     "a pass that changes the bodies position by position stands for itself",
                 ));
@@ -192,11 +202,17 @@ impl Simulation {
         Ok(Self { acceleration, ..self })
     }
 
+    /// Whether the laws change the bodies position by position.
+    fn changes_at_every_step(&self) -> bool {
+        self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields()
+    }
+
     /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
     /// cells in contact, which begin each pass at that of the bodies.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies; those of [`FlashTemperature::new`].
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, and where these change position by position;
+    /// those of [`FlashTemperature::new`].
     pub fn with_heat(self, thermal: [Thermal; 2]) -> Result<Self> {
         let time = self.motion.step_time(self.pair.pitch()[0]);
         let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
@@ -204,6 +220,11 @@ impl Simulation {
                 "a flash temperature is that of bodies with friction, a speed and temperatures",
             ));
         };
+        if self.changes_at_every_step() {
+            return Err(Error::Unsupported(
+                "a flash temperature is that of bodies that stay as they are in a pass",
+            ));
+        }
         let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
         let heat = FlashTemperature::new(grids, thermal, self.boundary, self.positions.len(), time, bulk)?;
         Ok(Self { heat: Some(Mutex::new(heat)), ..self })
@@ -281,7 +302,6 @@ impl Simulation {
             law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, heat.as_deref_mut())?;
         drop(heat);
         steps.iter_mut().zip(&warm).for_each(|(step, warm)| step.heat = Some(*warm));
-        // Those that do not repeat come first.
         let once = self.laws.iter().take_while(|law| !law.repeats()).count();
         let (flow, laws) = self.laws.split_at(once);
         let repeated = sums.split_off(once);
@@ -292,9 +312,10 @@ impl Simulation {
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let (passes, mean, error_estimate) = self.jump(pass, laws, &repeated, flown, passage.distance)?;
+        let Leap { passes, mean, error } = self.jump(pass, laws, &repeated, flown, passage.distance)?;
+        let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
-            law::advance(laws, &mut pass.pair, &mean, passes as f64, &self.interiors, &mut lost[once..]);
+            law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
         let wear =
             laws.iter().position(|law| law.name() == WEAR).map(|index| law::deepest(&taken[index..=index]));
@@ -316,12 +337,13 @@ impl Simulation {
                 Some(warmest) => warmest,
                 None => passage.bulk[0].max(passage.bulk[1]),
             },
-            error_estimate,
+            error_estimate: error,
         };
-        Ok((Some(running), Some(Jump { passes, sums: repeated })))
+        let jump = (self.acceleration.max_jump > 1).then_some(Jump { passes, sums: repeated });
+        Ok((Some(running), jump))
     }
 
-    /// How many passes a solved one stands for, the mean over them of what its `laws` have summed, and the estimate of the error.
+    /// How many passes a solved one stands for, by what its `laws` have summed and the volume that has flown.
     fn jump(
         &self,
         pass: &Pass,
@@ -329,86 +351,45 @@ impl Simulation {
         sums: &[Sums],
         flown: CubicMetre,
         distance: Metre,
-    ) -> Result<(usize, Vec<Sums>, Metre)> {
-        let [single, chequered] = self.softness();
-        let relaxation = self.relaxation(pass, distance);
-        if relaxation >= 2.0 * chequered {
+    ) -> Result<Leap> {
+        let Some(softness) = self.softness else { return Ok(Leap::ONE) };
+        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+        let relaxation = jump::relaxation(&pass.pair, &pass.contacts, laws, friction, distance);
+        if relaxation >= 2.0 * softness.chequered {
             return Err(Error::Unsupported(
                 "a single pass wears more than pressures of single cells bear without swinging: a smaller wear coefficient, \
                  larger cells or a shorter pass are needed",
             ));
         }
+        let Some(before) = self.warm.jump.as_ref().filter(|_| self.acceleration.max_jump > 1) else {
+            return Ok(Leap::ONE);
+        };
         let one = law::tried(laws, &pass.pair, sums, 1);
         let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
         let bounds = Bounds {
             left: self.motion.passes - self.represented(),
             volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
-            stable: chequered / relaxation,
+            stable: softness.chequered / relaxation,
         };
-        let before = self.warm.jump.as_ref();
         let mut passes = self.acceleration.most(&bounds, before);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let allowed = self.acceleration.tolerance * single * highest;
-        while passes > 1
-            && let Some(before) = before
-        {
+        let allowed = self.acceleration.tolerance * softness.single * highest;
+        while passes > 1 {
             let mean = jump::extrapolated(sums, before, passes);
             let error = law::difference(
                 &law::tried(laws, &pass.pair, sums, passes),
                 &law::tried(laws, &pass.pair, &mean, passes),
             );
             if error <= allowed {
-                return Ok((passes, mean, error));
+                return Ok(Leap { passes, mean: Some(mean), error });
             }
             // The error of wear grows as the square.
             let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
             passes = fewer.clamp(1, passes - 1);
         }
-        Ok((1, sums.to_vec(), 0.0))
-    }
-
-    /// Depth to which a pressure of 1 presses a single cell, and that to which a chequered one does: the extremes of what the
-    /// surfaces answer, m/Pa.
-    fn softness(&self) -> [f64; 2] {
-        let pitch = self.pair.pitch();
-        let response = self.pair.response();
-        let influence = response.influence(pitch);
-        /// Cells over which the alternating sum is taken; it is faded out towards them.
-        const REACH: i32 = 32;
-        let fade = |k: i32| (0.5 * std::f64::consts::PI * f64::from(k) / f64::from(REACH)).cos().powi(2);
-        let mut chequered = 0.0;
-        for i in -REACH..=REACH {
-            for j in -REACH..=REACH {
-                let sign = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
-                chequered +=
-                    sign * fade(i) * fade(j) * influence.at(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
-            }
-        }
-        if self.boundary.repeats(0) || self.boundary.repeats(1) {
-            let shortest = pitch.map(|pitch| std::f64::consts::PI / pitch);
-            chequered = chequered.min(response.harmonic_displacement(shortest[0], shortest[1]));
-        }
-        [influence.at(0.0, 0.0), chequered]
-    }
-
-    /// Depth that the cell which is in contact longest loses in a pass to a pressure of 1, of both bodies, m/Pa.
-    fn relaxation(&self, pass: &Pass, distance: Metre) -> f64 {
-        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
-        let mut count = [&pass.pair.lower, &pass.pair.upper].map(|body| vec![0_u32; body.heights.len()]);
-        for contact in &pass.contacts {
-            for &(cell, _) in &contact.pressure {
-                let cells = pass.pair.cells_of_bodies(&contact.position, cell as usize);
-                count.iter_mut().zip(cells).for_each(|(count, cell)| count[cell] += 1);
-            }
-        }
-        let longest = count.map(|count| count.into_iter().max().map_or(0.0, f64::from) * distance);
-        let wear = |law: &dyn Law| {
-            let per_pressure = law.per_pressure(friction);
-            per_pressure[0] * longest[0] + per_pressure[1] * longest[1]
-        };
-        self.laws.iter().map(|law| wear(law.as_ref())).sum()
+        Ok(Leap::ONE)
     }
 
     /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
@@ -706,18 +687,10 @@ mod tests {
         let steel = Material::new(210e9, 0.3, 3e9).unwrap();
         let surface = |seed| form.generate(&grid, seed).unwrap();
         let pair = Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap();
-        let motion = Motion {
-            strategy,
-            passes: 3,
-            stride: 4,
-            control: Control::Load(0.05 * 3e9 * grid.area()),
-            load_control: LoadControl::Pass,
-            plastic_update: PlasticUpdate::Pass,
-            load_tolerance: 1e-6,
-            friction: None,
-            speed: None,
-            bulk: None,
-        };
+        let motion = Motion::new(strategy, Control::Load(0.05 * 3e9 * grid.area()))
+            .with_passes(3)
+            .with_stride(4)
+            .with_load_tolerance(1e-6);
         let mut simulation = Simulation::new(
             pair,
             boundary,
@@ -742,18 +715,10 @@ mod tests {
         let soft = Field::from_shape_fn([12, 8], |(i, _)| if i % 4 < 2 { 0.1e9 } else { f64::INFINITY });
         let pair = pair.with_hardness([soft.into(), f64::INFINITY.into()]).unwrap();
         let load = 1e9 * grid.area();
-        let motion = Motion {
-            strategy: Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
-            passes: 1,
-            stride: 3,
-            control: Control::Load(load),
-            load_control: LoadControl::Pass,
-            plastic_update: PlasticUpdate::Pass,
-            load_tolerance: 1e-4,
-            friction: None,
-            speed: None,
-            bulk: None,
-        };
+        let motion = Motion::new(Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::Load(load))
+            .with_passes(1)
+            .with_stride(3)
+            .with_load_tolerance(1e-4);
         for method in [Method::Direct, Method::ActiveSet] {
             let params = Params { method, ..Params::default() };
             let mut simulation = Simulation::new(pair.clone(), Boundary::PERIODIC, motion, params).unwrap();

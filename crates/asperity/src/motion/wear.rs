@@ -84,6 +84,7 @@ impl WearCoefficient {
 #[derive(Debug, Clone)]
 pub struct Wear {
     coefficients: [Option<WearCoefficient>; 2],
+    /// The films that lower the coefficients.
     films: [Option<Film>; 2],
 }
 
@@ -93,12 +94,12 @@ impl Wear {
     /// # Errors
     /// [`Error::Unsupported`] for a coefficient under a film that there is not.
     pub fn new(coefficients: [Option<WearCoefficient>; 2], films: [Option<Film>; 2]) -> Result<Self> {
-        for (coefficient, film) in coefficients.iter().zip(&films) {
-            if coefficient.is_some_and(|k| k.under_film != k.bare) && film.is_none() {
-                return Err(Error::Unsupported("a body without a film has no wear coefficient under one"));
-            }
+        let lowered = coefficients.map(|coefficient| coefficient.is_some_and(|k| k.under_film != k.bare));
+        if (0..2).any(|body| lowered[body] && films[body].is_none()) {
+            return Err(Error::Unsupported("a body without a film has no wear coefficient under one"));
         }
-        Ok(Self { coefficients, films })
+        let [lower, upper] = films;
+        Ok(Self { coefficients, films: [lower.filter(|_| lowered[0]), upper.filter(|_| lowered[1])] })
     }
 
     /// The depths that so many `passes` take off, with the coefficients in the mean over them.
@@ -128,10 +129,11 @@ impl Law for Wear {
     }
 
     fn sums(&self) -> usize {
-        1 + Growing::SUMS
+        // What films sum is needed where they lower the wear alone.
+        if self.films.iter().any(Option::is_some) { 1 + Growing::SUMS } else { 1 }
     }
 
-    fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(coefficient) = self.coefficients[body] {
                 let work = sums[0].as_slice_mut().expect("standard layout");
@@ -143,7 +145,7 @@ impl Law for Wear {
                     work[cell as usize] += value * touching.sliding_distance;
                 }
                 if let Some(film) = &self.films[body] {
-                    film.add_rates(pair, body, touching, &mut sums[1..]);
+                    film.add_rates(body, touching, &mut sums[1..]);
                 }
             }
         }

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use asperity::material::Material;
 use asperity::motion::{
-    Acceleration, FILM, Film, FilmLaw, FilmStress, Films, LoadControl, Motion, Output, Pair, PassRecord,
-    PassReport, Simulation, Strategy, Wear, WearCoefficient,
+    Acceleration, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output, Pair, PassRecord,
+    PassReport, Simulation, Strategy, Touching, Wear, WearCoefficient,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
@@ -232,6 +232,58 @@ fn a_film_is_exact_over_any_jump_and_tends_to_its_steady_value() {
     let law = FilmLaw::MechanoChemical { x: 1e-11, c3: 4e-9, c4: 50.0 };
     let thick = flat_film(100_000, 10_000, 0.0, Some(law));
     assert!((thick / 6e-9 - 1.0).abs() < 1e-6, "{thick:e}: f_max − C₃");
+}
+
+/// Takes a nanometre off every cell of the lower body in a pass, whatever that stands for.
+struct Once;
+
+impl Law for Once {
+    fn name(&self) -> &str {
+        "once"
+    }
+
+    fn repeats(&self) -> bool {
+        false
+    }
+
+    fn add(&self, _: &Pair, _: &Touching, _: &mut [Vec<Field>; 2]) {}
+
+    fn advance(&self, _: &mut Pair, sums: &[Vec<Field>; 2], _: f64) -> [Field; 2] {
+        [sums[0][0].mapv(|_| 1e-9), sums[1][0].clone()]
+    }
+}
+
+#[test]
+fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
+    let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
+    let simulation = Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default());
+    let simulation = simulation.unwrap().with_law(archard(4e-15)).with_law(Once);
+    // Its volume counts as that of what flows: the wear of a jump is to exceed it.
+    let kept = Kept::of(simulation.with_acceleration(Acceleration::default()).unwrap());
+    assert_eq!(kept.represented(), 20);
+    let volume = 256.0 * PITCH * PITCH * 1e-9;
+    assert!(kept.passes.iter().all(|pass| (pass.lost("once")[0] / volume - 1.0).abs() < 1e-9));
+    assert!(kept.passes.iter().all(|pass| pass.represents() == 1));
+}
+
+#[test]
+fn what_is_not_accelerated_keeps_nothing_for_jumps() {
+    struct Warm(Vec<bool>);
+    impl Output for Warm {
+        fn pass(&mut self, report: &PassReport) -> Result<()> {
+            self.0.push(report.warm.jump.is_some());
+            Ok(())
+        }
+    }
+    for (acceleration, keeps) in [(Acceleration::NONE, false), (Acceleration::default(), true)] {
+        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(2).with_stride(4);
+        let simulation =
+            Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
+        let mut warm = Warm(Vec::new());
+        let mut simulation = simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap();
+        simulation.run(&(), &mut [&mut warm]).unwrap();
+        assert_eq!(warm.0, [keeps; 2]);
+    }
 }
 
 #[test]

@@ -24,7 +24,7 @@ use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{GivenMap, Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
-pub use self::running::{FilmKeys, FilmSpec, TemperatureSpec, WearKey, WearSpec};
+pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 pub use self::sweep::Sweep;

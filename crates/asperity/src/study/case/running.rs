@@ -42,44 +42,12 @@ pub enum WearKey {
 pub struct FilmSpec {
     /// How it grows and is removed.
     #[serde(flatten)]
-    pub law: FilmKeys,
+    pub law: FilmLaw,
     /// The thickness that it cannot exceed.
     pub max_thickness: Metre,
     /// What its cells bear where it is at its thickest; what the body bears if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Pascal>,
-}
-
-/// The law of a film with its constants.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum FilmKeys {
-    /// Growth by Arrhenius under a stress.
-    Arrhenius {
-        /// Growth of a film of no thickness at the next two.
-        rate: f64,
-        /// Temperature of that rate.
-        at_temperature: Kelvin,
-        /// Stress of that rate.
-        at_stress: Pascal,
-        /// Activation energy.
-        activation_energy: f64,
-        /// Activation volume.
-        activation_volume: f64,
-        /// The stress that drives it.
-        stress: FilmStress,
-        /// Removal per pressure and distance slid.
-        removal: f64,
-    },
-    /// The mechano-chemical law.
-    MechanoChemical {
-        /// The factor x.
-        x: f64,
-        /// The thickness that removal takes in the end.
-        c3: Metre,
-        /// Its rate, 1/s.
-        c4: f64,
-    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -176,7 +144,7 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
             .number_of_any_size(good, if least { "a number of at least 0" } else { "a number above 0" })
     };
     let law = match law {
-        LawKind::Arrhenius => FilmKeys::Arrhenius {
+        LawKind::Arrhenius => FilmLaw::Arrhenius {
             rate: positive("rate", "\"20 nm/s\"", Dimension::Speed)?,
             at_temperature: positive("at_temperature", "\"100 °C\"", Dimension::Temperature)?,
             at_stress: from_0("at_stress", "\"3 GPa\"", Dimension::Pressure)?,
@@ -192,7 +160,7 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
             if c3 > max_thickness {
                 return Err(table.required("c3", "")?.unexpected("no more than 'max_thickness'", None));
             }
-            FilmKeys::MechanoChemical { x: number("x", "1e-16", false)?, c3, c4: number("c4", "0.01", true)? }
+            FilmLaw::MechanoChemical { x: number("x", "1e-16", false)?, c3, c4: number("c4", "0.01", true)? }
         }
     };
     let hardness = match table.get("hardness") {
@@ -363,7 +331,7 @@ pub(super) fn runs_in(root: &Table<'_>, bodies: [&Body; 2], motion: Option<&Moti
                 Some(("wear", "energy"))
             }
             Body {
-                film: Some(FilmSpec { law: FilmKeys::Arrhenius { stress: FilmStress::Shear, .. }, .. }),
+                film: Some(FilmSpec { law: FilmLaw::Arrhenius { stress: FilmStress::Shear, .. }, .. }),
                 ..
             } => Some(("film", "stress")),
             _ => None,
@@ -444,26 +412,6 @@ impl WearSpec {
 
 impl FilmSpec {
     fn film(&self) -> Result<Film> {
-        let law = match self.law {
-            FilmKeys::Arrhenius {
-                rate,
-                at_temperature,
-                at_stress,
-                activation_energy,
-                activation_volume,
-                stress,
-                removal,
-            } => FilmLaw::Arrhenius {
-                rate,
-                at_temperature,
-                at_stress,
-                activation_energy,
-                activation_volume,
-                stress,
-                removal,
-            },
-            FilmKeys::MechanoChemical { x, c3, c4 } => FilmLaw::MechanoChemical { x, c3, c4 },
-        };
-        Film::new(law, self.max_thickness, self.hardness)
+        Film::new(self.law, self.max_thickness, self.hardness)
     }
 }
