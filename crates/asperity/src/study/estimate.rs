@@ -258,6 +258,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         let wraps = [0, 1].map(|axis| case.contact.boundary.repeats(axis) || (shifts && axis == 0));
         torn(name, body, wraps, &mut warnings);
     }
+    warnings.extend(fast(case, bodies.lower.topography.grid().pitch[0]));
     /// Up to here tan and sin of a slope agree to some 5 %.
     const STEEP: f64 = 0.3;
     if estimate.gap_slope > STEEP {
@@ -310,6 +311,26 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         frictional(case, &friction.law, estimate, &mut warnings);
     }
     warnings
+}
+
+/// Heat that does not leave its cell while the bodies slide over one.
+fn fast(case: &Case, pitch: Metre) -> Option<String> {
+    if case.temperature.is_none_or(|temperature| temperature.every == 0) {
+        return None;
+    }
+    // Of nothing but its time and its distance the load does not matter.
+    let motion = case.motion(1.0)?;
+    let speed = motion.sliding_distance(pitch) / motion.step_time(pitch);
+    let peclet = |body: &Body| body.thermal.map(|thermal| 0.5 * speed * pitch / thermal.diffusivity());
+    let [lower, upper] = [&case.lower, &case.upper].map(peclet);
+    let largest = lower?.max(upper?);
+    (largest > 1.0).then(|| {
+        format!(
+            "heat hardly leaves a cell while the bodies slide over one: its Péclet number is {}, up to 1 the flash temperature \
+             is right to a few per cent; take a smaller `pitch`",
+            units::format_number(largest)
+        )
+    })
 }
 
 /// A coating that the cells do not resolve.

@@ -50,7 +50,9 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
 /// The warnings of a motion of bodies of these `shapes`, by its passes.
 pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
-    let all = ploughed(case, shapes, passes).into_iter().chain(too_few_cells(largest));
+    let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
+    let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
+    let all = flows.into_iter().chain(wears).chain(too_few_cells(largest));
     all.chain(thick_films(passes)).chain(all_computed(case, passes)).collect()
 }
 
@@ -81,16 +83,23 @@ fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
     })
 }
 
-/// The warning that most of the plastic volume is lost at the free ends, more than their area accounts for.
-fn ploughed(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Option<String> {
+/// The warning that most of the volume of a law, which is called `what`, is lost at the free ends, more than their area accounts
+/// for.
+fn at_the_rim(
+    case: &Case,
+    shapes: [[usize; 2]; 2],
+    passes: &[PassRecord],
+    law: &str,
+    what: &str,
+) -> Option<String> {
     /// Times the volume per area of the interior.
     const DENSER: f64 = 2.0;
     let strategy = case.motion?.strategy;
     let interiors = Interior::of_bodies(shapes, case.contact.boundary, strategy, case.output.rim);
     let [mut all, mut rim, mut of_area] = [0.0; 3];
     for body in 0..2 {
-        let lost: f64 = passes.iter().map(|pass| pass.lost("plastic")[body]).sum();
-        let inside: f64 = passes.iter().map(|pass| pass.lost_inside("plastic")[body]).sum();
+        let lost: f64 = passes.iter().map(|pass| pass.lost(law)[body]).sum();
+        let inside: f64 = passes.iter().map(|pass| pass.lost_inside(law)[body]).sum();
         let area = 1.0 - interiors[body].cells() as f64 / (shapes[body][0] * shapes[body][1]) as f64;
         all += lost;
         rim += lost - inside;
@@ -100,7 +109,7 @@ fn ploughed(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Opti
         return None;
     }
     Some(format!(
-        "the rim of the bodies, {:.2} % of their area, takes {:.2} % of the plastic volume: free ends plough; read the \
+        "the rim of the bodies, {:.2} % of their area, takes {:.2} % of {what}: free ends plough; read the \
          columns `..._interior`, or let surfaces without ends pass by `strategy = \"shift\"` under a periodic boundary",
         100.0 * of_area / all,
         100.0 * rim / all

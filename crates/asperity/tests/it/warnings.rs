@@ -11,6 +11,8 @@ use asperity::study::Existing;
 use asperity::study::bodies;
 use asperity::study::estimate;
 use asperity::study::{Outcome, Summary};
+use asperity::surface::Topography;
+use asperity::{Field, Grid};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -31,6 +33,91 @@ fn a_coating_thinner_than_a_cell_is_told_of_and_hertz_says_nothing_of_a_coated_b
     // By Hertz a body without the coating is cut off by the rim.
     assert!(warnings("").iter().any(|warning| warning.contains("by Hertz")));
     assert_eq!(warnings(THICK), Vec::<String>::new());
+}
+
+// ---- running-in ------------------------------------------------------------------------------------------
+
+/// Rough surfaces; a seed follows.
+const ROUGH: &str =
+    "shape = [32, 16]\npitch = \"1 um\"\ngenerate = \"low-pass\"\nsq = \"20 nm\"\ncutoff = \"10 um\"\n";
+
+/// Surfaces that the caller gives by the names of their bodies; what follows is no key.
+const RAISED: &str = "given = \"BODY\"\n#";
+
+/// Two rough bodies of 32 × 16 cells that slide at a speed, with `more` of each.
+fn sliding(speed: &str, more: &str, rest: &str) -> Case {
+    sliding_under("30 mN", ROUGH, speed, more, rest)
+}
+
+/// The same under a load, with other topographies.
+fn sliding_under(load: &str, topography: &str, speed: &str, more: &str, rest: &str) -> Case {
+    let body = |name: &str, seed: u32| {
+        format!(
+            "[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\nconductivity = 46\nheat_capacity = 460\ndensity = 7850\n{more}\n\
+             [{name}.topography]\n{}seed = {seed}\n",
+            topography.replace("BODY", name)
+        )
+    };
+    let text = format!(
+        "{}{}[contact]\nload = \"{load}\"\n[friction]\ncoefficient = 0.1\ncoupling = \"none\"\n\
+         [motion]\nspeed = \"{speed}\"\n{rest}",
+        body("lower", 1),
+        body("upper", 2)
+    );
+    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+#[test]
+fn a_flash_temperature_of_cells_that_heat_does_not_leave_is_told_of() {
+    // D = 12.74 mm²/s: the Péclet number V Δx/2D of a cell of a micrometre is 1 at 25.5 m/s.
+    let told = |speed: &str, bulk: &str| {
+        let warnings = check(&sliding(speed, "", bulk));
+        warnings.into_iter().find(|warning| warning.contains("Péclet number"))
+    };
+    let bulk = "[temperature]\nbulk = 300\n";
+    assert_eq!(told("25 m/s", bulk), None);
+    let fast = told("26 m/s", bulk).unwrap();
+    assert!(fast.contains("its Péclet number is 1.02, up to 1"), "{fast}");
+    assert_eq!(told("26 m/s", "[temperature]\nbulk = 300\nevery = 0\n"), None);
+}
+
+#[test]
+fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
+    let wear = "wear = { coefficient = \"1e-8 mm3/(N m)\" }\n";
+    let film = "film = { law = \"arrhenius\", max_thickness = \"1 um\", rate = \"10 m/s\", at_temperature = 300, at_stress = 0, \
+                activation_energy = 0, activation_volume = 0 }\n";
+    let bulk = "[temperature]\nbulk = 300\nevery = 0\n";
+    let told = |warnings: &[String], words: &str| warnings.iter().any(|warning| warning.contains(words));
+    let light = run(&sliding("0.5 m/s", wear, &format!("stride = 4\n{bulk}"))).warnings;
+    assert!(
+        !told(&light, "of the wear") && !told(&light, "the film") && !told(&light, "computed"),
+        "{light:?}"
+    );
+    // Pressed flat, the whole of a body grows the film.
+    let flat =
+        sliding_under("2 N", ROUGH, "0.5 m/s", &format!("{wear}{film}"), &format!("stride = 4\n{bulk}"));
+    let flat = run(&flat).warnings;
+    assert!(told(&flat, "the film on the lower body is thicker, "), "{flat:?}");
+    let case = sliding_under("30 mN", RAISED, "0.5 m/s", wear, &format!("stride = 4\n{bulk}"));
+    let mut given = study::Given::default();
+    for name in ["lower", "upper"] {
+        // Its ends stand out.
+        let heights = Field::from_shape_fn([32, 16], |(i, j)| {
+            if (2..30).contains(&i) { 0.0 } else { 2e-7 + 1e-9 * (j % 3) as f64 }
+        });
+        let grid = Grid::new([32, 16], [1e-6; 2]).unwrap();
+        given.topographies.insert(name.to_owned(), Topography::new(grid, heights).unwrap());
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let ends =
+        study::run(&case, given, &folder.path().join("results"), Existing::Keep, &()).unwrap().0.warnings;
+    assert!(told(&ends, "of the wear: free ends plough"), "{ends:?}");
+    let [all, accelerated] = ["", "[acceleration]\n"].map(|table| {
+        run(&sliding("0.5 m/s", wear, &format!("passes = 100\nstride = 16\n{bulk}{table}"))).warnings
+    });
+    let computed =
+        |warnings: &[String]| warnings.iter().any(|warning| warning.contains("passes were computed"));
+    assert!(computed(&all) && !computed(&accelerated), "{all:?} {accelerated:?}");
 }
 
 // ---- the rim of the grid ---------------------------------------------------------------------------------
