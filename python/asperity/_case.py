@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .body import Handed
-from .errors import _make
+from ._units import whole
+from .errors import bad_input
 
 _IN_PLANE = ("force", "displacement", "sliding")
 
@@ -57,17 +58,14 @@ def threads(count: int | None) -> int:
     """Number of threads for the compiled module: 0 is one for each core."""
     if count is None:
         return 0
-    if isinstance(count, bool) or not hasattr(count, "__index__") or count.__index__() < 1:
-        message = f"'threads' is {count!r}, expected a whole number of at least 1, or None for one on each core"
-        raise _make("CaseError", message, {"key": "threads"}, None)
-    return count.__index__()
+    return whole("threads", count, 1, ", or None for one on each core")
 
 
 def existing(resume: bool, overwrite: bool) -> str:
     """What becomes of results that are there already."""
     if resume and overwrite:
         message = "'resume' and 'overwrite' are both given, expected one of them"
-        raise _make("CaseError", message, {"key": "resume"}, None)
+        raise bad_input("resume", message)
     return "resume" if resume else "overwrite" if overwrite else "keep"
 
 

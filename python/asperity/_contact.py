@@ -14,7 +14,7 @@ from ._progress import Teller, Told
 from ._same import Comparable
 from ._units import Quantity
 from .body import Body, Handed, bodies
-from .errors import _make, warn
+from .errors import bad_input, warn
 from .fields import Fields
 from .material import Material
 from .surface import Surface
@@ -308,7 +308,7 @@ def contact(
         for key, value in (("subsurface", subsurface), ("paraview", paraview), ("resume", resume or None)):
             if value is not None:
                 message = f"'{key}' is given without 'out', the directory for what it writes"
-                raise _make("CaseError", message, {"key": key}, None)
+                raise bad_input(key, message)
         with Teller(progress) as tell:
             found = _core.rest(case, handed.given, count, tell)
         pitch = (found["pitch"][0], found["pitch"][1])

@@ -53,9 +53,10 @@ class Passes:
         """
         Finishes the pass that is solved: it is written, and the next one begins on its bodies.
         """
-    def grid(self, /) -> tuple[list[float], float]:
+    def grid(self, /) -> tuple[list[float], float, list[tuple[int, int]]]:
         """
-        Size of a cell, and the distance over which the bodies slide from one position to the next.
+        Size of a cell, the distance over which the bodies slide from one position to the next, and the numbers of cells of the
+        lower and of the upper body.
         """
     def heights(self, /) -> list[Incomplete]:
         """

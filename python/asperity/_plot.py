@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._show import Look, largest, look, scale, unit_of, words
-from .errors import _make
+from .errors import bad_input
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -107,7 +107,7 @@ def run(run: Run, quantity: str | None = None, ax: Any = None, **options: Any) -
     columns = [name for name in passes.dtype.names or () if name != "pass"]
     if quantity not in columns:
         message = f"'quantity' is {quantity!r}, expected a column of the passes: {', '.join(columns)}"
-        raise _make("CaseError", message, {"key": "quantity"}, None)
+        raise bad_input("quantity", message)
     ax = _axes(ax)
     value = scale(unit_of(quantity), largest(passes[quantity]))
     ax.plot(passes["pass"], value.factor * passes[quantity], **{"marker": "o", **options})
@@ -137,7 +137,7 @@ def animation(run: Run, number: int, interval: float = 100.0, **options: Any) ->
     names = [name for name in fields if name.startswith("pressure_")]
     if not names:
         hint = "pressure_every=8 keeps those of every eighth position"
-        raise _make("CaseError", f"no pressures are kept of pass {number}", {"key": "pressure_every"}, hint)
+        raise bad_input("pressure_every", f"no pressures are kept of pass {number}", hint)
     pyplot = need("matplotlib.pyplot", "animate()")
     films = need("matplotlib.animation", "animate()")
     frames = [_on_lower(fields[name], fields["lower"]) for name in names]

@@ -16,7 +16,7 @@ from ._temporary import Temporary
 from ._units import Quantity
 from .body import Body
 from ._contact import Contact, Friction
-from .errors import _make, warn
+from .errors import _make, bad_input, warn
 from .fields import Fields
 from .material import Material
 from .simulation import Pass, Simulation
@@ -150,7 +150,7 @@ class Run(Comparable):
             return done
         if not 0 <= number <= done:
             message = f"'number' is {number}, expected a pass from 0, before the first, to {done}, the last"
-            raise _make("CaseError", message, {"key": "number"}, None)
+            raise bad_input("number", message)
         return number
 
     def to_xarray(self) -> Any:
@@ -296,7 +296,7 @@ def simulate(
         if removed is not None:
             if not isinstance(removed, tuple) or len(removed) != 2:
                 message = f"'law' gave {type(removed).__name__}, expected None, or the depths off the lower and the upper body"
-                raise _make("CaseError", message, {"key": "law"}, None)
+                raise bad_input("law", message)
             each.remove(*removed)
     return _finished(simulation)
 

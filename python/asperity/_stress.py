@@ -13,7 +13,7 @@ from . import _case, _core
 from ._optional import need
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
-from .errors import _make
+from .errors import bad_input
 from .material import Material, _poisson
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ class Stress(Comparable):
         for name, part in zip(COMPONENTS, parts, strict=True):
             if part.shape != parts[0].shape:
                 message = f"'{name}' has the shape {part.shape}, expected that of 'xx', {parts[0].shape}"
-                raise _make("CaseError", message, {"key": name}, None)
+                raise bad_input(name, message)
         self._parts = parts
 
     def _compared(self) -> dict[str, Any]:
@@ -271,13 +271,13 @@ def stress(
     ((32, 32), '0.62')
     """
     if body not in ("lower", "upper"):
-        raise _bad("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+        raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
     if isinstance(source, Comparable) and hasattr(source, "fields"):
         for key, value in (
             ("poisson", poisson), ("material", material), ("boundary", boundary), ("shear", shear), ("pitch", pitch),
         ):  # fmt: skip
             if value is not None:
-                raise _bad(key, f"'{key}' is given beside a contact, which has its own")
+                raise bad_input(key, f"'{key}' is given beside a contact, which has its own")
         given = _of_contact(source, body)
     else:
         given = _of_tractions(source, shear, pitch, boundary, _ratio(poisson, material), body)
@@ -286,7 +286,7 @@ def stress(
 
 def _of_contact(contact: Any, body: str) -> Any:
     if "coating" in contact.case[body]:
-        raise _bad("coating", "stresses under a coating are not known yet")
+        raise bad_input("coating", "stresses under a coating are not known yet")
     found = contact.fields
     shear = [found[name].values if name in found else None for name in ("traction_x", "traction_y")]
     boundary = contact.case["contact"]["boundary"]
@@ -295,17 +295,17 @@ def _of_contact(contact: Any, body: str) -> Any:
 
 def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson: float, body: str) -> Any:
     if pitch is None:
-        raise _bad("pitch", "'pitch' is missing: how far apart are the tractions?")
+        raise bad_input("pitch", "'pitch' is missing: how far apart are the tractions?")
     normal = _traction("pressure", pressure, None)
     parts: list[Any] = [None, None] if shear is None else list(shear)
     if len(parts) != 2:
-        raise _bad("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
+        raise bad_input("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
     along = [None if part is None else _traction("shear", part, normal.shape) for part in parts]
     if boundary is not None and not isinstance(boundary, str) and len(set(boundary)) == 1:
         boundary = boundary[0]
     edge = "free" if boundary is None else boundary
     if edge not in ("free", "periodic"):
-        raise _bad("boundary", f"'boundary' is {boundary!r}, expected \"free\" or \"periodic\"")
+        raise bad_input("boundary", f"'boundary' is {boundary!r}, expected \"free\" or \"periodic\"")
     return (normal, lengths("pitch", pitch)), along, [edge, edge], poisson, body == "upper"
 
 
@@ -313,23 +313,23 @@ def _traction(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[n
     try:
         found = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise _bad(key, f"'{key}' is no matrix of numbers: {error}") from error
+        raise bad_input(key, f"'{key}' is no matrix of numbers: {error}") from error
     if found.ndim != 2 or 0 in found.shape:
-        raise _bad(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
     if shape is not None and found.shape != shape:
-        raise _bad(key, f"'{key}' has the shape {found.shape}, expected that of the pressure, {shape}")
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected that of the pressure, {shape}")
     if not np.isfinite(found).all():
-        raise _bad(key, f"'{key}' holds a number that is not finite")
+        raise bad_input(key, f"'{key}' holds a number that is not finite")
     return found
 
 
 def _ratio(poisson: float | None, material: Material | None) -> float:
     if (poisson is None) == (material is None):
-        raise _bad("poisson", "give 'poisson' or 'material', one of them")
+        raise bad_input("poisson", "give 'poisson' or 'material', one of them")
     if material is None:
         return _poisson(poisson)
     if material.coating is not None:
-        raise _bad("material", "stresses under a coating are not known yet")
+        raise bad_input("material", "stresses under a coating are not known yet")
     return material.poisson
 
 
@@ -337,9 +337,5 @@ def _depths(depths: Any) -> list[float]:
     one = isinstance(depths, str) or np.ndim(depths) == 0
     found = [quantity("depths", depth, "length", positive=False) for depth in ([depths] if one else depths)]
     if not found or found[0] < 0.0 or any(b <= a for a, b in zip(found, found[1:])):
-        raise _bad("depths", f"'depths' is {depths!r}, expected lengths of at least 0 that ascend")
+        raise bad_input("depths", f"'depths' is {depths!r}, expected lengths of at least 0 that ascend")
     return found
-
-
-def _bad(key: str, message: str) -> Exception:
-    return _make("CaseError", message, {"key": key}, None)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._same import Comparable
-from .errors import _make
+from .errors import bad_input
 from .material import Material
 from .surface import Surface
 
@@ -50,10 +50,10 @@ class Body(Comparable):
         if not isinstance(surface, Surface):
             hint = "asp.Surface(heights, pitch=...) makes one of an array"
             message = f"'surface' is of type {type(surface).__name__}, expected an asperity.Surface"
-            raise _make("CaseError", message, {"key": "surface"}, hint)
+            raise bad_input("surface", message, hint)
         if not isinstance(material, Material):
             message = f"'material' is of type {type(material).__name__}, expected an asperity.Material"
-            raise _make("CaseError", message, {"key": "material"}, "for example asp.Material(young=\"210 GPa\", poisson=0.3)")
+            raise bad_input("material", message, "for example asp.Material(young=\"210 GPa\", poisson=0.3)")
         self.surface = surface
         self.material = material
         self.mount = mount
@@ -88,7 +88,7 @@ class Handed:
         if isinstance(hardness, np.ndarray):
             if hardness.ndim != 2:
                 message = f"'hardness' has {hardness.ndim} dimensions, expected a number, or a matrix [ix, iy]"
-                raise _make("CaseError", message, {"key": f"{name}.hardness"}, None)
+                raise bad_input(f"{name}.hardness", message)
             self.hardness[name] = hardness
             table["hardness"] = {"given": name}
         table |= {"wear": body.wear, "film": body.film, **(body.thermal or {})}
@@ -111,12 +111,12 @@ def _body(name: str, given: Any, material: Material | None) -> Body:
     if isinstance(given, Body):
         if material is not None:
             message = f"'{name}_material' is given, but '{name}' is a body, which has a material"
-            raise _make("CaseError", message, {"key": f"{name}_material"}, None)
+            raise bad_input(f"{name}_material", message)
         return given
     if material is None:
         message = f"'{name}' has no material"
         hint = f"give asp.Body(surface, material), or a surface and '{name}_material'"
-        raise _make("CaseError", message, {"key": f"{name}_material"}, hint)
+        raise bad_input(f"{name}_material", message, hint)
     return Body(given, material)
 
 
@@ -126,7 +126,7 @@ def heights_like(value: ArrayLike, shape: tuple[int, int], key: str) -> Any:
     if array.ndim > 0 and array.shape != shape:
         found = " × ".join(map(str, array.shape))
         message = f"'{key}' has the shape {found}, expected {shape[0]} × {shape[1]}, a value for each cell of the body"
-        raise _make("CaseError", message, {"key": key}, None)
+        raise bad_input(key, message)
     if not np.isfinite(array).all():
-        raise _make("CaseError", f"'{key}' holds numbers that are not finite, expected lengths", {"key": key}, None)
+        raise bad_input(key, f"'{key}' holds numbers that are not finite, expected lengths")
     return np.full(shape, float(array)) if array.ndim == 0 else array

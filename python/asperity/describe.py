@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._points import Point, spread
 from ._same import Comparable, same
-from ._units import Quantity, quantity
-from .errors import _make
+from ._units import Quantity, number, quantity, whole
+from .errors import bad_input
 
 Axis = Literal["x", "y"]
 """A direction in the plane of the surface."""
@@ -308,7 +308,7 @@ class Profile(Comparable):
         given = np.asarray(heights, dtype=np.float64)
         if given.ndim != 1:
             message = f"'heights' has {given.ndim} dimensions, expected heights along a line"
-            raise _make("CaseError", message, {"key": "heights"}, None)
+            raise bad_input("heights", message)
         self._given = given
         self.pitch = quantity("pitch", pitch, "length")
         self._filters: list[tuple[str, float]] = []
@@ -542,7 +542,7 @@ class Spectrum(Comparable):
         ndarray
             Records of `wave_number`, rad/m, `density`, m⁴, and `waves`, the number of wave vectors in the ring.
         """
-        rings = None if per_decade is None else _whole("per_decade", per_decade, 1)
+        rings = None if per_decade is None else whole("per_decade", per_decade, 1)
         return np.array(self._core.radial(rings), dtype=_SPECTRAL)
 
     def angular(self, directions: int = 180) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -560,7 +560,7 @@ class Spectrum(Comparable):
         density : ndarray
             m²; its sum times π/`directions` is the variance of the waves up to the Nyquist wave number.
         """
-        count = _whole("directions", directions, 1)
+        count = whole("directions", directions, 1)
         return np.pi / count * np.arange(count, dtype=np.float64), self._core.angular(count)
 
     def along(self, axis: Axis) -> NDArray[np.void]:
@@ -596,7 +596,7 @@ class Spectrum(Comparable):
             If there are fewer than three points, or no range that follows a law.
         """
         fit = None if wave_numbers is None else _range("wave_numbers", wave_numbers)
-        return _law(self._core.self_affinity(fit, _whole("per_decade", per_decade, 1)))
+        return _law(self._core.self_affinity(fit, whole("per_decade", per_decade, 1)))
 
 
 class Correlation(Comparable):
@@ -750,7 +750,7 @@ def feature_parameters(given: _Given, pruning: float) -> Parameters:
 
 def profile(given: _Given, axis: str, index: int) -> Profile:
     """The profile along an axis."""
-    heights, pitch = _core.profile(given, axis, _whole("index", index, 0))
+    heights, pitch = _core.profile(given, axis, whole("index", index, 0))
     return Profile(heights, pitch)
 
 
@@ -761,7 +761,7 @@ def profile_parameters(given: _Given, axis: str, cutoff: Quantity) -> Parameters
 
 def distribution(given: _Given, slope: str | None, classes: int | None) -> Distribution:
     """The distribution of heights, or of a slope."""
-    count = None if classes is None else _whole("classes", classes, 1)
+    count = None if classes is None else whole("classes", classes, 1)
     return Distribution(*_core.distribution(given, slope, count))
 
 
@@ -790,29 +790,12 @@ def segments(given: _Given, dales: bool, pruning: float) -> Segmentation:
     return Segmentation(_core.segments(given, dales, _share(pruning)))
 
 
-def _whole(key: str, value: Any, least: int) -> int:
-    if isinstance(value, bool) or not hasattr(value, "__index__") or value.__index__() < least:
-        message = f"'{key}' is {value!r}, expected a whole number of at least {least}"
-        raise _make("CaseError", message, {"key": key}, None)
-    return int(value.__index__())
-
-
-def _number(key: str, value: Any, least: float, most: float, expected: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = np.nan
-    if not least <= number <= most:
-        raise _make("CaseError", f"'{key}' is {value!r}, expected {expected}", {"key": key}, None)
-    return number
-
-
 def _share(pruning: Any) -> float:
-    return _number("pruning", pruning, 0.0, 1.0, "a share of Sz from 0 to 1")
+    return number("pruning", pruning, "a share of Sz from 0 to 1", 0.0, 1.0)
 
 
 def _level(level: Any) -> float:
-    return _number("level", level, -1.0, np.nextafter(1.0, 0.0), "a part of R(0) below 1")
+    return number("level", level, "a part of R(0) below 1", -1.0, np.nextafter(1.0, 0.0))
 
 
 def _range(key: str, value: Any) -> list[float]:
@@ -821,5 +804,5 @@ def _range(key: str, value: Any) -> list[float]:
     except (TypeError, ValueError):
         low, high = np.nan, np.nan
     if not 0.0 <= low < high:
-        raise _make("CaseError", f"'{key}' is {value!r}, expected two numbers that ascend", {"key": key}, None)
+        raise bad_input(key, f"'{key}' is {value!r}, expected two numbers that ascend")
     return [low, high]

@@ -220,6 +220,11 @@ def warn(texts: list[str]) -> None:
         warnings.warn(text, ModelWarning, stacklevel=level)
 
 
+def bad_input(key: str, message: str, hint: str | None = None) -> AsperityError:
+    """The exception of an argument that has no meaning, as of a key of a case; to be raised."""
+    return _make("CaseError", message, {"key": key}, hint)
+
+
 def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None) -> AsperityError:
     """The exception of that name; called by the compiled module."""
     if name == "File" and attributes.get("errno") == 2:

@@ -10,19 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._same import Comparable
-from ._units import Quantity, quantity
-from .errors import _make
+from ._units import Quantity, number, quantity
+from .errors import bad_input
 
 
 def _poisson(value: Any) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not 0.0 <= number <= 0.5:
-        message = f"'poisson' is {value!r}, expected a number from 0 to 0.5"
-        raise _make("CaseError", message, {"key": "poisson"}, None)
-    return number
+    return number("poisson", value, "a number from 0 to 0.5", 0.0, 0.5)
 
 
 class Coating(Comparable):
@@ -158,7 +151,7 @@ class Compliances(Comparable):
     def __init__(self, lower: Material, upper: Material) -> None:
         for key, material in (("lower", lower), ("upper", upper)):
             if not isinstance(material, Material):
-                raise _make("CaseError", f"'{key}' is {material!r}, expected a Material", {"key": key}, None)
+                raise bad_input(key, f"'{key}' is {material!r}, expected a Material")
         found = _core.compliances(lower._constants(), upper._constants())
         self.normal, self.lateral, self.coupling, self._modulus, self._dundurs, self._tangential = map(float, found)
 

@@ -26,8 +26,8 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._points import Point, spread
 from ._same import Comparable
-from ._units import Pair, Quantity, lengths, quantity
-from .errors import _make
+from ._units import Pair, Quantity, lengths, number, quantity
+from .errors import bad_input
 from .material import _poisson, tangential_modulus
 from ._stress import Stress
 
@@ -66,20 +66,10 @@ def _answer(question: str, data: Sequence[float], *places: Any) -> Any:
     return spread(places, lambda points: _core.closed_form(question, list(data), points))
 
 
-def _number(key: str, value: Any, expected: str, least: float, most: float = math.inf) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not least <= number <= most or math.isinf(number):
-        raise _make("CaseError", f"'{key}' is {value!r}, expected {expected}", {"key": key}, None)
-    return number
-
-
 def _least_0(key: str, value: Quantity, dimension: str) -> float:
     found = quantity(key, value, dimension, positive=False)
     if found < 0.0:
-        raise _make("CaseError", f"'{key}' is {value!r}, expected at least 0", {"key": key}, None)
+        raise bad_input(key, f"'{key}' is {value!r}, expected at least 0")
     return found
 
 
@@ -88,22 +78,22 @@ def _load(value: Quantity) -> float:
 
 
 def _per_length(key: str, value: Any) -> float:
-    return _number(key, value, "a force per length of at least 0, N/m", 0.0)
+    return number(key, value, "a force per length of at least 0, N/m", 0.0)
 
 
 def _within(key: str, value: float, unit: str, least: float, most: float) -> float:
     """A force from `least` to `most`, a rounding of these aside."""
     crumb = 1e-12 * most
-    _number(key, value, f"a number from {least:g} to {most:g} {unit}", least - crumb, most + crumb)
+    number(key, value, f"a number from {least:g} to {most:g} {unit}", least - crumb, most + crumb)
     return min(max(value, least), most)
 
 
 def _friction(value: Any) -> float:
-    return _number("friction", value, "a coefficient of friction above 0", math.ulp(0.0))
+    return number("friction", value, "a coefficient of friction above 0", math.ulp(0.0))
 
 
 def _dundurs(value: Any) -> float:
-    return _number("dundurs", value, "Dundurs' constant from -0.5 to 0.5", -0.5, 0.5)
+    return number("dundurs", value, "Dundurs' constant from -0.5 to 0.5", -0.5, 0.5)
 
 
 class _Form(Comparable):
@@ -329,7 +319,7 @@ class Cone(_Form):
     """
 
     def __init__(self, slope: float, modulus: Quantity, load: Quantity) -> None:
-        self.slope = _number("slope", slope, "a slope above 0", math.ulp(0.0))
+        self.slope = number("slope", slope, "a slope above 0", math.ulp(0.0))
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load = _load(load)
 
@@ -600,7 +590,7 @@ class Carter(_Form):
     def from_creepage(cls, normal: HertzLine, friction: float, creepage: float) -> Carter:
         """The contact at a creepage ξ of at least 0; all slips from ξ = μa/R on."""
         made = cls(normal, friction, 0.0)
-        speed = _number("creepage", creepage, "a creepage of at least 0", 0.0)
+        speed = number("creepage", creepage, "a creepage of at least 0", 0.0)
         load = _answer("Carter.from_creepage", [], *normal._data(), made.friction, speed)
         made.tangential_load_per_length = load
         return made
@@ -645,7 +635,7 @@ class SlidingSphere(_Form):
 
     def __init__(self, normal: HertzSphere, friction: float, poisson: float) -> None:
         self.normal = normal
-        self.friction = _number("friction", friction, "a finite number", -math.inf)
+        self.friction = number("friction", friction, "a finite number", -math.inf)
         self.poisson = _poisson(poisson)
 
     def stress(self, x: ArrayLike, y: ArrayLike, depth: ArrayLike) -> Stress:

@@ -16,7 +16,7 @@ from ._temporary import Temporary
 from ._units import Quantity
 from .body import Body, Handed, bodies, heights_like
 from ._contact import Friction
-from .errors import _make
+from .errors import bad_input
 from .material import Material
 from .surface import Surface
 
@@ -53,7 +53,25 @@ class Contacts(NamedTuple):
             )
 
 
-class Pass:
+class _Moving:
+    """Two bodies that a motion changes."""
+
+    _core: Any
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """Heights of the lower body as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[0]
+        return heights
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """Heights of the upper body's underside as they are now, m: a copy."""
+        heights: NDArray[np.float64] = self._core.heights()[1]
+        return heights
+
+
+class Pass(_Moving):
     """A pass that is solved, and not yet finished: the next one begins on what it leaves.
 
     It is there until the loop goes on.
@@ -63,13 +81,27 @@ class Pass:
     number : int
         The pass, from 1.
     numbers : dict
-        The pass in numbers, with the columns of `passes.csv`, before anything is removed.
+        The pass in numbers, with the columns of `passes.csv`, before anything is removed. With `acceleration` it may stand for
+        several: what is removed is then what all ``numbers["represents"]`` of them take off.
+    pitch : tuple of float
+        Size of a cell along x and y, m.
+    sliding_distance : float
+        Distance over which the bodies slide from one position to the next, m.
+    shapes : tuple
+        Numbers of cells of the lower and of the upper body.
     """
 
-    def __init__(self, core: Any, pitch: tuple[float, float], distance: float) -> None:
+    def __init__(
+        self,
+        core: Any,
+        pitch: tuple[float, float],
+        distance: float,
+        shapes: tuple[tuple[int, int], tuple[int, int]],
+    ) -> None:
         self._core = core
         self.pitch = pitch
         self.sliding_distance = distance
+        self.shapes = shapes
         self.numbers: dict[str, Any] = core.record()
         self.number: int = self.numbers["pass"]
 
@@ -91,24 +123,6 @@ class Pass:
         """A record for each position, with the columns of `steps.csv`."""
         return fields.table(self._core.steps(self.number), _core.STEP_COLUMNS)
 
-    @property
-    def lower(self) -> NDArray[np.float64]:
-        """Heights of the lower body as they are now, m: a copy."""
-        heights: NDArray[np.float64] = self._core.heights()[0]
-        return heights
-
-    @property
-    def upper(self) -> NDArray[np.float64]:
-        """Heights of the upper body's underside as they are now, m: a copy."""
-        heights: NDArray[np.float64] = self._core.heights()[1]
-        return heights
-
-    @cached_property
-    def shapes(self) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Numbers of cells of the lower and of the upper body."""
-        lower, upper = self._core.heights()
-        return lower.shape, upper.shape
-
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
         """Take material off before the next pass.
 
@@ -126,7 +140,7 @@ class Pass:
             For a depth of another shape, or that is not finite.
         """
         if not (law.isidentifier() and law.islower()):
-            raise _make("CaseError", f"'law' is {law!r}, expected a word in small letters", {"key": "law"}, None)
+            raise bad_input("law", f"'law' is {law!r}, expected a word in small letters")
         depths = [
             heights_like(depth, shape, key)
             for depth, shape, key in zip(
@@ -136,7 +150,7 @@ class Pass:
         self._core.remove(self.number, law, *depths)
 
 
-class Simulation:
+class Simulation(_Moving):
     """A motion that yields each pass, for laws of one's own.
 
     ``for p in asp.Simulation(...)`` solves a pass, hands it out as a :class:`Pass`, and finishes it when the loop goes on. A pass
@@ -229,26 +243,14 @@ class Simulation:
         """Number of passes that are finished."""
         return int(self._core.done())
 
-    @property
-    def lower(self) -> NDArray[np.float64]:
-        """Heights of the lower body as they are now, m: a copy."""
-        heights: NDArray[np.float64] = self._core.heights()[0]
-        return heights
-
-    @property
-    def upper(self) -> NDArray[np.float64]:
-        """Heights of the upper body's underside as they are now, m: a copy."""
-        heights: NDArray[np.float64] = self._core.heights()[1]
-        return heights
-
     def __iter__(self) -> Iterator[Pass]:
-        (dx, dy), distance = self._core.grid()
+        (dx, dy), distance, (lower, upper) = self._core.grid()
         with Teller(self._progress) as tell:
             while True:
                 self._core.finish()
                 if not self._core.solve(tell):
                     break
-                yield Pass(self._core, (dx, dy), distance)
+                yield Pass(self._core, (dx, dy), distance, (lower, upper))
         self.close()
 
     def close(self) -> None:

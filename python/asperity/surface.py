@@ -27,7 +27,7 @@ from .describe import (
     Summits,
     Window,
 )
-from .errors import _make
+from .errors import _make, bad_input
 
 _STEPS = (
     "window", "despike", "fill", "level", "mirror", "rotate", "s_filter", "l_filter", "filter", "resample", "interpolate",
@@ -80,12 +80,12 @@ class Surface(Comparable):
         array, told, scale = _heights(heights)
         if unit is not None:
             if scale is not None:
-                raise _bad("unit", "'unit' is given, but the heights have a unit of their own", None)
+                raise bad_input("unit", "'unit' is given, but the heights have a unit of their own")
             scale = _unit(unit)
         if scale is not None:
             array = scale * array
         if pitch is None and told is None:
-            raise _bad("pitch", "'pitch' is missing: how far apart are the heights?", "for example pitch=\"0.5 um\"")
+            raise bad_input("pitch", "'pitch' is missing: how far apart are the heights?", "for example pitch=\"0.5 um\"")
         _check(array)
         self._table: dict[str, Any] = {"given": "heights"}
         self._given: NDArray[np.float64] | None = array
@@ -243,7 +243,7 @@ class Surface(Comparable):
     ) -> Surface:
         """Bring it to a number of cells on the same extent, or to cells of another `pitch`, m."""
         if (shape is None) == (pitch is None):
-            raise _bad("resample", "give resample() a shape or a pitch, one of them", None)
+            raise bad_input("resample", "give resample() a shape or a pitch, one of them")
         if shape is not None:
             return self._with(resample=list(shape), interpolate=interpolate)
         base = Surface(self.heights, self.pitch)
@@ -264,7 +264,7 @@ class Surface(Comparable):
             message = (
                 f"the surfaces have different grids: {_grid(self)} and {_grid(other)}; expected the same shape and pitch"
             )
-            raise _bad("plus", message, None)
+            raise bad_input("plus", message)
         return Surface(self.heights + other.heights, self.pitch)
 
     def __add__(self, other: Surface) -> Surface:
@@ -317,7 +317,7 @@ class Surface(Comparable):
     def moments(self, by: Literal["spectrum", "differences"] = "spectrum", window: Window = "hann") -> SpectralMoments:
         """The spectral moments, by the spectrum under a window, or by differences, which soften short waves."""
         if by not in ("spectrum", "differences"):
-            raise _bad("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"", None)
+            raise bad_input("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"")
         return describe.moments_by_differences(self._grid) if by == "differences" else self.spectrum(window).moments()
 
     def summits(self) -> Summits:
@@ -340,7 +340,7 @@ class Surface(Comparable):
         if lags is None:
             return self.spectrum(window).self_affinity(wave_numbers)
         if wave_numbers is not None:
-            raise _bad("lags", "'lags' and 'wave_numbers' are both given, expected one of them", None)
+            raise bad_input("lags", "'lags' and 'wave_numbers' are both given, expected one of them")
         return describe.self_affinity_of_differences(self._grid, axis, lags)
 
     def height_differences(self, axis: Axis = "x") -> NDArray[np.void]:
@@ -428,10 +428,6 @@ def channels(path: str | os.PathLike[str]) -> list[str]:
     return _core.channels(os.fspath(path))
 
 
-def _bad(key: str, message: str, hint: str | None) -> Exception:
-    return _make("CaseError", message, {"key": key}, hint)
-
-
 def _grid(surface: Surface) -> str:
     (nx, ny), (dx, dy) = surface.shape, surface.pitch
     return f"{nx} × {ny} cells of {_core.format(dx, 'length')} × {_core.format(dy, 'length')}"
@@ -459,9 +455,9 @@ def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | N
     try:
         found = np.asarray(heights)
     except (TypeError, ValueError) as error:
-        raise _bad("heights", f"'heights' is no matrix of numbers: {error}", None) from error
+        raise bad_input("heights", f"'heights' is no matrix of numbers: {error}") from error
     if found.dtype.kind not in "fiub":
-        raise _bad("heights", f"'heights' is of type {found.dtype}, expected real numbers", None)
+        raise bad_input("heights", f"'heights' is of type {found.dtype}, expected real numbers")
     return np.asarray(found, dtype=np.float64), told, scale
 
 
@@ -470,7 +466,7 @@ def _of_topography(topography: Any) -> tuple[NDArray[np.float64], tuple[float, f
     found = topography.heights()
     array = np.ma.asarray(found, dtype=np.float64).filled(np.nan)
     if array.ndim != 2:
-        raise _bad("heights", f"the topography has {array.ndim} dimensions, expected 2", None)
+        raise bad_input("heights", f"the topography has {array.ndim} dimensions, expected 2")
     unit = getattr(topography, "unit", None)
     scale = 1.0 if unit is None else _unit(unit)
     sizes = topography.physical_sizes
@@ -487,7 +483,7 @@ def _pitch_of_coordinates(array: Any) -> tuple[float, float] | None:
         values = np.asarray(coordinate.values, dtype=np.float64)
         steps = np.diff(values)
         if len(steps) == 0 or not np.allclose(steps, steps[0], rtol=1e-6, atol=0.0) or steps[0] <= 0.0:
-            raise _bad("heights", f"the coordinates '{name}' are not evenly spaced and ascending", None)
+            raise bad_input("heights", f"the coordinates '{name}' are not evenly spaced and ascending")
         unit = coordinate.attrs.get("units", coordinate.attrs.get("unit"))
         scale = _unit(unit) if isinstance(unit, str) else 1.0
         pitches.append(scale * float(values[-1] - values[0]) / (len(values) - 1))
@@ -496,9 +492,9 @@ def _pitch_of_coordinates(array: Any) -> tuple[float, float] | None:
 
 def _check(array: NDArray[np.float64]) -> None:
     if array.ndim != 2:
-        raise _bad("heights", f"'heights' has {array.ndim} dimensions, expected a matrix [ix, iy]", None)
+        raise bad_input("heights", f"'heights' has {array.ndim} dimensions, expected a matrix [ix, iy]")
     if 0 in array.shape:
         shape = " × ".join(map(str, array.shape))
-        raise _bad("heights", f"'heights' has {shape} cells, expected at least 1 × 1", None)
+        raise bad_input("heights", f"'heights' has {shape} cells, expected at least 1 × 1")
     if np.isinf(array).any():
-        raise _bad("heights", "'heights' holds an infinite number, expected lengths, or NaN where they are missing", None)
+        raise bad_input("heights", "'heights' holds an infinite number, expected lengths, or NaN where they are missing")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from . import _case, _core
 from ._progress import Teller, Told
 from ._same import Comparable
-from .errors import _make
+from .errors import bad_input
 
 
 class Check(NamedTuple):
@@ -142,7 +142,7 @@ def verify(*names: str, threads: int | None = None, progress: Told = True) -> Ve
         found = found or {index for index, (known, _) in enumerate(cases) if name.lower() in known.lower()}
         if not found:
             listed = ", ".join(f'"{known}"' for known, _ in cases)
-            raise _make("CaseError", f"no case is called {name!r}", {"key": "names"}, f"there are {listed}")
+            raise bad_input("names", f"no case is called {name!r}", f"there are {listed}")
         wanted |= found
     chosen = sorted(wanted)
     count = _case.threads(threads)

@@ -23,7 +23,7 @@ pub(crate) struct Handed<'py> {
 
 impl Handed<'_> {
     /// A copy of all of it.
-    pub(crate) fn given(&self, py: Python<'_>) -> PyResult<Given> {
+    fn given(&self, py: Python<'_>) -> PyResult<Given> {
         let mut given = Given::default();
         for (name, heights) in &self.topographies {
             given.topographies.insert(name.clone(), topography(py, heights)?);
@@ -45,7 +45,7 @@ pub(crate) enum Source<'py> {
 }
 
 impl Source<'_> {
-    pub(crate) fn case(&self, py: Python<'_>) -> PyResult<Case> {
+    fn case(&self, py: Python<'_>) -> PyResult<Case> {
         let case = match self {
             Self::Tables(tables) => Case::parse(&tables::text(tables)?, Path::new(""), Path::new("")),
             Self::File(path) => Case::load(path),
@@ -54,13 +54,19 @@ impl Source<'_> {
     }
 }
 
-/// Refuses what takes more memory than there is.
-pub(crate) fn fits(py: Python<'_>, case: &Case, given: &Given, threads: usize) -> PyResult<()> {
-    let threads =
-        if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads };
-    let demand =
-        study::demand(case, given, threads).and_then(|demand| demand.fits(asperity_cli::available_memory()));
-    ok(demand, py)
+/// The case of a call and what is given with it; refused if it takes more memory than there is.
+pub(crate) fn asked(
+    py: Python<'_>,
+    source: &Source<'_>,
+    handed: &Handed<'_>,
+    threads: usize,
+) -> PyResult<(Case, Given)> {
+    let (case, given) = (source.case(py)?, handed.given(py)?);
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if threads == 0 { cores() } else { threads };
+    let demand = study::demand(&case, &given, threads);
+    ok(demand.and_then(|demand| demand.fits(asperity_cli::available_memory())), py)?;
+    Ok((case, given))
 }
 
 /// Computes a contact at rest.
@@ -72,8 +78,7 @@ pub(crate) fn rest<'py>(
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (case, given) = (source.case(py)?, handed.given(py)?);
-    fits(py, &case, &given, threads)?;
+    let (case, given) = asked(py, &source, &handed, threads)?;
     let Rest { outcome, increments, fields, warnings, .. } =
         work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
     let contact = PyDict::new(py);

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::arrays::{array, field, record};
-use crate::contact::{Handed, Source, fits};
+use crate::contact::{Handed, Source, asked};
 use crate::work;
 
 fn existing(word: &str) -> Existing {
@@ -32,8 +32,7 @@ pub(crate) fn run<'py>(
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<()> {
-    let (case, given) = (source.case(py)?, handed.given(py)?);
-    fits(py, &case, &given, threads)?;
+    let (case, given) = asked(py, &source, &handed, threads)?;
     let existing = self::existing(existing);
     work::run(py, threads, progress.as_ref(), |watch| {
         study::run(&case, given, &directory, existing, watch).map(|_| ())
@@ -73,8 +72,7 @@ impl CorePasses {
         existing: &str,
         threads: usize,
     ) -> PyResult<Self> {
-        let (case, given) = (source.case(py)?, handed.given(py)?);
-        fits(py, &case, &given, threads)?;
+        let (case, given) = asked(py, &source, &handed, threads)?;
         let existing = self::existing(existing);
         let passes = work::run(py, threads, None, |_| Passes::enter(&case, given, &directory, existing))?;
         Ok(Self { state: Mutex::new(State { passes: Some(passes), solved: None }), threads })
@@ -159,12 +157,14 @@ impl CorePasses {
         Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
     }
 
-    /// Size of a cell, and the distance over which the bodies slide from one position to the next.
-    fn grid(&self) -> PyResult<([f64; 2], f64)> {
+    /// Size of a cell, the distance over which the bodies slide from one position to the next, and the numbers of cells of the
+    /// lower and of the upper body.
+    fn grid(&self) -> PyResult<([f64; 2], f64, [(usize, usize); 2])> {
         let state = self.state()?;
-        let passes = state.passes.as_ref().ok_or_else(ended)?;
-        let pitch = passes.simulation().pair().pitch();
-        Ok((pitch, passes.simulation().motion().sliding_distance(pitch[0])))
+        let simulation = state.passes.as_ref().ok_or_else(ended)?.simulation();
+        let pair = simulation.pair();
+        let distance = simulation.motion().sliding_distance(pair.pitch()[0]);
+        Ok((pair.pitch(), distance, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 
     /// Takes depths off the bodies of the pass that is solved.
