@@ -31,8 +31,11 @@ def interrupted(work: str, after: float, folder: pathlib.Path) -> tuple[float, s
     what it printed."""
     program = textwrap.dedent(
         """
+        import signal
         import sys
         import asperity as asp
+        # A shell lets what it runs in the background ignore Ctrl-C.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         steel = asp.Material(young="210 GPa", poisson=0.3, hardness="4 GPa")
         def rough(seed, n, cutoff="8 um"):
             return asp.Surface(asp.generate.low_pass((n, n), pitch="1 um", sq="50 nm", cutoff=cutoff, seed=seed).heights, 1e-6)

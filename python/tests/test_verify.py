@@ -68,7 +68,10 @@ def test_progress_is_told_and_may_stop_it():
 @pytest.mark.skipif(os.name != "posix", reason="a signal to a process")
 def test_ctrl_c_ends_it_between_two_cases():
     script = (
+        "import signal\n"
         "import asperity as asp\n"
+        # A shell lets what it runs in the background ignore Ctrl-C.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "try:\n"
         "    asp.verify(progress=lambda now: print(now.solved, flush=True))\n"
         "except KeyboardInterrupt:\n"
