@@ -107,7 +107,7 @@ impl CorePasses {
 
     /// Number of passes that are finished.
     fn done(&self) -> PyResult<usize> {
-        Ok(self.state()?.passes.as_ref().map_or(0, |passes| passes.done().len()))
+        Ok(self.state()?.passes.as_ref().map_or(0, |passes| passes.computed()))
     }
 
     /// The pass that is solved, in numbers as they are now.

@@ -21,6 +21,8 @@ use crate::report::Outcome;
 const SHEET: usize = 6;
 /// Passes whose roughness is computed for its figure, at most.
 const PARAMETERS: usize = 24;
+/// Share of the largest change of a height, up to which what is left of differences of heights is their rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Draws them, and says of what load and pass the last are.
 pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome<String> {
@@ -57,8 +59,29 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         let maps = [(&mean[0], "on the lower body"), (&mean[1], "on the upper body")];
         Ok(Maps::new(maps.map(|(mean, title)| mean.pressure(title).range([0.0, largest])).into()))
     })?;
+    let [worn, film] = ["wear", "film"].map(|state| of_bodies(&last, state, &before));
+    let (worn, film) = (worn?, film?);
     if cap.is_finite() {
-        plastic_depth(&before, &after, &throughout, sheet)?;
+        // What other laws have not taken, but for the rounding of the heights.
+        let flown = |body: usize, lost: Field| {
+            let rounding = ROUNDING * lost.iter().fold(0.0, |most: f64, depth| most.max(depth.abs()));
+            let worn = worn.as_ref().map_or(lost.clone(), |worn| lost - &worn[body].field);
+            let flown = film.as_ref().map_or(worn.clone(), |film| worn + &film[body].field);
+            before[body].with(flown.mapv_into(|depth| if depth.abs() < rounding { 0.0 } else { depth }))
+        };
+        let depth =
+            [flown(0, &before[0].field - &after[0].field), flown(1, &after[1].field - &before[1].field)];
+        sheet.add("plastic", "plastic deformation since the beginning", &throughout, || {
+            Ok(on_bodies(&depth, "depth"))
+        })?;
+    }
+    for (name, title, quantity, fields) in
+        [("wear", "wear since the beginning", "depth", &worn), ("film", "tribofilm", "thickness", &film)]
+    {
+        if let Some(fields) = fields {
+            let of = if name == "wear" { &throughout } else { &after_pass };
+            sheet.add(name, title, of, || Ok(on_bodies(fields, quantity)))?;
+        }
     }
     pressures(results, &last, &steps, [pass, all], before[0].grid, &cap, &of, sheet)?;
     for (name, title, unit, value) in [
@@ -119,18 +142,27 @@ fn topographies<'a>(before: &'a [Stored; 2], after: &'a [Stored; 2], pass: usize
     remarks.into_iter().fold(Maps::new(maps), Maps::remark)
 }
 
-/// How deep each body has been flattened since the beginning.
-fn plastic_depth(before: &[Stored; 2], after: &[Stored; 2], of: &str, sheet: &mut Sheet) -> Outcome {
-    let lower = before[0].with(&before[0].field - &after[0].field);
-    let upper = before[1].with(&after[1].field - &before[1].field);
-    sheet.add("plastic", "plastic deformation since the beginning", of, || {
-        // One scale for both: a body that does not yield is then seen not to.
-        let deepest = lower.field.iter().chain(&upper.field).copied().fold(f64::MIN_POSITIVE, f64::max);
-        let maps = [(&lower, "lower body"), (&upper, "upper body")].map(|(depth, body)| {
-            depth.map(body, "depth", Unit::Length, Colours::Pressure).range([0.0, deepest])
-        });
-        Ok(Maps::new(maps.into()))
-    })
+/// What a law keeps of both bodies under the name of a state, 0 on one of which it keeps nothing; none if on neither.
+fn of_bodies(fields: &Fields, state: &str, bodies: &[Stored; 2]) -> Outcome<Option<[Stored; 2]>> {
+    let names = fields.names()?;
+    let read = |body: usize| {
+        let name = format!("{state}_{}", ["lower", "upper"][body]);
+        match names.contains(&name) {
+            true => Stored::read(fields, &name),
+            false => Ok(bodies[body].with(Field::zeros(bodies[body].field.raw_dim()))),
+        }
+    };
+    let known = ["lower", "upper"].iter().any(|body| names.contains(&format!("{state}_{body}")));
+    if known { Ok(Some([read(0)?, read(1)?])) } else { Ok(None) }
+}
+
+/// A length on each body, on one scale: a body on which there is none is then seen to have none.
+fn on_bodies<'a>(fields: &'a [Stored; 2], quantity: &'a str) -> Maps<'a> {
+    let largest = fields.iter().flat_map(|field| &field.field).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let maps = [(&fields[0], "lower body"), (&fields[1], "upper body")].map(|(field, body)| {
+        field.map(body, quantity, Unit::Length, Colours::Pressure).range([0.0, largest])
+    });
+    Maps::new(maps.into())
 }
 
 /// The pressures that were kept of the last pass: maps, an animation, their distribution, a section.

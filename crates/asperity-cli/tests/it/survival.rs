@@ -363,7 +363,10 @@ fn an_error_is_some_lines_whatever_the_input() {
 // ---- kills -----------------------------------------------------------------------------------------------
 
 /// Every kind of computation, small.
-fn computations() -> [(&'static str, String); 8] {
+fn computations() -> [(&'static str, String); 9] {
+    let runs_in = "conductivity = 46, heat_capacity = 460, density = 7850, wear = { coefficient = 1e-17, under_film = 1e-18 }, \
+                   film = { law = \"arrhenius\", max_thickness = 1e-8, rate = 1e-5, at_temperature = 400, at_stress = 3e9, \
+                   activation_energy = 1e-19, activation_volume = 4e-30, removal = 1e-9 }, topography";
     let shift = "strategy = \"shift\", speed_lower = 0.0, speed_upper = 1.0, control = \"pass-load\", ";
     [
         (
@@ -378,6 +381,12 @@ fn computations() -> [(&'static str, String); 8] {
                 .replace("motion = { ", "motion = { plastic_update = \"step\", control = \"step-load\", "),
         ),
         ("sliding", motion(2, "friction = { coefficient = 0.2 }\n")),
+        (
+            "running-in",
+            motion(60, "friction = { coefficient = 0.1 }\nacceleration = {}\ntemperature = { bulk = 400 }\n")
+                .replace("topography", runs_in)
+                .replace("stride = 2", "stride = 4, speed = 1.0"),
+        ),
         ("ball", ball("[subsurface]\nto = \"5 um\"\nlayers = 5\n[output]\nparaview = true\n")),
         ("rolling", ball("[friction]\ncoefficient = 0.3\ncreepage = [2e-3, 0.0]\n")),
         (

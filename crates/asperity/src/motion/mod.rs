@@ -49,7 +49,7 @@ pub use sweep::{Point, SweepOutput, sweep};
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};
 pub use watch::{Progress, Watch};
-pub use wear::{Wear, WearCoefficient, WearDriver};
+pub use wear::{WEAR, Wear, WearCoefficient, WearDriver};
 
 use crate::choice::choice;
 use crate::error::{Error, Result};

@@ -2,13 +2,14 @@
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::Field;
+use crate::motion::body::State;
 use crate::motion::film::{Film, Growing};
 use crate::motion::law::{Law, Touching};
 use crate::motion::pair::Pair;
 use crate::units::{Dimension, PerPascal};
 
-/// Name of the law of wear.
-pub(super) const WEAR: &str = "wear";
+/// Name of the law of wear, and of the state in which a body keeps the depth that it has lost to it since the beginning, m.
+pub const WEAR: &str = "wear";
 
 /// What wears a body: the depth that a cell loses while it slides by ds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,6 +129,15 @@ impl Law for Wear {
         WEAR
     }
 
+    fn prepare(&mut self, pair: &mut Pair) {
+        for (body, coefficient) in [&mut pair.lower, &mut pair.upper].into_iter().zip(&self.coefficients) {
+            if coefficient.is_some() && !body.state.contains_key(WEAR) {
+                let values = Field::zeros(body.heights.raw_dim());
+                body.state.insert(WEAR.to_owned(), State { unit: "m".to_owned(), values });
+            }
+        }
+    }
+
     fn sums(&self) -> usize {
         // What films sum is needed where they lower the wear alone.
         if self.films.iter().any(Option::is_some) { 1 + Growing::SUMS } else { 1 }
@@ -160,6 +170,12 @@ impl Law for Wear {
     }
 
     fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
-        self.depths(pair, sums, passes)
+        let depths = self.depths(pair, sums, passes);
+        for (body, depth) in [&mut pair.lower, &mut pair.upper].into_iter().zip(&depths) {
+            if let Some(worn) = body.state.get_mut(WEAR) {
+                worn.values += depth;
+            }
+        }
+        depths
     }
 }

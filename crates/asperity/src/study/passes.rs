@@ -23,6 +23,9 @@ pub struct Passes {
     case: Case,
     simulation: Simulation,
     motion: Motion,
+    /// Passes that are finished, and passes of the motion that they stand for.
+    done: usize,
+    represented: usize,
     writer: Writer,
     output: PassWriter,
     resolved: Value,
@@ -47,15 +50,15 @@ impl Passes {
         let writer = Writer::enter(directory, &resolved, existing)?;
         writer.begin()?;
         let output = writer.passes(case.output.pressure_every, subsurface)?;
-        let done = output.passes().len();
-        let simulation = match done {
+        let passes = writer.results().passes()?;
+        let represented = passes.iter().map(PassRecord::represents).sum();
+        let simulation = match passes.len() {
             0 => {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
                 simulation
             }
-            _ if output.passes().iter().map(PassRecord::represents).sum::<usize>() >= motion.passes => {
-                simulation
-            }
+            // Where nothing is left to do the bodies are not missed.
+            _ if represented >= motion.passes => simulation,
             done => {
                 let mut pair = simulation.pair().clone();
                 let [lower, upper] = writer.results().surfaces_after(done)?;
@@ -65,17 +68,21 @@ impl Passes {
                 self::simulation(case, pair, motion)?.resumed(done, warm)
             }
         };
-        Ok(Self { case: case.clone(), simulation, motion, writer, output, resolved, warnings, began })
+        let (case, done) = (case.clone(), passes.len());
+        Ok(Self { case, simulation, motion, done, represented, writer, output, resolved, warnings, began })
+    }
+
+    /// Number of passes that are finished.
+    pub fn computed(&self) -> usize {
+        self.done
     }
 
     /// The passes that are finished.
-    pub fn done(&self) -> &[PassRecord] {
-        self.output.passes()
-    }
-
-    /// Passes of the motion that are done: those that the finished ones stand for.
-    fn represented(&self) -> usize {
-        self.done().iter().map(PassRecord::represents).sum()
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn done(&self) -> Result<Vec<PassRecord>> {
+        self.writer.results().passes()
     }
 
     /// The motion, with the bodies as they are now.
@@ -88,7 +95,7 @@ impl Passes {
     /// # Errors
     /// Those of [`Simulation::solve`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
-        match self.represented() < self.motion.passes {
+        match self.represented < self.motion.passes {
             true => self.simulation.solve(watch).map(Some),
             false => Ok(None),
         }
@@ -99,7 +106,10 @@ impl Passes {
     /// # Errors
     /// [`Error::File`].
     pub fn finish(&mut self, pass: SolvedPass, watch: &dyn Watch) -> Result<()> {
-        self.simulation.finish(pass, watch, &mut [&mut self.output])
+        self.simulation.finish(pass, watch, &mut [&mut self.output])?;
+        self.done += 1;
+        self.represented = self.simulation.represented();
+        Ok(())
     }
 
     /// Writes the summary of the passes that are finished.
@@ -109,9 +119,10 @@ impl Passes {
     pub fn end(mut self) -> Result<(Summary, Writer)> {
         let pair = self.simulation.pair();
         let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
-        let passes = self.output.passes().to_vec();
+        let passes = self.done()?;
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
-        let outcome = (Outcome::Passes(passes), self.output.subsurface().to_vec());
+        let subsurface = self.output.subsurface(passes.len())?;
+        let outcome = (Outcome::Passes(passes), subsurface);
         let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
         Ok((summary, self.writer))
     }

@@ -53,7 +53,7 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
     let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
     let all = flows.into_iter().chain(wears).chain(too_few_cells(largest));
-    all.chain(thick_films(passes)).chain(all_computed(case, passes)).collect()
+    all.chain(thick_films(passes)).chain(all_computed(case, passes)).chain(settled(passes)).collect()
 }
 
 /// The warning that a film is thicker than the roughness that it stands on, whose contact it then is.
@@ -80,6 +80,27 @@ fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
     let all = case.acceleration.is_none() && case.runs_in() && passes.len() >= MANY;
     (all && repeats).then(|| {
         format!("all {} passes were computed: with `[acceleration]` one stands for many, within an error that is told", passes.len())
+    })
+}
+
+/// The warning that the last passes have changed the bodies no more.
+fn settled(passes: &[PassRecord]) -> Option<String> {
+    /// Passes from which on it is worth a word.
+    const MANY: usize = 10;
+    /// Share of the largest volume that a pass has moved, up to which one moves none.
+    const NONE: f64 = 1e-6;
+    let moved = |pass: &PassRecord| {
+        let volumes = pass.lost.iter().flat_map(|lost| lost.whole);
+        volumes.map(f64::abs).sum::<f64>() / pass.represents() as f64
+    };
+    let most = passes.iter().map(moved).fold(0.0, f64::max);
+    let last = passes.iter().skip(1).rev().take_while(|pass| moved(pass) <= NONE * most).count();
+    let finished: usize = passes[..passes.len() - last].iter().map(PassRecord::represents).sum();
+    (last >= MANY).then(|| {
+        format!(
+            "from pass {} on the bodies change no more: `passes = {finished}` tells as much",
+            finished + 1
+        )
     })
 }
 

@@ -36,7 +36,7 @@ pub fn run(
 ) -> Result<(Summary, Writer)> {
     if case.motion.is_some() {
         let mut passes = Passes::enter(case, given, directory, existing)?;
-        passes.done().iter().for_each(|pass| watch.pass(pass));
+        passes.done()?.iter().for_each(|pass| watch.pass(pass));
         while let Some(pass) = passes.solve(watch)? {
             passes.finish(pass, watch)?;
         }

@@ -1,10 +1,13 @@
 //! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: a row per position, per pass, per increment of a loading, per
 //! point of a sweep.
 //!
-//! A table is always written whole and atomically, after each pass: a killed run leaves the tables of the last
-//! finished pass, never half a row. Numbers are written so that they read back to the same bits.
+//! The tables of a motion grow by the rows of a pass when it is finished; a row counts once its line has an end, so that half a
+//! row, which a power cut may leave, is none. The others are written whole and atomically. Numbers are written so that they read
+//! back to the same bits.
 
-use std::path::Path;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use serde::de::{DeserializeOwned, MapAccess, Visitor};
@@ -12,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::motion::{IncrementRecord, LostVolume, PassRecord, StepRecord, SweepRecord};
+use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord};
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -143,45 +146,12 @@ pub(super) fn read_increments(path: &Path) -> Result<Vec<IncrementRecord>> {
     read(path)
 }
 
-/// Writes `steps.csv`.
-///
-/// # Errors
-/// [`Error::File`].
-pub(super) fn write_steps(path: &Path, steps: &[StepRecord]) -> Result<()> {
-    let rows: Vec<Row> = steps.iter().map(Row::of).collect();
-    let columns = rows.first().map_or(STEP_COLUMNS.to_vec(), Row::columns);
-    let values: Vec<_> = rows.iter().map(|row| row.values(&columns)).collect();
-    write(path, &columns, &values)
-}
-
 /// Reads `steps.csv`, to resume.
 ///
 /// # Errors
 /// [`Error::File`]; the message has the line where a row is damaged.
 pub(super) fn read_steps(path: &Path) -> Result<Vec<StepRecord>> {
-    read(path)
-}
-
-/// Writes `passes.csv`.
-///
-/// # Errors
-/// [`Error::File`].
-pub(super) fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
-    // What a law takes is told in the rows of all passes, once it has taken something in one.
-    let laws: Vec<&LostVolume> = passes.iter().flat_map(|pass| &pass.lost).collect();
-    let complete = |pass: &PassRecord| {
-        let mut pass = pass.clone();
-        for lost in &laws {
-            if pass.lost.iter().all(|known| known.law != lost.law) {
-                pass.lost.push(LostVolume::nothing(&lost.law));
-            }
-        }
-        Row::of(&pass)
-    };
-    let rows: Vec<Row> = passes.iter().map(complete).collect();
-    let columns = rows.first().map_or(PASS_COLUMNS.to_vec(), Row::columns);
-    let values: Vec<_> = rows.iter().map(|row| row.values(&columns)).collect();
-    write(path, &columns, &values)
+    read_growing(path)
 }
 
 /// Reads `passes.csv`, to resume.
@@ -189,7 +159,105 @@ pub(super) fn write_passes(path: &Path, passes: &[PassRecord]) -> Result<()> {
 /// # Errors
 /// [`Error::File`]; the message has the line where a row is damaged.
 pub(super) fn read_passes(path: &Path) -> Result<Vec<PassRecord>> {
-    read(path)
+    read_growing(path)
+}
+
+/// `steps.csv` or `passes.csv` of a motion under way: rows are added to its end.
+pub(super) struct GrowingTable {
+    path: PathBuf,
+    /// Its columns; none of a table without a row.
+    columns: Vec<String>,
+}
+
+impl GrowingTable {
+    /// The table at `path` with so many `rows`, its first; it is there if these are more than none. What a run that was killed has
+    /// written after them goes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub(super) fn open(path: PathBuf, rows: usize) -> Result<Self> {
+        let columns = if rows == 0 { Vec::new() } else { keep(&path, rows).map_err(failed(&path))? };
+        Ok(Self { path, columns })
+    }
+
+    /// Adds the rows of some `records`.
+    ///
+    /// # Errors
+    /// [`Error::File`]; the table is then as it was.
+    pub(super) fn add<T: Serialize>(&mut self, records: &[T]) -> Result<()> {
+        let rows: Vec<Row> = records.iter().map(Row::of).collect();
+        let mut columns = rows.first().map_or(Vec::new(), Row::columns);
+        if columns.iter().all(|column| self.columns.contains(column)) {
+            return append(&self.path, &lines(&self.columns, &rows)).map_err(failed(&self.path));
+        }
+        // What a law takes is told in the rows of all passes, once it has taken something in one.
+        let known = self.columns.iter().filter(|column| !columns.contains(column));
+        columns.extend(known.cloned().collect::<Vec<_>>());
+        let mut before = match self.columns.is_empty() {
+            true => Vec::new(),
+            false => raw_rows(&self.path).map_err(failed(&self.path))?,
+        };
+        before.extend(rows);
+        let text = lines(&columns, &before);
+        atomic::write_with(&self.path, |file| {
+            writeln!(file, "{}", columns.join(","))?;
+            file.write_all(text.as_bytes())
+        })?;
+        self.columns = columns;
+        Ok(())
+    }
+}
+
+/// The rows in the order of these `columns`, a line each; a volume of a law that a row does not know is 0.
+fn lines(columns: &[String], rows: &[Row]) -> String {
+    let line = |row: &Row| row.values(columns).join(",") + "\n";
+    rows.iter().map(line).collect()
+}
+
+/// Cuts a table off after its header and so many rows; its columns.
+fn keep(path: &Path, rows: usize) -> io::Result<Vec<String>> {
+    let mut reader = BufReader::new(File::open(path)?);
+    let mut header = String::new();
+    let mut length = reader.read_line(&mut header)? as u64;
+    let mut line = Vec::new();
+    for _ in 0..rows {
+        line.clear();
+        length += reader.read_until(b'\n', &mut line)? as u64;
+    }
+    let file = File::options().write(true).open(path)?;
+    if file.metadata()?.len() > length {
+        file.set_len(length)?;
+        file.sync_data()?;
+    }
+    Ok(header.trim_end().split(',').map(str::to_owned).collect())
+}
+
+/// Adds `text` to the end of a file; where that fails the file is as it was.
+fn append(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = File::options().append(true).open(path)?;
+    let length = file.metadata()?.len();
+    let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_data());
+    if written.is_err() {
+        let _ = file.set_len(length);
+    }
+    written
+}
+
+/// The rows of a table as text.
+fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
+    let mut table = csv::Reader::from_reader(File::open(path)?);
+    let columns: Vec<String> = table.headers()?.iter().map(str::to_owned).collect();
+    let row = |record: csv::Result<csv::StringRecord>| {
+        Ok(Row(columns.iter().cloned().zip(record?.iter().map(str::to_owned)).collect()))
+    };
+    table.records().map(row).collect()
+}
+
+/// The rows of a table that may be growing: those whose line has an end.
+fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+    let text = std::fs::read(path).map_err(failed(path))?;
+    let ended = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+    rows(path, &text[..ended])
 }
 
 /// A record whose columns depend on what is recorded, as text.
@@ -201,15 +269,16 @@ impl Row {
         serde_json::from_str(&text).expect("a record is an object")
     }
 
-    fn columns(&self) -> Vec<&str> {
-        self.0.iter().map(|(column, _)| column.as_str()).collect()
+    fn columns(&self) -> Vec<String> {
+        self.0.iter().map(|(column, _)| column.clone()).collect()
     }
 
-    /// The values in the order of these columns.
-    fn values(&self, columns: &[&str]) -> Vec<&str> {
-        let value =
-            |column: &&str| self.0.iter().find(|(known, _)| known == column).map(|(_, value)| value.as_str());
-        columns.iter().map(|column| value(column).unwrap_or_default()).collect()
+    /// The values in the order of these columns, 0 of those that there are not.
+    fn values(&self, columns: &[String]) -> Vec<&str> {
+        let value = |column: &String| {
+            self.0.iter().find(|(known, _)| known == column).map(|(_, value)| value.as_str())
+        };
+        columns.iter().map(|column| value(column).unwrap_or("0.0")).collect()
     }
 }
 
@@ -251,17 +320,24 @@ fn write<T: Serialize>(path: &Path, columns: &[&str], rows: &[T]) -> Result<()> 
 }
 
 fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
-    let failed = |source| Error::File { path: path.to_owned(), source };
-    let file = std::fs::File::open(path).map_err(failed)?;
+    rows(path, File::open(path).map_err(failed(path))?)
+}
+
+fn rows<T: DeserializeOwned>(path: &Path, table: impl io::Read) -> Result<Vec<T>> {
     let rows =
-        csv::Reader::from_reader(file).into_deserialize().collect::<std::result::Result<_, csv::Error>>();
-    rows.map_err(|error| failed(io::Error::from(error)))
+        csv::Reader::from_reader(table).into_deserialize().collect::<std::result::Result<_, csv::Error>>();
+    rows.map_err(|error| failed(path)(io::Error::from(error)))
+}
+
+fn failed(path: &Path) -> impl Fn(io::Error) -> Error {
+    let path = path.to_owned();
+    move |source| Error::File { path: path.clone(), source }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{HeatRecord, RunningRecord};
+    use crate::motion::{HeatRecord, LostVolume, RunningRecord};
 
     fn step(step: usize) -> StepRecord {
         StepRecord {
@@ -344,10 +420,12 @@ mod tests {
         }
     }
 
+    fn write_new<T: Serialize>(path: &Path, records: &[T]) {
+        GrowingTable::open(path.to_owned(), 0).unwrap().add(records).unwrap();
+    }
+
     #[test]
     fn the_columns_are_those_promised() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("table.csv");
         for (columns, row) in [
             (&STEP_COLUMNS[..], serde_json::to_value(step(1)).unwrap()),
             (&PASS_COLUMNS[..], serde_json::to_value(pass()).unwrap()),
@@ -359,29 +437,23 @@ mod tests {
             sorted.sort_unstable();
             assert_eq!(names, sorted);
         }
-        write_steps(&path, &[]).unwrap();
-        let header = |columns: &[&str]| columns.join(",") + "\n";
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), header(&STEP_COLUMNS));
-        assert_eq!(read_steps(&path).unwrap(), []);
-        write_passes(&path, &[]).unwrap();
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), header(&PASS_COLUMNS));
     }
 
     #[test]
     fn numbers_read_back_to_the_same_bits() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("table.csv");
-        write_steps(&path, &[step(1), step(2)]).unwrap();
+        write_new(&path, &[step(1), step(2)]);
         let steps = read_steps(&path).unwrap();
         assert_eq!(format!("{steps:?}"), format!("{:?}", [step(1), step(2)]), "NaN included");
         assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
-        write_passes(&path, &[pass()]).unwrap();
+        write_new(&path, &[pass()]);
         assert_eq!(read_passes(&path).unwrap(), [pass()]);
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(&PASS_COLUMNS.join(",")));
         let wear = LostVolume { law: "wear".to_owned(), whole: [0.0, 1.0 / 3.0], interior: [0.0, 0.25] };
         let worn = |pass: PassRecord| PassRecord { lost: [pass.lost, vec![wear.clone()]].concat(), ..pass };
         let passes = [worn(pass()), PassRecord { friction_coefficient: f64::NAN, ..worn(pass()) }];
-        write_passes(&path, &passes).unwrap();
+        write_new(&path, &passes);
         assert_eq!(
             format!("{:?}", read_passes(&path).unwrap()),
             format!("{passes:?}"),
@@ -412,21 +484,45 @@ mod tests {
         assert_eq!(format!("{read:?}"), format!("{worn:?}"));
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("table.csv");
-        write_passes(&path, &[worn.clone(), worn.clone()]).unwrap();
+        write_new(&path, &[worn.clone(), worn.clone()]);
         assert_eq!(format!("{:?}", read_passes(&path).unwrap()), format!("{:?}", [worn.clone(), worn]));
         let warm = HeatRecord { friction_power: 0.1, max_flash_temperature: 373.15 };
         let steps = [step(1), step(2)].map(|step| StepRecord { heat: Some(warm), ..step });
-        write_steps(&path, &steps).unwrap();
+        write_new(&path, &steps);
         assert_eq!(format!("{:?}", read_steps(&path).unwrap()), format!("{steps:?}"));
+    }
+
+    #[test]
+    fn a_table_grows_from_the_rows_that_are_kept_and_by_columns() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("passes.csv");
+        let worn = |pass: usize| {
+            let wear = LostVolume { law: "wear".to_owned(), whole: [1.0, 2.0], interior: [0.5, 0.25] };
+            PassRecord { pass, lost: vec![wear], ..self::pass() }
+        };
+        let mut table = GrowingTable::open(path.clone(), 0).unwrap();
+        table.add(&[pass()]).unwrap();
+        table.add(&[PassRecord { pass: 2, ..pass() }]).unwrap();
+        // Half a row of a run that was killed.
+        append(&path, "3,1e-9").unwrap();
+        assert_eq!(read_passes(&path).unwrap().len(), 2);
+        let mut table = GrowingTable::open(path.clone(), 1).unwrap();
+        assert_eq!(read_passes(&path).unwrap(), [pass()]);
+        table.add(&[worn(2)]).unwrap();
+        table.add(&[worn(3)]).unwrap();
+        let read = read_passes(&path).unwrap();
+        assert_eq!(read.iter().map(|pass| pass.lost("wear")[1]).collect::<Vec<_>>(), [0.0, 2.0, 2.0]);
+        assert_eq!(read.iter().map(|pass| pass.lost("plastic")[1]).collect::<Vec<_>>(), [2e-18, 0.0, 0.0]);
     }
 
     #[test]
     fn a_damaged_row_is_an_error_with_its_line() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("steps.csv");
-        write_steps(&path, &[step(1), step(2)]).unwrap();
+        write_new(&path, &[step(1), step(2), step(3)]);
         let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::write(&path, &text[..text.len() - 40]).unwrap();
+        let (whole, last) = text.trim_end().rsplit_once('\n').unwrap();
+        std::fs::write(&path, format!("{}\n{last}\n", &whole[..whole.len() - 40])).unwrap();
         let message = read_steps(&path).unwrap_err().to_string();
         assert!(message.contains("line: 3"), "{message}");
     }

@@ -120,6 +120,24 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     assert!(computed(&all) && !computed(&accelerated), "{all:?} {accelerated:?}");
 }
 
+#[test]
+fn passes_that_change_the_bodies_no_more_are_told_of() {
+    let bulk = "[temperature]\nbulk = 300\nevery = 0\n";
+    let warned = |more: &str, passes: usize| {
+        let warnings =
+            run(&sliding("0.5 m/s", more, &format!("passes = {passes}\nstride = 16\n{bulk}"))).warnings;
+        warnings.into_iter().find(|warning| warning.contains("change no more"))
+    };
+    let elastic = warned("", 11).unwrap();
+    assert_eq!(elastic, "from pass 2 on the bodies change no more: `passes = 1` tells as much");
+    assert_eq!(warned("", 10), None);
+    assert_eq!(warned("wear = { coefficient = \"1e-8 mm3/(N m)\" }\n", 11), None);
+    // It flows until it has shaken down.
+    let shaken = warned("hardness = \"1 GPa\"\n", 60).unwrap();
+    let first: usize = shaken.split(' ').nth(2).unwrap().parse().unwrap();
+    assert!((3..50).contains(&first), "{shaken}");
+}
+
 // ---- the rim of the grid ---------------------------------------------------------------------------------
 
 #[test]

@@ -10,14 +10,15 @@ use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{Output, Pair, PassRecord, PassReport, State, StepRecord};
+use crate::motion::{Output, Pair, PassReport, State};
 use crate::solver::Friction;
 use crate::study::loading::LoadingWriter;
 use crate::study::rest::{NamedField, RestFields};
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
 use crate::study::sweep::SweepWriter;
-use crate::study::{identity, summary, tables, warm_start};
+use crate::study::tables::GrowingTable;
+use crate::study::{identity, summary, warm_start};
 use crate::subsurface::Tractions;
 
 /// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
@@ -132,13 +133,10 @@ impl Writer {
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
     pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
         let passes = self.results.passes()?;
-        let done = plan.iter().flat_map(|_| 1..=passes.len());
+        let steps = self.results.steps()?.len();
         Ok(PassWriter {
-            steps: self.results.steps()?,
-            subsurface: done
-                .map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass))))
-                .collect::<Result<_>>()?,
-            passes,
+            steps: GrowingTable::open(self.results.steps_path(), steps)?,
+            passes: GrowingTable::open(self.results.passes_path(), passes.len())?,
             results: self.results.clone(),
             identity: self.identity.clone(),
             pressure_every,
@@ -171,22 +169,20 @@ impl Writer {
 pub struct PassWriter {
     results: Results,
     identity: String,
-    steps: Vec<StepRecord>,
-    passes: Vec<PassRecord>,
-    subsurface: Vec<SubsurfaceRecord>,
+    steps: GrowingTable,
+    passes: GrowingTable,
     pressure_every: usize,
     plan: Option<Plan>,
 }
 
 impl PassWriter {
-    /// The passes written so far.
-    pub fn passes(&self) -> &[PassRecord] {
-        &self.passes
-    }
-
-    /// The stresses under the surface in them; none without a plan.
-    pub fn subsurface(&self) -> &[SubsurfaceRecord] {
-        &self.subsurface
+    /// The stress under the surface in each of so many passes; none without a plan.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn subsurface(&self, passes: usize) -> Result<Vec<SubsurfaceRecord>> {
+        let wanted = self.plan.iter().flat_map(|_| 1..=passes);
+        wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
     }
 }
 
@@ -224,16 +220,14 @@ impl Output for PassWriter {
             let path = results.subsurface_path(pass);
             let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
-            self.subsurface.push(plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?);
+            plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?;
         }
         let passes = report.record.pass;
         let file = FieldFile::of_run(&self.identity);
         let grids = [pair.lower_grid(), pair.upper_grid()];
         warm_start::write(file, &results.warm_start_path(passes), passes, &grids, report.warm)?;
-        self.steps.extend_from_slice(report.steps);
-        self.passes.push(report.record.clone());
-        tables::write_steps(&results.steps_path(), &self.steps)?;
-        tables::write_passes(&results.passes_path(), &self.passes)?;
+        self.steps.add(report.steps)?;
+        self.passes.add(std::slice::from_ref(report.record))?;
         results.remove(&results.warm_start_path(passes - 1))
     }
 }
