@@ -34,6 +34,9 @@ class Contacts(NamedTuple):
         Pa.
     plastic : ndarray
         Plastic interference, m; 0 where the cell does not yield.
+    lower_beyond, upper_beyond : ndarray
+        Part of a cell, from 0, below 1, by which the contact lies beyond that cell of the body, on the way to the next along x: above 0
+        only in a shift whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` brings values to the cells by it.
     """
 
     position: NDArray[np.int64]
@@ -41,16 +44,15 @@ class Contacts(NamedTuple):
     upper_cell: NDArray[np.int64]
     pressure: NDArray[np.float64]
     plastic: NDArray[np.float64]
+    lower_beyond: NDArray[np.float64]
+    upper_beyond: NDArray[np.float64]
 
     def by_position(self) -> Iterator[Contacts]:
         """The contacts at one position after the other; positions without contact are left out."""
         starts = np.flatnonzero(np.diff(self.position, prepend=-1))
         ends = [*starts[1:], len(self.position)]
         for start, end in zip(starts, ends, strict=True):
-            part = slice(start, end)
-            yield Contacts(
-                self.position[part], self.lower_cell[part], self.upper_cell[part], self.pressure[part], self.plastic[part]
-            )
+            yield Contacts(*(array[start:end] for array in self))
 
 
 class _Moving:
@@ -123,6 +125,34 @@ class Pass(_Moving):
         """A record for each position, with the columns of `steps.csv`."""
         return fields.table(self._core.steps(self.number), _core.STEP_COLUMNS)
 
+    def on_bodies(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """What comes to each cell of the lower and of the upper body in the whole pass.
+
+        Parameters
+        ----------
+        values : array_like
+            What comes to each cell in contact at each position, as the arrays of `contacts`; or one number for all.
+
+        Returns
+        -------
+        tuple of ndarray
+            The sums, of the shapes of the bodies. Between two cells of a body each has its part: both sums add up to that of the
+            values.
+        """
+        contacts = self.contacts
+        weights = np.broadcast_to(np.asarray(values, dtype=float), contacts.pressure.shape)
+        sums = []
+        for cell, beyond, (nx, ny) in zip(
+            (contacts.lower_cell, contacts.upper_cell),
+            (contacts.lower_beyond, contacts.upper_beyond),
+            self.shapes,
+            strict=True,
+        ):
+            here = np.bincount(cell, weights * (1.0 - beyond), nx * ny)
+            there = np.bincount((cell + ny) % (nx * ny), weights * beyond, nx * ny)
+            sums.append((here + there).reshape(nx, ny))
+        return sums[0], sums[1]
+
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
         """Take material off before the next pass.
 
@@ -166,10 +196,7 @@ class Simulation(_Moving):
     >>> rough = [asp.generate.low_pass((16, 16), pitch="1 um", sq="50 nm", cutoff="8 um", seed=s) for s in (1, 2)]
     >>> simulation = asp.Simulation(*rough, steel, steel, load="20 mN", passes=2, progress=False)
     >>> for p in simulation:
-    ...     worn = [np.zeros(shape[0] * shape[1]) for shape in p.shapes]
-    ...     for depth, cell in zip(worn, (p.contacts.lower_cell, p.contacts.upper_cell)):
-    ...         np.add.at(depth, cell, 1e-15 * p.contacts.pressure * p.sliding_distance)
-    ...     p.remove(*(depth.reshape(shape) for depth, shape in zip(worn, p.shapes)))
+    ...     p.remove(*p.on_bodies(1e-15 * p.contacts.pressure * p.sliding_distance))
     >>> simulation.results().passes["wear_volume_lower"].shape
     (2,)
     """

@@ -108,6 +108,23 @@ def test_archards_wear_balances_its_volume(pair: Pair) -> None:
     assert (run.passes["plastic_volume_lower"] == 0).all()
 
 
+def test_what_is_done_between_two_cells_comes_to_both(pair: Pair) -> None:
+    simulation = asp.Simulation(
+        *pair, load=0.02, passes=1, strategy="shift", speed_lower=0.3, speed_upper=1.0, stride=2, boundary="periodic"
+    )
+    p = next(iter(simulation))
+    c = p.contacts
+    assert set(np.round(np.unique(c.lower_beyond), 9)) == {0.0, 0.2, 0.4, 0.6, 0.8} and (c.upper_beyond == 0).all()
+    lower, upper = p.on_bodies(c.pressure)
+    assert lower.shape, upper.shape == p.shapes
+    for found in (lower, upper):
+        assert found.sum() == pytest.approx(c.pressure.sum(), rel=1e-12)
+    # The mean pressure of the pass, as the results have it.
+    expected = simulation.results().fields(1)
+    for found, name in ((lower, "mean_pressure_lower"), (upper, "mean_pressure_upper")):
+        assert found / len(p.steps) == pytest.approx(np.asarray(expected[name].values), rel=1e-12)
+
+
 def test_a_loop_is_the_law(pair: Pair) -> None:
     by_law = asp.simulate(*pair, load=0.02, passes=3, law=archard)
     simulation = asp.Simulation(*pair, load=0.02, passes=3)

@@ -52,11 +52,14 @@ struct State {
     solved: Option<SolvedPass>,
 }
 
-/// The contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference.
+/// The contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference, part of
+/// a cell by which they lie beyond that of the lower and of the upper body.
 type Contacts<'py> = (
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
 );
@@ -126,7 +129,8 @@ impl CorePasses {
         let pass = solved(&mut state, Some(number))?;
         let count = pass.contacts().iter().map(|contact| contact.pressure.len()).sum();
         let [mut position, mut lower, mut upper] = [(); 3].map(|()| Vec::with_capacity(count));
-        let [mut pressure, mut plastic] = [(); 2].map(|()| Vec::with_capacity(count));
+        let [mut pressure, mut plastic, mut beyond_lower, mut beyond_upper] =
+            [(); 4].map(|()| Vec::with_capacity(count));
         for (index, contact) in pass.contacts().iter().enumerate() {
             for &(cell, p) in &contact.pressure {
                 let [a, b] = pass.pair().cells_of_bodies(&contact.position, cell as usize);
@@ -134,6 +138,8 @@ impl CorePasses {
                 lower.push(a as i64);
                 upper.push(b as i64);
                 pressure.push(p);
+                beyond_lower.push(contact.position.fraction[0]);
+                beyond_upper.push(contact.position.fraction[1]);
             }
             plastic.extend(contact.interference());
         }
@@ -143,6 +149,8 @@ impl CorePasses {
             upper.into_pyarray(py),
             pressure.into_pyarray(py),
             plastic.into_pyarray(py),
+            beyond_lower.into_pyarray(py),
+            beyond_upper.into_pyarray(py),
         ))
     }
 

@@ -254,15 +254,17 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     let largest = Grid { shape: [columns, shape[1]], ..pressure.grid };
     let mut displacement = Field::zeros(shape);
     Operators::new(largest, bodies, boundary).on(shape).apply(&pressure.field, &mut displacement);
-    let offset = (step.offset / pressure.grid.pitch[0]).round() as isize;
-    let facing = |body: &Topography, first: isize| {
-        let columns = body.heights().nrows() as isize;
+    // Between two columns a surface is between their heights.
+    let facing = |body: &Topography, first: f64| {
+        let (columns, here) = (body.heights().nrows() as isize, first.floor());
+        let height = |i: isize, j| body.heights()[[i.rem_euclid(columns) as usize, j]];
         Field::from_shape_fn(shape, |(i, j)| {
-            body.heights()[[(first + i as isize).rem_euclid(columns) as usize, j]]
+            let i = here as isize + i as isize;
+            height(i, j) + (first - here) * (height(i + 1, j) - height(i, j))
         })
     };
-    let first = pressure.column as isize;
-    let (below, above) = (facing(&below, first), facing(&above, first - offset));
+    let below = facing(&below, pressure.place);
+    let above = facing(&above, pressure.place - step.offset / pressure.grid.pitch[0]);
     // What is left of the interference where they touch.
     let mut plastic = &below - &above - &displacement + step.approach;
     plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });

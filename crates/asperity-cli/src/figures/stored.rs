@@ -10,19 +10,22 @@ use crate::report::{Failure, Outcome};
 pub(super) struct Stored {
     pub(super) field: Field,
     pub(super) grid: Grid,
-    /// Distance of its corner from the lower body's, in columns.
+    /// The lower body's column in which its corner is, or the nearest.
     pub(super) column: usize,
+    /// Distance of its corner from the lower body's, in columns.
+    pub(super) place: f64,
 }
 
 impl Stored {
     pub(super) fn read(fields: &Fields, name: &str) -> Outcome<Self> {
         let stored = fields.read(name)?;
         let pitch = [stored.pitch[0], stored.pitch[1]];
-        let column = (stored.origin[0] / pitch[0] - 0.5).round().max(0.0) as usize;
+        let place = stored.origin[0] / pitch[0] - 0.5;
+        let column = place.round().max(0.0) as usize;
         let field =
             stored.into_field().ok_or_else(|| Failure::usage(format!("`{name}` is not a field"), None))?;
         let grid = Grid::new([field.nrows(), field.ncols()], pitch)?;
-        Ok(Self { field, grid, column })
+        Ok(Self { field, grid, column, place })
     }
 
     /// The same place with other values.
@@ -32,7 +35,7 @@ impl Stored {
 
     /// The field on the grid of the lower body, undefined where nothing faces it.
     pub(super) fn framed(&self, grid: Grid) -> Self {
-        Self { field: in_frame_of(&self.field, self.column, grid), grid, column: 0 }
+        Self { field: in_frame_of(&self.field, self.column, grid), grid, column: 0, place: 0.0 }
     }
 
     pub(super) fn map(&self, title: impl Into<String>, name: &str, unit: Unit, colours: Colours) -> Map<'_> {

@@ -173,8 +173,8 @@ fn pressures(pair: &Pair, pass: &Pass, save: &Save) -> Outcome {
         .zip(&fields)
         .map(|((letter, contact), field)| {
             let stage = match contact.position.offset {
-                0 => "full in",
-                offset if offset < 0 => "entering",
+                0.0 => "full in",
+                offset if offset < 0.0 => "entering",
                 _ => "leaving",
             };
             let title = format!("({letter}) {stage}, {}", format(contact.load, Dimension::Force));

@@ -6,6 +6,7 @@ use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
+use crate::motion::seat::Seat;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{AtRest, OneOfMany, Watch};
 use crate::operator::{Boundary, Operators};
@@ -146,9 +147,10 @@ impl Contact {
         boundary: Boundary,
         [pass, step]: [usize; 2],
     ) -> StepRecord {
+        let seats = pair.seats(&self.position);
         let inside = |cell: u32| {
-            let [lower, upper] = pair.cells_of_bodies(&self.position, cell as usize);
-            interiors[0].holds(lower) && interiors[1].holds(upper)
+            let within = |(seat, interior): (&Seat, &Interior)| interior.holds(seat.cell(cell as usize));
+            seats.iter().zip(interiors).all(within)
         };
         let touching = self.pressure.iter().map(|(cell, _)| *cell as usize);
         let shape = pair.grid(self.position.columns).shape;
@@ -156,7 +158,7 @@ impl Contact {
         StepRecord {
             pass,
             step,
-            offset: self.position.offset as f64 * pair.pitch()[0],
+            offset: self.position.offset * pair.pitch()[0],
             overlap_columns: self.position.columns,
             approach: self.approach,
             load: self.load,

@@ -142,35 +142,38 @@ impl Film {
     /// Adds the rates of growth and removal over a position to their sums on a body, 0 or 1: ∫G dt in m and ∫R dt, or of the
     /// mechano-chemical law the exponents of growth and removal.
     pub(super) fn add_rates(&self, body: usize, touching: &Touching, sums: &mut [Field]) {
-        let [growth, removal] = sums else { unreachable!("two sums") };
-        let [growth, removal] = [growth, removal].map(|sum| sum.as_slice_mut().expect("standard layout"));
-        for (index, &cell) in touching.cells[body].iter().enumerate() {
-            let temperature = touching.temperature[body][index];
-            let (grows, is_removed) = match self.law {
-                FilmLaw::Arrhenius {
-                    rate,
-                    at_temperature,
-                    at_stress,
-                    activation_energy,
-                    activation_volume,
-                    stress,
-                    removal,
-                } => {
-                    let stress = match stress {
-                        FilmStress::Pressure => touching.pressure[index],
-                        FilmStress::Shear => touching.shear[index],
-                    };
+        let [grown, removed] = sums else { unreachable!("two sums") };
+        let temperature = touching.temperature[body];
+        match self.law {
+            FilmLaw::Arrhenius {
+                rate,
+                at_temperature,
+                at_stress,
+                activation_energy,
+                activation_volume,
+                stress,
+                removal,
+            } => {
+                let stress = match stress {
+                    FilmStress::Pressure => touching.pressure,
+                    FilmStress::Shear => touching.shear,
+                };
+                touching.add(body, grown, |index| {
+                    let (stress, temperature) = (stress[index], temperature[index]);
                     let energy = activation_energy * (1.0 / temperature - 1.0 / at_temperature);
                     let work = activation_volume * (stress / temperature - at_stress / at_temperature);
                     let growth = rate * ((work - energy) / BOLTZMANN).exp();
-                    (growth * touching.time, removal * touching.pressure[index] * touching.sliding_distance)
-                }
-                FilmLaw::MechanoChemical { x, c4, .. } => {
-                    (BOLTZMANN * temperature / PLANCK * x * touching.time, c4 * touching.time)
-                }
-            };
-            growth[cell as usize] += grows;
-            removal[cell as usize] += is_removed;
+                    growth * touching.time
+                });
+                touching.add(body, removed, |index| {
+                    removal * touching.pressure[index] * touching.sliding_distance
+                });
+            }
+            FilmLaw::MechanoChemical { x, c4, .. } => {
+                touching
+                    .add(body, grown, |index| BOLTZMANN * temperature[index] / PLANCK * x * touching.time);
+                touching.add(body, removed, |_| c4 * touching.time);
+            }
         }
     }
 

@@ -154,14 +154,15 @@ pub(super) fn relaxation(
     friction: f64,
     distance: Metre,
 ) -> f64 {
-    let mut count = [&pair.lower, &pair.upper].map(|body| vec![0_u32; body.heights.len()]);
+    let mut count = [&pair.lower, &pair.upper].map(|body| vec![0.0; body.heights.len()]);
     for contact in contacts {
-        for &(cell, _) in &contact.pressure {
-            let cells = pair.cells_of_bodies(&contact.position, cell as usize);
-            count.iter_mut().zip(cells).for_each(|(count, cell)| count[cell] += 1);
+        for (count, seat) in count.iter_mut().zip(pair.seats(&contact.position)) {
+            for &(cell, _) in &contact.pressure {
+                seat.parts(seat.cell(cell as usize)).for_each(|(cell, weight)| count[cell] += weight);
+            }
         }
     }
-    let longest = count.map(|count| count.into_iter().max().map_or(0.0, f64::from) * distance);
+    let longest = count.map(|count| count.into_iter().fold(0.0, f64::max) * distance);
     let wear = |law: &dyn Law| {
         let per_pressure = law.per_pressure(friction);
         per_pressure[0] * longest[0] + per_pressure[1] * longest[1]

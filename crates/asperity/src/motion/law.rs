@@ -1,12 +1,14 @@
 //! The laws by which a pass changes the bodies.
 
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
+use crate::math::gathered;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
+use crate::motion::seat::Seat;
 use crate::solver::Sliding;
 use crate::temperature::FlashTemperature;
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second};
@@ -54,14 +56,18 @@ pub trait Law: Send + Sync {
 }
 
 /// The cells in contact at one position.
+///
+/// Their quantities are slices of one length. A cell in contact lies on a cell of each body, or, in a shift, between two of its
+/// columns; [`Touching::add`] and [`Touching::keep_largest`] bring to the body what happens to it there.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Touching<'a> {
     /// The relative position of the bodies.
     pub position: &'a Position,
-    /// Flat cells in contact of the lower and of the upper body: those of the same index face each other.
-    pub cells: [&'a [u32]; 2],
-    /// Pressure on each of these cells, Pa.
+    /// Flat cells of the lower and of the upper body under those in contact, or the first of two.
+    cells: [&'a [u32]; 2],
+    seats: [Seat; 2],
+    /// Pressure on each of the cells in contact, Pa.
     pub pressure: &'a [Pascal],
     /// Plastic interference w of each of these cells, m; 0 where the pressure is below what the cells bear.
     pub interference: &'a [Metre],
@@ -73,6 +79,45 @@ pub struct Touching<'a> {
     pub sliding_distance: Metre,
     /// Time from this position to the next, s; NaN where the speed is not known.
     pub time: Second,
+}
+
+impl Touching<'_> {
+    /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between two
+    /// columns each has its part of the value: what is added is, in the whole, the sum of the values.
+    pub fn add(&self, body: usize, sum: &mut Field, value: impl Fn(usize) -> f64) {
+        let sum = sum.as_slice_mut().expect("standard layout");
+        let (seat, cells) = (&self.seats[body], self.cells[body].iter().enumerate());
+        if seat.fraction() == 0.0 {
+            cells.for_each(|(index, &cell)| sum[cell as usize] += value(index));
+            return;
+        }
+        for (index, &cell) in cells {
+            let value = value(index);
+            seat.parts(cell as usize).for_each(|(cell, weight)| sum[cell] += weight * value);
+        }
+    }
+
+    /// Keeps the largest value that each cell of a body, 0 the lower or 1 the upper one, has had at any position. The value of a
+    /// cell at this position is what [`Touching::add`] brings there, of each cell in contact its value by the index.
+    pub fn keep_largest(&self, body: usize, largest: &mut Field, value: impl Fn(usize) -> f64) {
+        let largest = largest.as_slice_mut().expect("standard layout");
+        let seat = &self.seats[body];
+        let parts = self.cells[body].iter().enumerate().flat_map(|(index, &cell)| {
+            let value = value(index);
+            seat.parts(cell as usize).map(move |(cell, weight)| (cell as u32, weight * value))
+        });
+        let values = if seat.fraction() == 0.0 { parts.collect() } else { gathered(parts) };
+        for (cell, value) in values {
+            let largest = &mut largest[cell as usize];
+            *largest = largest.max(value);
+        }
+    }
+
+    /// The value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index: between two columns it is
+    /// the mean by the parts on each.
+    pub fn value(&self, body: usize, values: &CellValues, index: usize) -> f64 {
+        self.seats[body].value(values, self.cells[body][index] as usize)
+    }
 }
 
 /// What laws see of a position besides the contact.
@@ -105,12 +150,10 @@ pub(super) fn sums(
     let mut sums: Vec<_> = laws.iter().map(|law| zeros(law.as_ref())).collect();
     let mut warm = Vec::new();
     for contact in contacts {
-        let cells = |body: usize| -> Vec<u32> {
-            let of =
-                |cell: &(u32, Pascal)| pair.cells_of_bodies(&contact.position, cell.0 as usize)[body] as u32;
-            contact.pressure.iter().map(of).collect()
-        };
-        let (lower, upper) = (cells(0), cells(1));
+        let seats = pair.seats(&contact.position);
+        let [lower, upper] = seats.map(|seat| -> Vec<u32> {
+            contact.pressure.iter().map(|(cell, _)| seat.cell(*cell as usize) as u32).collect()
+        });
         let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| *p).collect();
         let magnitude = |&p: &Pascal| {
             passage
@@ -122,7 +165,7 @@ pub(super) fn sums(
         if let Some(heat) = &mut heat {
             let speed = passage.distance / passage.time;
             let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
-            let step = heat.step([&lower, &upper], &flux)?;
+            let step = heat.step_between([&lower, &upper], contact.position.fraction, &flux)?;
             warm.push(HeatRecord {
                 friction_power: contact.tangential_force.abs() * speed,
                 max_flash_temperature: step.max_temperature().unwrap_or(passage.bulk[0].max(passage.bulk[1])),
@@ -132,6 +175,7 @@ pub(super) fn sums(
         let touching = Touching {
             position: &contact.position,
             cells: [&lower, &upper],
+            seats,
             pressure: &pressure,
             interference: &contact.interference(),
             shear: &shear,

@@ -14,6 +14,7 @@ mod plastic;
 mod record;
 mod report;
 mod rim;
+mod seat;
 mod simulation;
 mod spot;
 mod sweep;

@@ -6,6 +6,7 @@ use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
 use crate::motion::body::Body;
 use crate::motion::path::Position;
+use crate::motion::seat::Seat;
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
@@ -135,12 +136,10 @@ impl Pair {
         Ok(Operators::new(largest, self.response.clone(), boundary))
     }
 
-    /// The shares of the plastic deformation that a flat cell of the lower body and one of the upper body take where they face
-    /// each other: all of it the softer, half of it each where both are equally hard.
-    pub fn plastic_shares(&self, cells: [usize; 2]) -> [f64; 2] {
-        let lower = self.share.unwrap_or_else(|| {
-            plastic_share(self.lower.hardness.at(cells[0]), self.upper.hardness.at(cells[1]))
-        });
+    /// The shares of the plastic deformation that the lower and the upper body take where cells of this `hardness` face each
+    /// other: all of it the softer, half of it each where both are equally hard.
+    pub fn plastic_shares(&self, hardness: [Pascal; 2]) -> [f64; 2] {
+        let lower = self.share.unwrap_or_else(|| plastic_share(hardness[0], hardness[1]));
         [lower, 1.0 - lower]
     }
 
@@ -171,7 +170,7 @@ impl Pair {
 
     /// The one position of a contact at rest, whose bodies face each other with all their columns.
     pub fn at_rest(&self) -> Position {
-        Position { offset: 0, lower: 0, upper: 0, columns: self.lower.columns() }
+        Position::flush(self.lower.columns())
     }
 
     /// Area ΔA of a cell.
@@ -199,20 +198,16 @@ impl Pair {
         initial_gap([&self.lower.heights, &self.upper.heights], position)
     }
 
-    /// The flat cells of the lower and of the upper body that a flat cell of the contact at `position` is made of.
-    pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
-        facing_cells([self.lower_grid().shape, self.upper_grid().shape], position, cell)
+    /// How the cells of the contact at `position` lie on the lower and on the upper body.
+    pub(super) fn seats(&self, position: &Position) -> [Seat; 2] {
+        Seat::of_bodies(position, [self.lower_grid().shape, self.upper_grid().shape])
     }
-}
 
-/// The flat cells of bodies of these shapes that a flat cell of the contact at `position` is made of.
-fn facing_cells(shapes: [[usize; 2]; 2], position: &Position, cell: usize) -> [usize; 2] {
-    let width = shapes[0][1];
-    let (column, across) = (cell / width, cell % width);
-    [
-        (position.lower + column) % shapes[0][0] * width + across,
-        (position.upper + column) % shapes[1][0] * width + across,
-    ]
+    /// The flat cells of the lower and of the upper body under a flat cell of the contact at `position`: of the two that it may lie
+    /// between the one before, whose part is 1 − [`Position::fraction`].
+    pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
+        self.seats(position).map(|seat| seat.cell(cell))
+    }
 }
 
 /// The values `of` of the values of two bodies of these shapes where their cells face each other.
@@ -226,22 +221,22 @@ pub(crate) fn facing_values(
         return CellValues::Uniform(of(*lower, *upper));
     }
     let shape = [position.columns, shapes[0][1]];
-    let facing = |cell| {
-        let [lower, upper] = facing_cells(shapes, position, cell);
-        of(values[0].at(lower), values[1].at(upper))
-    };
+    let [lower, upper] = Seat::of_bodies(position, shapes);
+    let facing =
+        |cell| of(lower.value(values[0], lower.cell(cell)), upper.value(values[1], upper.cell(cell)));
     let values = (0..shape[0] * shape[1]).map(facing).collect();
     CellValues::Field(Field::from_shape_vec(shape, values).expect("a value for each cell"))
 }
 
 /// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.
 pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
-    let [lower, upper] = surfaces;
-    let mut gap = Field::zeros([position.columns, lower.ncols()]);
+    let [lower, upper] =
+        Seat::of_bodies(position, surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
+    let mut gap = Field::zeros([position.columns, surfaces[0].ncols()]);
     for (j, mut row) in gap.outer_iter_mut().enumerate() {
-        let lower = lower.row((position.lower + j) % lower.nrows());
-        let upper = upper.row((position.upper + j) % upper.nrows());
-        ndarray::Zip::from(&mut row).and(lower).and(upper).for_each(|h, z1, z2| *h = z2 - z1);
+        let row = row.as_slice_mut().expect("standard layout");
+        upper.for_column(surfaces[1], j, row, |h, z2| *h = z2);
+        lower.for_column(surfaces[0], j, row, |h, z1| *h -= z1);
     }
     gap
 }

@@ -5,17 +5,32 @@ use crate::units::MetrePerSecond;
 /// One relative position: which columns of the lower body face which of the upper one.
 ///
 /// Column `j` of the contact is column `lower + j` of the lower body and `upper + j` of the upper one, both counted
-/// cyclically (in an overlap neither wraps around).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// cyclically (in an overlap neither wraps around). Where a surface lies between two of its columns, column `j` is on the way
+/// from that column to the next, by the `fraction` of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     /// Columns by which the upper body has moved to the right of the lower one.
-    pub offset: isize,
+    pub offset: f64,
     /// First column of the lower body that faces the upper one.
     pub lower: usize,
     /// First column of the upper body that faces the lower one.
     pub upper: usize,
+    /// Parts of a column, from 0, below 1, by which the contact lies beyond the columns of the lower and of the upper body.
+    pub fraction: [f64; 2],
     /// Number of columns that face each other.
     pub columns: usize,
+}
+
+impl Position {
+    /// Bodies that face each other with all of so many columns.
+    pub fn flush(columns: usize) -> Self {
+        Self { offset: 0.0, lower: 0, upper: 0, fraction: [0.0; 2], columns }
+    }
+
+    /// Where the contact begins on the lower and on the upper body, in columns.
+    pub fn places(&self) -> [f64; 2] {
+        [self.lower as f64 + self.fraction[0], self.upper as f64 + self.fraction[1]]
+    }
 }
 
 /// The positions of an overlap pass: the upper body enters from the left, passes over and leaves on the right.
@@ -34,10 +49,10 @@ pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Posit
             let start = offset.max(0);
             let end = lower.min(upper + offset);
             Position {
-                offset,
+                offset: offset as f64,
                 lower: start as usize,
                 upper: (start - offset) as usize,
-                columns: (end - start) as usize,
+                ..Position::flush((end - start) as usize)
             }
         })
         .collect()
@@ -45,7 +60,8 @@ pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Posit
 
 /// The positions of a pass by circular shift: the faster surface goes once around, `stride` columns a step.
 ///
-/// All of the `columns` face each other throughout. Equal speeds roll, a zero speed slides.
+/// All of the `columns` face each other throughout. Equal speeds roll, a zero speed slides. The slower surface moves by parts
+/// of a column where the ratio of the speeds wants it.
 pub fn shift_positions(
     columns: usize,
     stride: usize,
@@ -56,12 +72,28 @@ pub fn shift_positions(
     let fastest = speed_lower.abs().max(speed_upper.abs());
     (0..columns.div_ceil(stride))
         .map(|step| {
-            let moved = |speed: f64| ((step * stride) as f64 * speed / fastest).round() as isize;
+            let moved = |speed: f64| whole_if_near((step * stride) as f64 * speed / fastest);
             let (lower, upper) = (moved(speed_lower), moved(speed_upper));
-            let start = |moved: isize| (-moved).rem_euclid(columns as isize) as usize;
-            Position { offset: upper - lower, lower: start(lower), upper: start(upper), columns }
+            // The contact begins at −moved in the body's frame.
+            let start = |moved: f64| (-moved).floor().rem_euclid(columns as f64) as usize;
+            let fraction = |moved: f64| -moved - (-moved).floor();
+            Position {
+                offset: upper - lower,
+                lower: start(lower),
+                upper: start(upper),
+                fraction: [fraction(lower), fraction(upper)],
+                columns,
+            }
         })
         .collect()
+}
+
+/// A number of columns without what rounding has left of a whole one.
+fn whole_if_near(moved: f64) -> f64 {
+    /// Parts of a column that are none.
+    const NEAR: f64 = 1e-9;
+    // Added to −0, 0 makes 0 of it.
+    if (moved - moved.round()).abs() < NEAR { moved.round() + 0.0 } else { moved }
 }
 
 #[cfg(test)]
@@ -73,20 +105,20 @@ mod tests {
         let positions = overlap_positions(4, 4, 1);
         let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
         assert_eq!(columns, [1, 2, 3, 4, 3, 2, 1]);
-        assert_eq!(positions[0], Position { offset: -3, lower: 0, upper: 3, columns: 1 });
-        assert_eq!(positions[6], Position { offset: 3, lower: 3, upper: 0, columns: 1 });
+        assert_eq!(positions[0], Position { offset: -3.0, upper: 3, ..Position::flush(1) });
+        assert_eq!(positions[6], Position { offset: 3.0, lower: 3, ..Position::flush(1) });
     }
 
     #[test]
     fn a_stride_keeps_the_position_at_which_all_faces_all() {
         for (lower, upper, stride) in [(10, 10, 3), (10, 4, 4), (3, 12, 5), (7, 7, 20), (7, 7, usize::MAX)] {
             let positions = overlap_positions(lower, upper, stride);
-            let flush = positions.iter().find(|p| p.offset == 0).unwrap();
+            let flush = positions.iter().find(|p| p.offset == 0.0).unwrap();
             assert_eq!(flush.columns, lower.min(upper));
             for p in &positions {
                 assert!(p.columns >= 1 && p.lower + p.columns <= lower && p.upper + p.columns <= upper);
-                assert_eq!(p.lower as isize - p.upper as isize, p.offset);
-                assert_eq!(p.offset.unsigned_abs() % stride, 0);
+                assert_eq!(p.lower as f64 - p.upper as f64, p.offset);
+                assert_eq!(p.offset.abs() % stride as f64, 0.0);
             }
         }
     }
@@ -98,6 +130,26 @@ mod tests {
         let sliding = shift_positions(5, 1, 0.0, 2.0);
         assert!(sliding.iter().all(|p| p.lower == 0) && sliding[1].upper == 4 && sliding.len() == 5);
         let slip = shift_positions(8, 1, 1.0, -0.5);
-        assert_eq!(slip[2], Position { offset: -3, lower: 6, upper: 1, columns: 8 });
+        assert_eq!(slip[2], Position { offset: -3.0, lower: 6, upper: 1, ..Position::flush(8) });
+        let between = Position { offset: -4.5, lower: 5, upper: 1, fraction: [0.0, 0.5], columns: 8 };
+        assert_eq!(slip[3], between);
+    }
+
+    #[test]
+    fn the_slower_surface_moves_by_its_share_to_the_last_bit_that_counts() {
+        for (ratio, columns, stride) in [(0.1, 40, 1), (-0.3, 30, 2), (1.0 / 3.0, 27, 1), (0.75, 16, 3)] {
+            for (step, p) in shift_positions(columns, stride, 2.0, 2.0 * ratio).iter().enumerate() {
+                let moved = ratio * (step * stride) as f64;
+                let place = p.upper as f64 + p.fraction[1];
+                let turns = (place + moved) / columns as f64;
+                assert!((turns - turns.round()).abs() < 1e-12, "{ratio} {step}: {p:?}");
+                assert!((0.0..1.0).contains(&p.fraction[1]) && p.fraction[0] == 0.0);
+                assert_eq!(
+                    p.fraction[1] == 0.0,
+                    (moved - moved.round()).abs() < 1e-9,
+                    "{ratio} {step}: {p:?}"
+                );
+            }
+        }
     }
 }

@@ -16,14 +16,18 @@ impl Law for PlasticFlow {
     }
 
     fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
-        let [lower, upper] = sums;
-        let [lower, upper] = [lower, upper].map(|sums| sums[0].as_slice_mut().expect("standard layout"));
-        let cells = touching.cells[0].iter().zip(touching.cells[1]).zip(touching.interference);
-        for ((&one, &other), &w) in cells.filter(|(_, w)| **w > 0.0) {
-            let [one, other] = [one as usize, other as usize];
-            let shares = pair.plastic_shares([one, other]);
-            lower[one] = lower[one].max(shares[0] * w);
-            upper[other] = upper[other].max(shares[1] * w);
+        if touching.interference.iter().all(|w| *w == 0.0) {
+            return;
+        }
+        let shares = |index: usize| {
+            let hardness = [&pair.lower, &pair.upper].map(|body| &body.hardness);
+            pair.plastic_shares([0, 1].map(|body| touching.value(body, hardness[body], index)))
+        };
+        for (body, sums) in sums.iter_mut().enumerate() {
+            touching.keep_largest(body, &mut sums[0], |index| match touching.interference[index] {
+                0.0 => 0.0,
+                w => shares(index)[body] * w,
+            });
         }
     }
 

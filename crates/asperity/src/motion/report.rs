@@ -30,10 +30,11 @@ impl PassReport<'_> {
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {
-            for &(cell, p) in &contact.pressure {
-                let bodies = self.pair.cells_of_bodies(&contact.position, cell as usize);
-                for (mean, cell) in mean.iter_mut().zip(bodies) {
-                    mean.as_slice_mut().expect("standard layout")[cell] += p;
+            for (mean, seat) in mean.iter_mut().zip(self.pair.seats(&contact.position)) {
+                let mean = mean.as_slice_mut().expect("standard layout");
+                for &(cell, p) in &contact.pressure {
+                    let parts = seat.parts(seat.cell(cell as usize));
+                    parts.for_each(|(cell, weight)| mean[cell] += weight * p);
                 }
             }
         }

@@ -146,14 +146,11 @@ impl Law for Wear {
     fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(coefficient) = self.coefficients[body] {
-                let work = sums[0].as_slice_mut().expect("standard layout");
                 let driver = match coefficient.driver {
                     WearDriver::Pressure => touching.pressure,
                     WearDriver::Shear => touching.shear,
                 };
-                for (&cell, value) in touching.cells[body].iter().zip(driver) {
-                    work[cell as usize] += value * touching.sliding_distance;
-                }
+                touching.add(body, &mut sums[0], |index| driver[index] * touching.sliding_distance);
                 if let Some(film) = &self.films[body] {
                     film.add_rates(body, touching, &mut sums[1..]);
                 }

@@ -156,7 +156,7 @@ fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
 /// The positions of a pass; of a static contact, the only one.
 fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
     match case.motion {
-        None => vec![Position { offset: 0, lower: 0, upper: 0, columns: lower.min(upper) }],
+        None => vec![Position::flush(lower.min(upper))],
         Some(motion) => motion.strategy.positions(lower, upper, motion.stride),
     }
 }

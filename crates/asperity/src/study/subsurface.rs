@@ -73,17 +73,18 @@ impl Plan {
     pub fn new(case: &Case, lower: &Grid, positions: &[Position]) -> Result<Option<Self>> {
         let Some(spec) = &case.subsurface else { return Ok(None) };
         let error = |key: &str, message| case.error_at(&format!("subsurface.{key}"), message, None);
-        let flush = || positions.iter().position(|p| p.offset == 0).expect("a pass has a flush position");
+        let flush = || positions.iter().position(|p| p.offset == 0.0).expect("a pass has a flush position");
         let index = spec.step.map_or_else(flush, |step| step - 1);
         let position = positions.get(index).ok_or_else(|| {
             error("step", format!("'step' is {}, a pass has {} positions", index + 1, positions.len()))
         })?;
         let grid = Grid { shape: [position.columns, lower.shape[1]], pitch: lower.pitch };
+        let [lower, upper] = position.places();
         let first = match spec.body {
-            Side::Lower => position.lower,
-            Side::Upper => position.upper,
+            Side::Lower => lower,
+            Side::Upper => upper,
         };
-        let corner = [first as f64 * grid.pitch[0], 0.0];
+        let corner = [first * grid.pitch[0], 0.0];
         let cell = |key: &str, axis: usize, at: Metre| {
             let length = |value| units::format(value, Dimension::Length);
             let [from, to] = [corner[axis], corner[axis] + grid.extent()[axis]];

@@ -34,11 +34,8 @@ impl Law for Wear {
 
     fn add(&self, _: &Pair, touching: &Touching, [lower, _]: &mut [Vec<Field>; 2]) {
         let [work, way] = lower.as_mut_slice() else { panic!("two sums") };
-        let [work, way] = [work, way].map(|sum| sum.as_slice_mut().unwrap());
-        for (&cell, p) in touching.cells[0].iter().zip(touching.pressure) {
-            work[cell as usize] += p * touching.sliding_distance;
-            way[cell as usize] += touching.sliding_distance;
-        }
+        touching.add(0, work, |index| touching.pressure[index] * touching.sliding_distance);
+        touching.add(0, way, |_| touching.sliding_distance);
     }
 
     fn advance(&self, pair: &mut Pair, [lower, upper]: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {

@@ -9,6 +9,7 @@ mod extremes;
 mod friction;
 mod good_inputs;
 mod hardness;
+mod kinematics;
 mod laws;
 mod line;
 mod loading;

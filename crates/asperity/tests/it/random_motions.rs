@@ -65,7 +65,7 @@ impl Case {
         let strategy = match pick(rng, 4) {
             0 | 1 => Strategy::Overlap,
             2 => Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 },
-            _ => Strategy::Shift { speed_lower: -0.5, speed_upper: 1.0 },
+            _ => Strategy::Shift { speed_lower: [-0.5, 0.3, 1.0 / 3.0, 2.5][pick(rng, 4)], speed_upper: 1.0 },
         };
         let overlap = strategy == Strategy::Overlap;
         let edges = [0, 1].map(|_| [Edge::Free, Edge::Periodic][pick(rng, 2)]);
@@ -177,6 +177,22 @@ impl Case {
             let [i, j] = cells[body];
             let part = [1.0, 0.8, SOFTEST][(3 * i + 5 * j + i * j) % 3];
             if self.maps { part * self.hardness[body] } else { self.hardness[body] }
+        })
+    }
+
+    /// The cells of a body under a cell of the contact, with its part on each.
+    fn under(&self, position: &Position, body: usize, [j, iy]: [usize; 2]) -> Vec<([usize; 2], f64)> {
+        let first = [position.lower, position.upper][body];
+        let part = position.fraction[body];
+        let cell = |ahead: usize| [(first + j + ahead) % self.columns[body], iy];
+        [(cell(0), 1.0 - part), (cell(1), part)].into_iter().filter(|(_, weight)| *weight > 0.0).collect()
+    }
+
+    /// What the lower and the upper body bear where they face each other.
+    fn facing(&self, position: &Position, cell: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|body| {
+            let borne = |(cell, weight)| weight * self.borne([cell; 2])[body];
+            self.under(position, body, cell).into_iter().map(borne).sum()
         })
     }
 
@@ -292,21 +308,25 @@ fn hold(
             "{volume:e} {step:?} {}",
             what()
         );
+        let mut here = [Field::zeros(deepest[0].raw_dim()), Field::zeros(deepest[1].raw_dim())];
         for ((j, iy), &w) in interference.indexed_iter() {
-            let cells =
-                [[(position.lower + j) % case.columns[0], iy], [(position.upper + j) % case.columns[1], iy]];
-            let share = match case.borne([cells[0], cells[1]]) {
+            let share = match case.facing(position, [j, iy]) {
                 [lower, upper] if lower < upper => [1.0, 0.0],
                 [lower, upper] if lower > upper => [0.0, 1.0],
                 _ => [0.5; 2],
             };
-            if case.motion.plastic_update == PlasticUpdate::Step {
-                now.lower.heights[cells[0]] -= share[0] * w;
-                now.upper.heights[cells[1]] += share[1] * w;
-            }
             for body in 0..2 {
-                deepest[body][cells[body]] = f64::max(deepest[body][cells[body]], share[body] * w);
+                for (cell, weight) in case.under(position, body, [j, iy]) {
+                    here[body][cell] += weight * share[body] * w;
+                }
             }
+        }
+        if case.motion.plastic_update == PlasticUpdate::Step {
+            now.lower.heights -= &here[0];
+            now.upper.heights += &here[1];
+        }
+        for (deepest, here) in deepest.iter_mut().zip(&here) {
+            deepest.zip_mut_with(here, |most, w| *most = most.max(*w));
         }
     }
     if case.motion.plastic_update == PlasticUpdate::Pass {
@@ -344,8 +364,7 @@ fn again(
     };
     let exact = Params::default().with_method(Method::Direct).with_tolerance(1e-9);
     let caps = Field::from_shape_fn(shape, |(j, iy)| {
-        let cells = [(position.lower + j) % case.columns[0], (position.upper + j) % case.columns[1]];
-        let [lower, upper] = case.borne(cells.map(|column| [column, iy]));
+        let [lower, upper] = case.facing(position, [j, iy]);
         lower.min(upper)
     });
     let bounds = Bounds::up_to(caps.clone());

@@ -200,7 +200,7 @@ impl Output for PassWriter {
         for (index, contact) in report.contacts.iter().enumerate() {
             if self.pressure_every > 0 && index % self.pressure_every == 0 {
                 let pressure: Field = contact.pressure_field(pair.lower.width());
-                let corner = [contact.position.lower as f64 * pair.pitch()[0], 0.0];
+                let corner = [contact.position.places()[0] * pair.pitch()[0], 0.0];
                 let grid = pair.grid(contact.position.columns);
                 file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
                 let friction = report.sliding.as_ref().map(|sliding| &sliding.friction);

@@ -1,0 +1,77 @@
+//! Where the cells of a contact lie on a body: the one place that maps them to each other.
+
+use crate::grid::{CellValues, Field};
+use crate::motion::path::Position;
+
+/// How the cells of a contact lie on those of one of the bodies.
+///
+/// A cell of the contact lies on one cell of the body, or between two along x: the surface there is the mean of both by their
+/// weights. What is done to the cell of the contact comes back to the body by the same weights, whose sum is 1, so that nothing
+/// is lost or gained on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seat {
+    /// The body's column under the first one of the contact.
+    first: usize,
+    fraction: f64,
+    /// Columns and width of the body.
+    shape: [usize; 2],
+}
+
+impl Seat {
+    /// Those of the contact at `position` on the bodies of these shapes, lower one first.
+    pub(super) fn of_bodies(position: &Position, shapes: [[usize; 2]; 2]) -> [Self; 2] {
+        let Position { lower, upper, fraction, .. } = *position;
+        [0, 1].map(|body| Self { first: [lower, upper][body], fraction: fraction[body], shape: shapes[body] })
+    }
+
+    /// The flat cell of the body under a flat cell of the contact, or the first of two.
+    pub(super) fn cell(&self, cell: usize) -> usize {
+        let [columns, width] = self.shape;
+        (self.first + cell / width) % columns * width + cell % width
+    }
+
+    /// Part of a column by which the contact lies beyond the columns of the body.
+    pub(super) fn fraction(&self) -> f64 {
+        self.fraction
+    }
+
+    /// A flat cell of the body under the contact, and the next one where the contact lies between both, with their weights.
+    pub(super) fn parts(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let count = if self.fraction == 0.0 { 1 } else { 2 };
+        [(cell, 1.0 - self.fraction), (self.next(cell), self.fraction)].into_iter().take(count)
+    }
+
+    /// The flat cell beyond a flat cell of the body along x.
+    fn next(&self, cell: usize) -> usize {
+        let [columns, width] = self.shape;
+        (cell + width) % (columns * width)
+    }
+
+    /// The values of a body where a flat cell of it lies under the contact.
+    pub(super) fn value(&self, values: &CellValues, cell: usize) -> f64 {
+        match values {
+            CellValues::Uniform(value) => *value,
+            CellValues::Field(_) if self.fraction == 0.0 => values.at(cell),
+            CellValues::Field(_) => self.parts(cell).map(|(cell, weight)| weight * values.at(cell)).sum(),
+        }
+    }
+
+    /// The values of a body on all cells of the contact in its column `j`, each as `change` makes it of what stands in `row`.
+    pub(super) fn for_column(
+        &self,
+        values: &Field,
+        j: usize,
+        row: &mut [f64],
+        change: impl Fn(&mut f64, f64),
+    ) {
+        let column = |ahead: usize| values.row((self.first + j + ahead) % self.shape[0]);
+        let here = column(0);
+        if self.fraction == 0.0 {
+            row.iter_mut().zip(here).for_each(|(at, value)| change(at, *value));
+        } else {
+            let (near, far) = (1.0 - self.fraction, self.fraction);
+            let both = here.into_iter().zip(column(1));
+            row.iter_mut().zip(both).for_each(|(at, (one, next))| change(at, near * one + far * next));
+        }
+    }
+}
