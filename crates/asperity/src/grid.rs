@@ -73,6 +73,22 @@ impl CellValues {
         }
     }
 
+    /// The mean over so many `cells`.
+    pub(crate) fn mean(&self, cells: usize) -> f64 {
+        match self {
+            Self::Uniform(value) => *value,
+            Self::Field(field) => field.sum() / cells as f64,
+        }
+    }
+
+    /// The values on a grid of about half as many cells along each axis: means over the cells that one stands for.
+    pub(crate) fn coarse(&self) -> Self {
+        match self {
+            Self::Uniform(value) => Self::Uniform(*value),
+            Self::Field(field) => Self::Field(coarse_means(field)),
+        }
+    }
+
     fn fold(&self, first: f64, both: fn(f64, f64) -> f64) -> f64 {
         match self {
             Self::Uniform(value) => *value,
@@ -91,6 +107,18 @@ impl From<Field> for CellValues {
     fn from(field: Field) -> Self {
         Self::Field(field)
     }
+}
+
+/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
+pub(crate) fn coarse_means(fine: &Field) -> Field {
+    let (nx, ny) = fine.dim();
+    let cells = fine.as_slice().expect("standard layout");
+    Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
+        // At the end of an odd number the last row or column stands for both.
+        let (rows, columns) = ([2 * i, (2 * i + 1).min(nx - 1)], [2 * j, (2 * j + 1).min(ny - 1)]);
+        let sum = |row: usize| cells[row * ny + columns[0]] + cells[row * ny + columns[1]];
+        0.25 * (sum(rows[0]) + sum(rows[1]))
+    })
 }
 
 /// The most cells of a grid: a field of them takes 32 GiB. Where `usize` has 32 bits, as many as it can count.

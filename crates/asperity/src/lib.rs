@@ -24,7 +24,7 @@
 //! | an idea of a surface | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | one fit for a contact; its roughness by ISO 25178 |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | what [`motion::press`], [`motion::load_in_stages`], [`motion::roll`] and [`motion::Simulation`] take |
+//! | two topographies and materials | [`motion::Pair`] | what [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::InPlace`] and [`motion::Simulation`] take |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and what heats them | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature, and what heat goes where |

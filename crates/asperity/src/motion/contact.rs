@@ -89,7 +89,8 @@ impl Contact {
         }
     }
 
-    fn new(position: Position, sliding: Option<&Sliding>, solution: &Solution) -> Self {
+    /// The contact of a solution.
+    pub(super) fn new(position: Position, sliding: Option<&Sliding>, solution: &Solution) -> Self {
         let mut pressure = Vec::new();
         let mut plastic = Vec::new();
         let cells = solution.pressure.iter().zip(&solution.displacement).zip(&solution.initial_gap);

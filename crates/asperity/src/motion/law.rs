@@ -10,8 +10,8 @@ use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
 use crate::motion::seat::Seat;
 use crate::solver::Sliding;
-use crate::temperature::FlashTemperature;
-use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second};
+use crate::temperature::FlashStep;
+use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
 ///
@@ -48,6 +48,13 @@ pub trait Law: Send + Sync {
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
         let _ = friction;
         [0.0; 2]
+    }
+
+    /// As [`Law::per_pressure`], cell by cell of the lower and of the upper body under these sums: what wear in place is solved
+    /// with. It need not be exact, what [`Law::advance`] takes counts; the nearer, the longer the updates may be.
+    fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {
+        let _ = (pair, sums);
+        self.per_pressure(friction).map(CellValues::Uniform)
     }
 
     /// Changes the state of the bodies by so many `passes` with these sums, and gives the height that each cell of the lower
@@ -136,18 +143,25 @@ pub(super) struct Passage {
 /// Sums of a law over a pass, on the lower and on the upper body.
 pub type Sums = [Vec<Field>; 2];
 
-/// The sums of `laws` over contacts on frozen bodies, and the temperatures at each of them where `heat` tells those of a pass; else
-/// the surfaces are as warm as the bodies.
+/// Tells the temperature of cells in contact, of the lower and of the upper body at a position, under the flux of friction on each.
+pub(super) type Heat<'a> = dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<FlashStep> + 'a;
+
+/// No sums yet of `laws` on a `pair`.
+pub(super) fn nothing(laws: &[Box<dyn Law>], pair: &Pair) -> Vec<Sums> {
+    let shapes = [pair.lower.heights.raw_dim(), pair.upper.heights.raw_dim()];
+    laws.iter().map(|law| shapes.map(|shape| vec![Field::zeros(shape); law.sums()])).collect()
+}
+
+/// The sums of `laws` over contacts on frozen bodies, and the temperatures at each of them where `heat` tells them; else the
+/// surfaces are as warm as the bodies.
 pub(super) fn sums(
     laws: &[Box<dyn Law>],
     pair: &Pair,
     contacts: &[Contact],
     passage: &Passage,
-    mut heat: Option<&mut FlashTemperature>,
+    mut heat: Option<&mut Heat<'_>>,
 ) -> Result<(Vec<Sums>, Vec<HeatRecord>)> {
-    let shapes = [pair.lower.heights.raw_dim(), pair.upper.heights.raw_dim()];
-    let zeros = |law: &dyn Law| shapes.map(|shape| vec![Field::zeros(shape); law.sums()]);
-    let mut sums: Vec<_> = laws.iter().map(|law| zeros(law.as_ref())).collect();
+    let mut sums = nothing(laws, pair);
     let mut warm = Vec::new();
     for contact in contacts {
         let seats = pair.seats(&contact.position);
@@ -165,7 +179,7 @@ pub(super) fn sums(
         if let Some(heat) = &mut heat {
             let speed = passage.distance / passage.time;
             let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
-            let step = heat.step_between([&lower, &upper], contact.position.fraction, &flux)?;
+            let step = heat([&lower, &upper], &contact.position, &flux)?;
             warm.push(HeatRecord {
                 friction_power: contact.tangential_force.abs() * speed,
                 max_flash_temperature: step.max_temperature().unwrap_or(passage.bulk[0].max(passage.bulk[1])),

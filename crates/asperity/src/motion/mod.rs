@@ -16,6 +16,7 @@ mod report;
 mod rim;
 mod seat;
 mod simulation;
+mod sliding;
 mod spot;
 mod sweep;
 mod together;
@@ -38,11 +39,12 @@ pub use path::{Position, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{
     HeatRecord, IncrementRecord, LostVolume, PassRecord, RunningRecord, ShearRecord, StaticRecord,
-    StepRecord, SweepRecord,
+    StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::{Output, PassReport};
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
+pub use sliding::{InPlace, Slide, SlidingOutput, SlidingState, WornContact};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
 pub use sweep::{Point, SweepOutput, sweep};

@@ -111,6 +111,68 @@ pub struct IncrementRecord {
     pub residual: f64,
 }
 
+/// One update of a contact that slides in place: a row of `updates.csv`, the first of which is the contact before it slides.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct UpdateRecord {
+    /// Update, from 1; 0 before the first.
+    pub update: usize,
+    /// Distance that the bodies have slid at its end.
+    pub distance: Metre,
+    /// Time since the beginning; NaN where the speed is not known.
+    #[serde(deserialize_with = "number_or_none")]
+    pub time: Second,
+    /// Normal force.
+    pub load: Newton,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// Friction force along x of the upper body on the lower one.
+    pub tangential_force: Newton,
+    /// Area of the cells with p > 0.
+    pub contact_area: SquareMetre,
+    /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
+    pub largest_spot_cells: usize,
+    /// Largest pressure.
+    pub max_pressure: Pascal,
+    /// Number of cells at the hardness.
+    pub plastic_cells: usize,
+    /// Volumes that each law has taken from the bodies so far: of wear the columns `wear_volume_lower`, `wear_volume_upper`.
+    #[serde(flatten, with = "lost_volumes::whole")]
+    pub lost: Vec<LostVolume>,
+    /// Deepest wear of a cell of the lower body so far.
+    pub max_wear_lower: Metre,
+    /// Deepest wear of a cell of the upper body so far.
+    pub max_wear_upper: Metre,
+    /// Mean thickness of the film on the cells of the lower body that are in contact; 0 without one.
+    pub mean_film_lower: Metre,
+    /// Mean thickness of the film on the cells of the upper body that are in contact; 0 without one.
+    pub mean_film_upper: Metre,
+    /// Power of friction; NaN where the speed is not known.
+    #[serde(deserialize_with = "number_or_none")]
+    pub friction_power: Watt,
+    /// Energy that friction took so far.
+    pub friction_work: Joule,
+    /// Largest temperature of the surfaces, absolute; that of the warmer body where the flash temperature is not computed, NaN
+    /// where that is not known.
+    #[serde(deserialize_with = "number_or_none")]
+    pub max_temperature: Kelvin,
+    /// Contacts solved, until the coefficients of wear under the films were found.
+    pub solutions: usize,
+    /// Iterations of the solver.
+    pub iterations: usize,
+    /// Convolutions.
+    pub convolutions: f64,
+    /// Scale-free complementarity residual η.
+    pub residual: f64,
+}
+
+impl UpdateRecord {
+    /// Volumes that the lower and the upper body have lost to the law of that name so far; 0 where there is no such law.
+    pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
+        self.lost.iter().find(|lost| lost.law == law).map_or([0.0; 2], |lost| lost.whole)
+    }
+}
+
 /// One point of a sweep: a row of `sweep.csv`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -367,21 +429,50 @@ mod lost_volumes {
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Vec<LostVolume>, D::Error> {
+        let lost = read::<4, D>(deserializer, COLUMNS)?.into_iter();
+        Ok(lost.map(|(law, [a, b, c, d])| LostVolume { law, whole: [a, b], interior: [c, d] }).collect())
+    }
+
+    /// The values in these columns of each law.
+    fn read<'de, const N: usize, D: Deserializer<'de>>(
+        deserializer: D,
+        endings: [&str; N],
+    ) -> Result<Vec<(String, [CubicMetre; N])>, D::Error> {
         // All columns that no field has come here, those of numbers that there are not among them.
         let columns = BTreeMap::<String, Option<CubicMetre>>::deserialize(deserializer)?;
-        let laws = columns.keys().filter_map(|column| column.strip_suffix(COLUMNS[0]));
+        let laws = columns.keys().filter_map(|column| column.strip_suffix(endings[0]));
         laws.map(|law| {
-            let value = |column: &str| {
-                let column = format!("{law}{column}");
-                columns
-                    .get(&column)
-                    .copied()
-                    .flatten()
-                    .ok_or_else(|| D::Error::custom(format!("no column `{column}`")))
-            };
-            let [a, b, c, d] = COLUMNS.map(value);
-            Ok(LostVolume { law: law.to_owned(), whole: [a?, b?], interior: [c?, d?] })
+            let mut values = [0.0; N];
+            for (value, ending) in values.iter_mut().zip(endings) {
+                let column = format!("{law}{ending}");
+                let found = columns.get(&column).copied().flatten();
+                *value = found.ok_or_else(|| D::Error::custom(format!("no column `{column}`")))?;
+            }
+            Ok((law.to_owned(), values))
         })
         .collect()
+    }
+
+    /// Those of the whole bodies: two for each law.
+    pub(super) mod whole {
+        use serde::{Deserializer, Serializer};
+
+        use super::{COLUMNS, LostVolume};
+
+        pub(in crate::motion::record) fn serialize<S: Serializer>(
+            lost: &[LostVolume],
+            serializer: S,
+        ) -> Result<S::Ok, S::Error> {
+            serializer.collect_map(lost.iter().flat_map(|lost| {
+                [0, 1].map(|body| (format!("{}{}", lost.law, COLUMNS[body]), lost.whole[body]))
+            }))
+        }
+
+        pub(in crate::motion::record) fn deserialize<'de, D: Deserializer<'de>>(
+            deserializer: D,
+        ) -> Result<Vec<LostVolume>, D::Error> {
+            let lost = super::read::<2, D>(deserializer, [COLUMNS[0], COLUMNS[1]])?.into_iter();
+            Ok(lost.map(|(law, whole)| LostVolume { law, whole, interior: whole }).collect())
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::film::FILM;
 use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
-use crate::motion::law::{self, Law, Sums};
+use crate::motion::law::{self, Heat, Law, Sums};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
@@ -298,8 +298,13 @@ impl Simulation {
         if let Some(heat) = &mut heat {
             heat.begin();
         }
-        let (mut sums, warm) =
-            law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, heat.as_deref_mut())?;
+        let mut step = heat.as_deref_mut().map(|heat| {
+            |cells: [&[u32]; 2], position: &Position, flux: &[f64]| {
+                heat.step_between(cells, position.fraction, flux)
+            }
+        });
+        let warming = step.as_mut().map(|step| step as &mut Heat);
+        let (mut sums, warm) = law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, warming)?;
         drop(heat);
         steps.iter_mut().zip(&warm).for_each(|(step, warm)| step.heat = Some(*warm));
         let once = self.laws.iter().take_while(|law| !law.repeats()).count();

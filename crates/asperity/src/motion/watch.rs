@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::motion::record::{PassRecord, SweepRecord};
+use crate::motion::record::{PassRecord, SweepRecord, UpdateRecord};
 use crate::solver::{self, Control};
 use crate::units::Newton;
 
@@ -40,6 +40,10 @@ pub trait Watch: Sync {
 
     /// A point of a sweep has been solved: each in its turn, those too from which an interrupted sweep goes on.
     fn point(&self, _: &SweepRecord) {}
+
+    /// An update of a contact that slides in place has been solved: each in its turn, those too from which an interrupted one goes
+    /// on.
+    fn update(&self, _: &UpdateRecord) {}
 
     /// Whether to stop: what is computed then ends with [`crate::Error::Interrupted`] at the next convolution.
     fn stop(&self) -> bool;

@@ -1,7 +1,7 @@
 //! Wear: what sliding takes off a body.
 
 use crate::error::{Error, Result, check_in};
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
 use crate::motion::body::State;
 use crate::motion::film::{Film, Growing};
 use crate::motion::law::{Law, Touching};
@@ -163,6 +163,24 @@ impl Law for Wear {
             None => 0.0,
             Some(WearCoefficient { bare, driver: WearDriver::Pressure, .. }) => bare,
             Some(WearCoefficient { bare, driver: WearDriver::Shear, .. }) => bare * friction,
+        })
+    }
+
+    fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {
+        let bare = self.per_pressure(friction);
+        [0, 1].map(|body| match (&self.coefficients[body], &self.films[body]) {
+            (Some(coefficient), Some(film)) => {
+                let states = film.states([&pair.lower, &pair.upper][body]);
+                let growing = Growing::of(&sums[body][1..]);
+                let mut cells = Field::zeros(sums[body][0].raw_dim());
+                for (cell, value) in cells.iter_mut().enumerate() {
+                    let thickness = film.mean_thickness(states.at(cell), growing.at(cell), 1.0);
+                    let share = coefficient.under(thickness / film.max_thickness()) / coefficient.bare;
+                    *value = bare[body] * share;
+                }
+                cells.into()
+            }
+            _ => bare[body].into(),
         })
     }
 

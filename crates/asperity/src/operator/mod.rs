@@ -1,6 +1,7 @@
 //! Operators: traction in, displacement out.
 
 mod boundary;
+mod compliant;
 mod coupled;
 mod direct_sum;
 mod family;
@@ -9,13 +10,14 @@ mod periodic_fft;
 mod shared;
 
 pub use boundary::{Boundary, Edge};
+pub use compliant::Compliant;
 pub use coupled::{CoupledFft, CoupledOperator, CoupledSum};
 pub use direct_sum::DirectSum;
 pub use family::Operators;
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::{PeriodicFft, PeriodicKernel};
 
-use crate::grid::{Field, Grid, SingleField};
+use crate::grid::{CellValues, Field, Grid, SingleField};
 
 /// The composite normal displacement of a pair of bodies under pressure: `u = C p`.
 ///
@@ -27,12 +29,23 @@ pub trait Operator: Send {
     /// What lies beyond the edges of the grid.
     fn boundary(&self) -> Boundary;
 
+    /// Whether no pressure displaces the cells in the mean: nothing then tells a uniform pressure from another.
+    fn leaves_mean_free(&self) -> bool {
+        self.boundary().leaves_mean_free()
+    }
+
     /// Displacement per unit pressure of the harmonic of angular wavenumber `(qx, qy)` ≠ 0, m/Pa, > 0: what the solvers
     /// precondition with. It need not be exact.
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64;
 
     /// Displacement of a cell per unit pressure on the one `i` and `j` cells away, m/Pa; `[i, j]` inside the grid.
     fn influence(&self, i: usize, j: usize) -> f64;
+
+    /// Displacement of each cell per unit pressure on itself, m/Pa, > 0: that of [`Operator::influence`], which is the mean where
+    /// cells differ in it.
+    fn self_influence(&self) -> CellValues {
+        CellValues::Uniform(self.influence(0, 0))
+    }
 
     /// Writes the displacement under `pressure` into `displacement`. Both have the grid's shape.
     fn apply(&mut self, pressure: &Field, displacement: &mut Field);

@@ -2,7 +2,6 @@
 
 use crate::error::{Result, check_in};
 use crate::grid::CellValues;
-use crate::solver::coarse::coarse_means;
 use crate::units::{Dimension, Pascal};
 
 /// Bounds of the pressure, cell by cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
@@ -64,11 +63,7 @@ impl Bounds {
 
     /// The bounds on a grid of about half as many cells along each axis: means over the cells that one stands for.
     pub(crate) fn coarse(&self) -> Self {
-        let coarse = |values: &CellValues| match values {
-            CellValues::Uniform(value) => CellValues::Uniform(*value),
-            CellValues::Field(field) => CellValues::Field(coarse_means(field)),
-        };
-        Self { lower: coarse(&self.lower), upper: coarse(&self.upper) }
+        Self { lower: self.lower.coarse(), upper: self.upper.coarse() }
     }
 
     /// Whether these are bounds for a grid of that shape, and each has a meaning.

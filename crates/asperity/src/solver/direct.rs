@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
 use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
@@ -102,6 +102,8 @@ struct Pivoting<'a, 'b> {
     operator: &'a mut dyn Operator,
     problem: &'a Problem<'b>,
     influence: Field,
+    /// Displacement of each cell per unit pressure on itself.
+    self_influence: CellValues,
     /// The s of the matrix s 1 1ᵀ that is added to C where the boundary is periodic: it makes C positive definite, and changes
     /// the approach alone, by s Σ p.
     stiffening: f64,
@@ -114,9 +116,10 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
         let load_controlled = matches!(problem.terms.control, Control::Load(_));
-        let free_mean = operator.boundary().leaves_mean_free() && load_controlled;
+        let free_mean = operator.leaves_mean_free() && load_controlled;
         let stiffening = if free_mean { stiffening(operator, problem) } else { 0.0 };
-        Self { operator, problem, influence, stiffening, factorisations: 0, convolutions: 0 }
+        let self_influence = operator.self_influence();
+        Self { operator, problem, influence, self_influence, stiffening, factorisations: 0, convolutions: 0 }
     }
 
     fn solve(&mut self, approach: Metre, mut sets: Array2<Set>) -> Result<AtApproach> {
@@ -181,7 +184,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     /// approach beyond the mean gap it rises until the cell nearest to its upper bound is at it, under a lesser one it falls
     /// until the cell nearest to its lower bound is at that.
     fn anchor(&mut self, approach: Metre, sets: &mut Array2<Set>) -> Result<()> {
-        let free_mean = self.operator.boundary().leaves_mean_free() && self.stiffening == 0.0;
+        let free_mean = self.operator.leaves_mean_free() && self.stiffening == 0.0;
         let floats = free_mean && sets.iter().all(|set| *set == Set::Free);
         if !floats {
             return Ok(());
@@ -233,8 +236,13 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                 "the direct method is for contacts of up to 20000 cells; the active set is for larger ones",
             ));
         }
+        let width = sets.ncols();
         let coefficient = |a: (usize, usize), b: (usize, usize)| {
-            self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]] + self.stiffening
+            let influence = match a == b {
+                true => self.self_influence.at(a.0 * width + a.1),
+                false => self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]],
+            };
+            influence + self.stiffening
         };
         // Only its lower triangle is read.
         let lower = |(i, j)| if j <= i { coefficient(free[i], free[j]) } else { 0.0 };

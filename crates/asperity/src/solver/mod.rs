@@ -3,7 +3,6 @@
 mod active_set;
 mod bounds;
 mod cascade;
-mod coarse;
 mod coarse_correction;
 mod direct;
 mod feasible;
@@ -468,7 +467,7 @@ fn validate(
             check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite approach")?;
             let mean_gap = initial_gap.mean().unwrap_or(0.0);
             let elastic = bounds.upper().min().is_infinite();
-            if operator.boundary().leaves_mean_free() && elastic && approach >= mean_gap {
+            if operator.leaves_mean_free() && elastic && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });
             }
             Ok(())

@@ -1,5 +1,6 @@
 //! The two-level preconditioner: an approximate inverse of the influence matrix on the free cells, at no fine convolution.
 
+use crate::grid::CellValues;
 use crate::math::SparseInverse;
 use crate::operator::Operator;
 use crate::solver::coarse_correction::CoarseCorrection;
@@ -8,6 +9,9 @@ use crate::solver::sets::Sets;
 /// The preconditioner `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free
 /// cells A.
 ///
+/// Where cells differ in the displacement cᵢ by their own pressure, z = D M D r with the M of their mean c and D = √(c/cᵢ):
+/// exact where it is all the displacement there is.
+///
 /// S is the [`SparseInverse`] on the free cells, for the local part of the residual, B the stiffness of the long waves, for its
 /// smooth part; see [`CoarseCorrection`] for P, D and T.
 pub(super) struct Preconditioner {
@@ -15,6 +19,8 @@ pub(super) struct Preconditioner {
     coarse: CoarseCorrection,
     /// The local part (I − T) A r of the residual.
     local: Vec<f32>,
+    /// The scales √(c/cᵢ) of the cells, and the scaled residual; none where cells do not differ.
+    scaled: Option<(Vec<f32>, Vec<f32>)>,
 }
 
 impl Preconditioner {
@@ -23,6 +29,10 @@ impl Preconditioner {
             sparse: sparse_inverse(operator),
             coarse: CoarseCorrection::new(operator),
             local: vec![0.0; operator.grid().cells()],
+            scaled: scales(operator).map(|scales| {
+                let residual = vec![0.0; scales.len()];
+                (scales, residual)
+            }),
         }
     }
 
@@ -35,10 +45,30 @@ impl Preconditioner {
 
     /// Computes the preconditioned residual `z = M r`: fields on the grid that are zero where it is not free.
     pub(super) fn apply(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+        let Some((scales, mut scaled)) = self.scaled.take() else { return self.apply_alike(sets, r, z) };
+        scaled.iter_mut().zip(r).zip(&scales).for_each(|((scaled, r), scale)| *scaled = scale * r);
+        self.apply_alike(sets, &scaled, z);
+        z.iter_mut().zip(&scales).for_each(|(z, scale)| *z *= scale);
+        self.scaled = Some((scales, scaled));
+    }
+
+    /// As [`Self::apply`] where cells do not differ.
+    fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
         z.fill(0.0);
         self.coarse.split(sets, r, &mut self.local);
         self.sparse.add(sets.free(), &self.local, z);
         self.coarse.join(sets, z);
+    }
+}
+
+/// The square roots of the mean displacement of a cell by its own pressure over that of each; none where cells do not differ.
+fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
+    match operator.self_influence() {
+        CellValues::Uniform(_) => None,
+        CellValues::Field(own) => {
+            let mean = operator.influence(0, 0);
+            Some(own.iter().map(|own| (mean / own).sqrt() as f32).collect())
+        }
     }
 }
 

@@ -4,10 +4,9 @@ use std::borrow::Cow;
 use std::ops::DerefMut;
 use std::sync::Mutex;
 
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, coarse_means};
 use crate::operator::Operator;
 use crate::solver::bounds::Bounds;
-use crate::solver::coarse::coarse_means;
 
 /// Where one of the contacts that share an approach takes place.
 ///

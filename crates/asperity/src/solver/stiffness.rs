@@ -36,7 +36,7 @@ pub fn normal_stiffness(
     let grid = *operator.grid();
     assert_eq!(elastic.dim(), (grid.shape[0], grid.shape[1]), "shape of the elastic cells");
     let mut stats = Stats::default();
-    if operator.boundary().leaves_mean_free() && elastic.iter().all(|is_elastic| *is_elastic) {
+    if operator.leaves_mean_free() && elastic.iter().all(|is_elastic| *is_elastic) {
         return Ok((None, stats));
     }
     let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));

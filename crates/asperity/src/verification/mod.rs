@@ -21,6 +21,7 @@
 mod coated;
 mod dissimilar;
 mod heat;
+mod in_place;
 mod operators;
 mod partial_slip;
 mod rolling;
@@ -160,6 +161,10 @@ pub const CASES: &[Case] = &[
     heat::DIVISION,
     running_in::GROOVES,
     running_in::FILM_GROWTH,
+    in_place::GROOVES,
+    in_place::GROOVES_UNDER_FILM,
+    in_place::FLAT,
+    in_place::BALL,
 ];
 
 /// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.

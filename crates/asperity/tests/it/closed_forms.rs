@@ -62,6 +62,10 @@ cases! {
     equal_bodies_share_heat_and_none_is_lost: "heat: divided, and all of it",
     grooves_wear_as_a_power_of_e: "grooves wear: A₀ e^(−(k₁+k₂)E*πs/L)",
     a_film_tends_to_its_steady_thickness: "a film grows",
+    grooves_wear_in_place_as_a_power_of_e: "grooves wear in place: A₀ e^(−(k₁+k₂)E*πs/L)",
+    grooves_wear_less_under_a_growing_film: "grooves wear in place under a growing film",
+    flat_bodies_wear_until_the_pressure_is_even: "flat on flat wears: p̄ everywhere, −p̄ C·1",
+    a_ball_wears_to_a_cap: "ball on disc wears: k = 1.33e-13 1/Pa, 640 mm",
 }
 
 fn holds(name: &str) {

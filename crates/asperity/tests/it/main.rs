@@ -9,6 +9,7 @@ mod extremes;
 mod friction;
 mod good_inputs;
 mod hardness;
+mod in_place;
 mod kinematics;
 mod laws;
 mod line;

@@ -1,0 +1,460 @@
+//! A static contact that slides some distance: the same cells face each other all the way, and wear in place.
+
+use crate::error::{Error, Result, check, check_in};
+use crate::grid::{CellValues, Field};
+use crate::motion::check_limit;
+use crate::motion::contact::{Contact, facing};
+use crate::motion::film::FILM;
+use crate::motion::law::{self, Heat, Law, Passage, Sums};
+use crate::motion::pair::{Pair, facing_values};
+use crate::motion::path::Position;
+use crate::motion::plastic::PlasticFlow;
+use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
+use crate::motion::rim::Interior;
+use crate::motion::spot::largest_spot;
+use crate::motion::watch::{AtRest, Progress, Watch};
+use crate::motion::wear::WEAR;
+use crate::motion::{Body, Strategy};
+use crate::operator::{Boundary, Compliant, Operator};
+use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_normal_watched};
+use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
+use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
+
+/// How a static contact slides: the upper body towards +x over a lower one whose cells stay under the same cells of it, as a pin
+/// on a disc, or a body that is worn alike all along its way.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Slide {
+    /// Distances slid at the ends of the updates, > 0, increasing.
+    pub ends: Vec<Metre>,
+    /// What is prescribed in the normal direction, all the way.
+    pub control: Control,
+    /// Friction of the bodies, if they have any.
+    pub friction: Option<Friction>,
+    /// Speed of the upper body over the lower one, > 0, where it is known.
+    pub speed: Option<MetrePerSecond>,
+    /// Temperatures of the lower and of the upper body, > 0, where they are known.
+    pub bulk: Option<[Kelvin; 2]>,
+}
+
+impl Slide {
+    /// Over a `distance`, > 0, in so many `updates`, ≥ 1, the i-th of which ends at distance · (i/updates)²: a contact that wears
+    /// changes ever more slowly. An update is a step of backward Euler: the error of depths is of the first order in their number,
+    /// that of worn volumes none.
+    pub fn graded(distance: Metre, updates: usize, control: Control) -> Self {
+        let end = |update: usize| distance * (update as f64 / updates as f64).powi(2);
+        Self::to((1..=updates).map(end).collect(), control)
+    }
+
+    /// In updates that end at these distances.
+    pub const fn to(ends: Vec<Metre>, control: Control) -> Self {
+        Self { ends, control, friction: None, speed: None, bulk: None }
+    }
+
+    /// The same with friction, or without.
+    #[must_use]
+    pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
+        Self { friction: friction.into(), ..self }
+    }
+
+    /// The same at a speed, > 0.
+    #[must_use]
+    pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
+        Self { speed: speed.into(), ..self }
+    }
+
+    /// The same with bodies of these temperatures, > 0.
+    #[must_use]
+    pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
+        Self { bulk: bulk.into(), ..self }
+    }
+
+    /// How the bodies slide, if there is friction.
+    fn sliding(&self) -> Option<Sliding> {
+        self.friction.map(|friction| Sliding { friction, direction: [1.0, 0.0] })
+    }
+
+    /// What laws see of the update that ends at the distance of that index, besides the contact.
+    fn passage(&self, update: usize) -> Passage {
+        let before = if update == 0 { 0.0 } else { self.ends[update - 1] };
+        let distance = self.ends[update] - before;
+        Passage {
+            sliding: self.sliding(),
+            distance,
+            time: self.time(distance),
+            bulk: self.bulk.unwrap_or([f64::NAN; 2]),
+        }
+    }
+
+    /// The time that a distance takes; NaN where the speed is not known.
+    fn time(&self, distance: Metre) -> Second {
+        self.speed.map_or(f64::NAN, |speed| distance / speed)
+    }
+
+    fn checked(self, pair: &Pair) -> Result<Self> {
+        check("updates", self.ends.len() as f64, !self.ends.is_empty(), "at least one update")?;
+        let mut before = 0.0;
+        for &end in &self.ends {
+            let further = end > before && end.is_finite();
+            check_in(
+                Dimension::Length,
+                "distance",
+                end,
+                further,
+                "a distance above that of the update before",
+            )?;
+            before = end;
+        }
+        if let Some(speed) = self.speed {
+            check_in(Dimension::Speed, "speed", speed, speed > 0.0 && speed.is_finite(), "a speed above 0")?;
+        }
+        if let Some(friction) = self.friction {
+            friction.checked()?;
+            if self.sliding().is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
+                return Err(Error::Unsupported(
+                    "wear in place of bodies whose shear displaces them normally: with coupling \"none\" or \"goodman\" it does not",
+                ));
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// A contact after its updates so far: all that the next one depends on.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct SlidingState {
+    /// The bodies as they are now.
+    pub pair: Pair,
+    /// The updates so far, the first of which is the contact before it slides.
+    pub updates: Vec<UpdateRecord>,
+    /// Pressure of the last update, Pa.
+    pub pressure: Field,
+}
+
+/// Takes the updates of a contact that slides. An output that cannot be written ends it.
+pub trait SlidingOutput {
+    /// Takes the state after an update.
+    ///
+    /// # Errors
+    /// What kept it from being written.
+    fn update(&mut self, state: &SlidingState) -> Result<()>;
+}
+
+/// The output of a contact whose updates nobody takes.
+impl SlidingOutput for () {
+    fn update(&mut self, _: &SlidingState) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// A contact that has slid all its way.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct WornContact {
+    /// The state after the last update.
+    pub state: SlidingState,
+    /// The contact of the bodies as they are then, in numbers.
+    pub record: StaticRecord,
+    /// The contact of the bodies as they are then.
+    pub solution: Solution,
+    /// Absolute temperature of the cells in contact, K, NaN elsewhere; none where it is not computed.
+    pub temperature: Option<Field>,
+}
+
+/// Two bodies that slide in place.
+///
+/// An update is implicit (backward Euler): the contact is solved on the bodies as it leaves them, worn by κ p, which is the contact
+/// problem with [`Compliant`] cells, κ = Σ k |Δs| over both bodies cell by cell. So pressures stay smooth however long the update
+/// is, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film is that of the film's mean thickness
+/// in the update, found together with the contact. Films grow, and cells flow plastically, on the bodies that the update found.
+pub struct InPlace {
+    slide: Slide,
+    boundary: Boundary,
+    params: Params,
+    operator: Box<dyn Operator>,
+    interiors: [Interior; 2],
+    laws: Vec<Box<dyn Law>>,
+    heat: Option<SteadyTemperature>,
+    pair: Pair,
+}
+
+/// The largest change of the coefficients from one solution of an update to the next at which they count as found, as a share of
+/// the largest coefficient.
+const COEFFICIENT_ACCURACY: f64 = 1e-4;
+/// Solutions of an update after which its coefficients are taken as they are: they change by less than the film.
+const MAX_SOLUTIONS: usize = 12;
+
+impl InPlace {
+    /// A contact of a `pair` whose bodies face each other with all their columns.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for input without meaning, [`Error::BeyondPlasticLimit`] if the bodies cannot
+    /// carry the load.
+    ///
+    /// # Panics
+    /// If the bodies have different shapes.
+    pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
+        let slide = slide.checked(&pair)?;
+        let (operators, _) = facing(&pair, boundary)?;
+        let shape = pair.lower_grid().shape;
+        let bounds = pair.bounds(&pair.at_rest(), slide.friction.as_ref());
+        check_limit(slide.control, pair.cell_area() * bounds.upper().sum(shape[0] * shape[1]))?;
+        Ok(Self {
+            operator: operators.on(shape),
+            interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
+            laws: vec![Box::new(PlasticFlow)],
+            heat: None,
+            slide,
+            boundary,
+            params,
+            pair,
+        })
+    }
+
+    /// The same contact, whose updates change the bodies by a `law`, too: after those by which they do already, of which plastic
+    /// flow is the first.
+    pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
+        law.prepare(&mut self.pair);
+        self.laws.push(Box::new(law));
+        self
+    }
+
+    /// The same contact, whose friction heats bodies of these thermal constants, lower one first, to the steady temperature of
+    /// each update: the contact stays on the upper body, and the lower one passes it with the speed.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies; those of [`SteadyTemperature::new`].
+    pub fn with_heat(mut self, thermal: [Thermal; 2]) -> Result<Self> {
+        let Slide { friction: Some(_), bulk: Some(bulk), speed: Some(speed), .. } = self.slide else {
+            return Err(Error::Unsupported(
+                "a flash temperature is that of bodies with friction, a speed and temperatures",
+            ));
+        };
+        let (grid, boundary) = (self.pair.lower_grid(), self.boundary);
+        self.heat = Some(SteadyTemperature::new(grid, thermal, boundary, [-speed, 0.0], bulk)?);
+        Ok(self)
+    }
+
+    /// The bodies as they are before they slide.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// How the contact slides.
+    pub fn slide(&self) -> &Slide {
+        &self.slide
+    }
+
+    /// Slides all the way: from the beginning, or from a state `under_way`, from which it comes to the same as without the
+    /// interruption, bit by bit.
+    ///
+    /// # Errors
+    /// Those of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; those of the output.
+    pub fn run(
+        mut self,
+        under_way: Option<SlidingState>,
+        watch: &dyn Watch,
+        output: &mut dyn SlidingOutput,
+    ) -> Result<WornContact> {
+        let mut state = match under_way {
+            Some(state) => {
+                state.updates.iter().for_each(|update| watch.update(update));
+                state
+            }
+            None => {
+                let state = self.begin(watch)?;
+                self.finish(&state, watch, output)?;
+                state
+            }
+        };
+        for index in state.updates.len() - 1..self.slide.ends.len() {
+            if watch.stop() {
+                return Err(Error::Interrupted);
+            }
+            self.advance(&mut state, index, watch)?;
+            self.finish(&state, watch, output)?;
+        }
+        let (solution, contact) =
+            self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
+        let temperature = self.flash(&contact)?.map(|flash| {
+            let mut field = Field::from_elem(solution.pressure.raw_dim(), f64::NAN);
+            let cells = field.as_slice_mut().expect("standard layout");
+            let of_cells = contact.pressure.iter().zip(flash.temperature);
+            of_cells.for_each(|((cell, _), temperature)| cells[*cell as usize] = temperature);
+            field
+        });
+        Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
+    }
+
+    /// Hands an update on.
+    fn finish(&self, state: &SlidingState, watch: &dyn Watch, output: &mut dyn SlidingOutput) -> Result<()> {
+        output.update(state)?;
+        let update = state.updates.last().expect("the update just done");
+        let (solved, positions, load) = (update.update, self.slide.ends.len(), update.load);
+        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
+        watch.update(update);
+        Ok(())
+    }
+
+    /// The contact before it slides.
+    fn begin(&mut self, watch: &dyn Watch) -> Result<SlidingState> {
+        let pair = self.pair.clone();
+        let (solution, contact) = self.press(&pair, None, 0.0.into(), 0, watch)?;
+        let flash = self.flash(&contact)?;
+        let record = UpdateRecord {
+            distance: 0.0,
+            time: self.slide.time(0.0),
+            lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
+            ..self.record(&pair, &contact, flash.as_ref())
+        };
+        Ok(SlidingState { pressure: solution.pressure, updates: vec![record], pair })
+    }
+
+    /// The update that ends at the distance of that `index`.
+    fn advance(&mut self, state: &mut SlidingState, index: usize, watch: &dyn Watch) -> Result<()> {
+        let passage = self.slide.passage(index);
+        let mut compliance =
+            self.compliance(&state.pair, &law::nothing(&self.laws, &state.pair), passage.distance);
+        let (mut stats, mut solutions) = (Stats::default(), 0);
+        let (contact, flash, sums) = loop {
+            let (solution, contact) =
+                self.press(&state.pair, Some(&state.pressure), compliance.clone(), index, watch)?;
+            state.pressure = solution.pressure;
+            stats = stats.and(&solution.stats);
+            solutions += 1;
+            let flash = self.flash(&contact)?;
+            let sums = self.sums(&state.pair, &contact, &passage, flash.as_ref())?;
+            let next = self.compliance(&state.pair, &sums, passage.distance);
+            let change =
+                |(cell, _): &(u32, f64)| (next.at(*cell as usize) - compliance.at(*cell as usize)).abs();
+            let most = contact.pressure.iter().map(change).fold(0.0, f64::max);
+            if most <= COEFFICIENT_ACCURACY * next.max() || solutions == MAX_SOLUTIONS {
+                break (contact, flash, sums);
+            }
+            compliance = next;
+        };
+        let before = state.updates.last().expect("the contact before it slides");
+        let mut lost = before.lost.clone();
+        let work = before.friction_work + contact.tangential_force.abs() * passage.distance;
+        law::advance(&self.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
+        let distance = self.slide.ends[index];
+        state.updates.push(UpdateRecord {
+            update: index + 1,
+            distance,
+            time: self.slide.time(distance),
+            lost,
+            friction_work: work,
+            solutions,
+            iterations: stats.iterations,
+            convolutions: stats.convolutions,
+            ..self.record(&state.pair, &contact, flash.as_ref())
+        });
+        Ok(())
+    }
+
+    /// The contact of a `pair` whose cells have this `compliance` besides, from the pressure `start`, after so many updates `done`.
+    fn press(
+        &mut self,
+        pair: &Pair,
+        start: Option<&Field>,
+        compliance: CellValues,
+        done: usize,
+        watch: &dyn Watch,
+    ) -> Result<(Solution, Contact)> {
+        let Slide { control, friction, .. } = self.slide;
+        let position = pair.at_rest();
+        let bounds = pair.bounds(&position, friction.as_ref());
+        let mut operator = Compliant::new(self.operator.as_mut(), compliance)?;
+        let watch = AtRest::new(watch, done, self.slide.ends.len(), control);
+        let gap = pair.initial_gap(&position);
+        let solution =
+            solve_normal_watched(&mut operator, &gap, &bounds, control, start, &self.params, &watch)?;
+        let contact = Contact::new(position, self.slide.sliding().as_ref(), &solution);
+        Ok((solution, contact))
+    }
+
+    /// The depth κ that laws take off each cell of both bodies per pressure on it over a `distance`, under these sums, m/Pa.
+    fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre) -> CellValues {
+        let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
+        let (shape, position) = (pair.lower_grid().shape, pair.at_rest());
+        let laws = self.laws.iter().zip(sums);
+        let both = laws.map(|(law, sums)| {
+            let [lower, upper] = law.per_pressure_of_cells(pair, sums, friction);
+            facing_values([&lower, &upper], [shape; 2], &position, |lower, upper| (lower + upper) * distance)
+        });
+        both.reduce(|one, other| {
+            facing_values([&one, &other], [shape; 2], &position, |one, other| one + other)
+        })
+        .expect("plastic flow is a law")
+    }
+
+    /// What the laws sum over an update.
+    fn sums(
+        &self,
+        pair: &Pair,
+        contact: &Contact,
+        passage: &Passage,
+        flash: Option<&FlashStep>,
+    ) -> Result<Vec<Sums>> {
+        let mut known = flash.map(|flash| |_: [&[u32]; 2], _: &Position, _: &[f64]| Ok(flash.clone()));
+        let heat = known.as_mut().map(|known| known as &mut Heat);
+        Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), passage, heat)?.0)
+    }
+
+    /// The temperature of the cells in contact; none where it is not wanted or nothing touches.
+    fn flash(&mut self, contact: &Contact) -> Result<Option<FlashStep>> {
+        let (Some(heat), Some(speed), Some(friction)) =
+            (&mut self.heat, self.slide.speed, self.slide.friction)
+        else {
+            return Ok(None);
+        };
+        if contact.pressure.is_empty() {
+            return Ok(None);
+        }
+        let cells: Vec<u32> = contact.pressure.iter().map(|(cell, _)| *cell).collect();
+        let flux: Vec<f64> = contact.pressure.iter().map(|(_, p)| friction.shear_limit(*p) * speed).collect();
+        heat.solve(&cells, &flux).map(Some)
+    }
+
+    /// What a contact tells of an update.
+    fn record(&self, pair: &Pair, contact: &Contact, flash: Option<&FlashStep>) -> UpdateRecord {
+        let cells = || contact.pressure.iter().map(|(cell, _)| *cell as usize);
+        let film = |body: &Body| match body.state.get(FILM) {
+            Some(film) if !contact.pressure.is_empty() => {
+                let film = film.values.as_slice().expect("standard layout");
+                cells().map(|cell| film[cell]).sum::<f64>() / contact.pressure.len() as f64
+            }
+            _ => 0.0,
+        };
+        let worn = |body: &Body| {
+            let depths = body.state.get(WEAR).into_iter().flat_map(|wear| &wear.values);
+            depths.copied().fold(0.0, f64::max)
+        };
+        let bulk = self.slide.bulk.map_or(f64::NAN, |bulk| bulk[0].max(bulk[1]));
+        UpdateRecord {
+            update: 0,
+            distance: 0.0,
+            time: 0.0,
+            load: contact.load,
+            approach: contact.approach,
+            tangential_force: contact.tangential_force,
+            contact_area: pair.cell_area() * contact.pressure.len() as f64,
+            largest_spot_cells: largest_spot(cells(), pair.lower_grid().shape, self.boundary.wraps()),
+            max_pressure: contact.max_pressure(),
+            plastic_cells: contact.plastic.len(),
+            lost: Vec::new(),
+            max_wear_lower: worn(&pair.lower),
+            max_wear_upper: worn(&pair.upper),
+            mean_film_lower: film(&pair.lower),
+            mean_film_upper: film(&pair.upper),
+            friction_power: contact.tangential_force.abs() * self.slide.speed.unwrap_or(f64::NAN),
+            friction_work: 0.0,
+            max_temperature: flash.and_then(FlashStep::max_temperature).unwrap_or(bulk),
+            solutions: 1,
+            iterations: contact.stats.iterations,
+            convolutions: contact.stats.convolutions,
+            residual: contact.residual,
+        }
+    }
+}
