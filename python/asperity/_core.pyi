@@ -37,7 +37,7 @@ class Passes:
     A motion under way.
     """
     def __new__(cls, /, source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex) -> Passes: ...
-    def contacts(self, /, number: SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
+    def contacts(self, /, number: SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
         The contacts of the pass that is solved.
         """
@@ -53,10 +53,10 @@ class Passes:
         """
         Finishes the pass that is solved: it is written, and the next one begins on its bodies.
         """
-    def grid(self, /) -> tuple[list[float], float, list[tuple[int, int]]]:
+    def grid(self, /) -> tuple[list[float], float, float, list[tuple[int, int]]]:
         """
-        Size of a cell, the distance over which the bodies slide from one position to the next, and the numbers of cells of the
-        lower and of the upper body.
+        Size of a cell, the distance over which the bodies slide from one position to the next, the time that it takes, and the
+        numbers of cells of the lower and of the upper body.
         """
     def heights(self, /) -> list[Incomplete]:
         """

@@ -37,6 +37,10 @@ class Contacts(NamedTuple):
     lower_beyond, upper_beyond : ndarray
         Part of a cell, from 0, below 1, by which the contact lies beyond that cell of the body, on the way to the next along x: above 0
         only in a shift whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` brings values to the cells by it.
+    shear : ndarray
+        Shear traction along x of the upper body on the lower one, Pa; 0 without friction.
+    temperature : ndarray
+        Temperature of both surfaces, K; NaN where it is not computed.
     """
 
     position: NDArray[np.int64]
@@ -46,6 +50,8 @@ class Contacts(NamedTuple):
     plastic: NDArray[np.float64]
     lower_beyond: NDArray[np.float64]
     upper_beyond: NDArray[np.float64]
+    shear: NDArray[np.float64]
+    temperature: NDArray[np.float64]
 
     def by_position(self) -> Iterator[Contacts]:
         """The contacts at one position after the other; positions without contact are left out."""
@@ -89,6 +95,8 @@ class Pass(_Moving):
         Size of a cell along x and y, m.
     sliding_distance : float
         Distance over which the bodies slide from one position to the next, m.
+    time : float
+        Time from one position to the next, s; NaN where the speed is not known.
     shapes : tuple
         Numbers of cells of the lower and of the upper body.
     """
@@ -98,11 +106,13 @@ class Pass(_Moving):
         core: Any,
         pitch: tuple[float, float],
         distance: float,
+        time: float,
         shapes: tuple[tuple[int, int], tuple[int, int]],
     ) -> None:
         self._core = core
         self.pitch = pitch
         self.sliding_distance = distance
+        self.time = time
         self.shapes = shapes
         self.numbers: dict[str, Any] = core.record()
         self.number: int = self.numbers["pass"]
@@ -271,13 +281,13 @@ class Simulation(_Moving):
         return int(self._core.done())
 
     def __iter__(self) -> Iterator[Pass]:
-        (dx, dy), distance, (lower, upper) = self._core.grid()
+        (dx, dy), distance, time, (lower, upper) = self._core.grid()
         with Teller(self._progress) as tell:
             while True:
                 self._core.finish()
                 if not self._core.solve(tell):
                     break
-                yield Pass(self._core, (dx, dy), distance, (lower, upper))
+                yield Pass(self._core, (dx, dy), distance, time, (lower, upper))
         self.close()
 
     def close(self) -> None:

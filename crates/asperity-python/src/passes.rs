@@ -53,11 +53,13 @@ struct State {
 }
 
 /// The contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference, part of
-/// a cell by which they lie beyond that of the lower and of the upper body.
+/// a cell by which they lie beyond that of the lower and of the upper body, shear, temperature.
 type Contacts<'py> = (
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
@@ -126,11 +128,12 @@ impl CorePasses {
     /// The contacts of the pass that is solved.
     fn contacts<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Contacts<'py>> {
         let mut state = self.state()?;
+        let friction = state.passes.as_ref().and_then(|passes| passes.simulation().motion().friction);
         let pass = solved(&mut state, Some(number))?;
         let count = pass.contacts().iter().map(|contact| contact.pressure.len()).sum();
         let [mut position, mut lower, mut upper] = [(); 3].map(|()| Vec::with_capacity(count));
-        let [mut pressure, mut plastic, mut beyond_lower, mut beyond_upper] =
-            [(); 4].map(|()| Vec::with_capacity(count));
+        let [mut pressure, mut plastic, mut beyond_lower, mut beyond_upper, mut shear, mut temperature] =
+            [(); 6].map(|()| Vec::with_capacity(count));
         for (index, contact) in pass.contacts().iter().enumerate() {
             for &(cell, p) in &contact.pressure {
                 let [a, b] = pass.pair().cells_of_bodies(&contact.position, cell as usize);
@@ -140,8 +143,14 @@ impl CorePasses {
                 pressure.push(p);
                 beyond_lower.push(contact.position.fraction[0]);
                 beyond_upper.push(contact.position.fraction[1]);
+                let magnitude = friction.map_or(0.0, |friction| friction.shear_limit(p));
+                shear.push(magnitude.copysign(contact.tangential_force));
             }
             plastic.extend(contact.interference());
+            match contact.temperature.is_empty() {
+                true => temperature.resize(pressure.len(), f64::NAN),
+                false => temperature.extend(&contact.temperature),
+            }
         }
         Ok((
             position.into_pyarray(py),
@@ -151,6 +160,8 @@ impl CorePasses {
             plastic.into_pyarray(py),
             beyond_lower.into_pyarray(py),
             beyond_upper.into_pyarray(py),
+            shear.into_pyarray(py),
+            temperature.into_pyarray(py),
         ))
     }
 
@@ -165,14 +176,16 @@ impl CorePasses {
         Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
     }
 
-    /// Size of a cell, the distance over which the bodies slide from one position to the next, and the numbers of cells of the
-    /// lower and of the upper body.
-    fn grid(&self) -> PyResult<([f64; 2], f64, [(usize, usize); 2])> {
+    /// Size of a cell, the distance over which the bodies slide from one position to the next, the time that it takes, and the
+    /// numbers of cells of the lower and of the upper body.
+    fn grid(&self) -> PyResult<([f64; 2], f64, f64, [(usize, usize); 2])> {
         let state = self.state()?;
         let simulation = state.passes.as_ref().ok_or_else(ended)?.simulation();
         let pair = simulation.pair();
-        let distance = simulation.motion().sliding_distance(pair.pitch()[0]);
-        Ok((pair.pitch(), distance, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
+        let pitch = pair.pitch();
+        let (distance, time) =
+            (simulation.motion().sliding_distance(pitch[0]), simulation.motion().step_time(pitch[0]));
+        Ok((pitch, distance, time, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 
     /// Takes depths off the bodies of the pass that is solved.

@@ -4,7 +4,7 @@ use asperity::io::fields::Fields;
 use asperity::kernel::response;
 use asperity::motion::{PassRecord, StepRecord};
 use asperity::operator::Operators;
-use asperity::study::{Results, cap_name, pressure_name};
+use asperity::study::{Results, cap_name, pressure_name, temperature_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
@@ -207,6 +207,19 @@ fn pressures(
     sheet.add("pressure", "pressure on the lower body", of, || {
         Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure(title).range(range)).collect()))
     })?;
+    if names.contains(&temperature_name(middles[0].step)) {
+        let temperatures: Vec<Stored> = middles
+            .iter()
+            .map(|step| Stored::read(fields, &temperature_name(step.step)))
+            .map(|stored| Ok(stored?.celsius().framed(lower)))
+            .collect::<Outcome<_>>()?;
+        sheet.add("temperature", "temperature of the contact", of, || {
+            let maps = temperatures.iter().zip(&shown).map(|(stored, (title, _))| {
+                stored.map(title, "temperature", Unit::Of("°C"), Colours::Pressure).missing("no contact")
+            });
+            Ok(Maps::new(maps.collect()))
+        })?;
+    }
     let contacts: Vec<Stored> =
         shown.iter().zip(&caps).map(|((_, stored), cap)| stored.contact(cap)).collect();
     sheet.add("contact", "contact on the lower body", of, || {

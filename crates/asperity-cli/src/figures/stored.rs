@@ -1,6 +1,7 @@
 //! Fields as they are stored, ready to be drawn.
 
 use asperity::io::fields::{Attribute, Fields};
+use asperity::units::CELSIUS;
 use asperity::{Field, Grid};
 
 use crate::draw::{Colours, Map, Quantity, Relief, Unit};
@@ -31,6 +32,11 @@ impl Stored {
     /// The same place with other values.
     pub(super) fn with(&self, field: Field) -> Self {
         Self { field, ..*self }
+    }
+
+    /// Temperatures in °C.
+    pub(super) fn celsius(&self) -> Self {
+        self.with(&self.field - CELSIUS)
     }
 
     /// The field on the grid of the lower body, undefined where nothing faces it.

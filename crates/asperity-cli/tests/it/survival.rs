@@ -383,7 +383,7 @@ fn computations() -> [(&'static str, String); 9] {
         ("sliding", motion(2, "friction = { coefficient = 0.2 }\n")),
         (
             "running-in",
-            motion(60, "friction = { coefficient = 0.1 }\nacceleration = {}\ntemperature = { bulk = 400 }\n")
+            motion(60, "friction = { coefficient = 0.1 }\nacceleration = {}\ntemperature = { bulk = 400, every = 2 }\n")
                 .replace("topography", runs_in)
                 .replace("stride = 2", "stride = 4, speed = 1.0"),
         ),

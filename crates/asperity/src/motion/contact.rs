@@ -11,7 +11,7 @@ use crate::motion::spot::largest_spot;
 use crate::motion::watch::{AtRest, OneOfMany, Watch};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal_watched, solve_sliding};
-use crate::units::{CubicMetre, Metre, Newton, Pascal};
+use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,9 @@ pub struct Contact {
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
+    /// Temperature of the surfaces on each cell in contact, in the order of the pressures, absolute; nothing where it is not
+    /// computed.
+    pub temperature: Vec<Kelvin>,
     /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
@@ -81,6 +84,7 @@ impl Contact {
             position,
             pressure,
             plastic: Vec::new(),
+            temperature: Vec::new(),
             load,
             tangential_force: 0.0,
             approach,
@@ -108,6 +112,7 @@ impl Contact {
             tangential_force: solution.grid.cell_area() * sliding.map_or(0.0, shear),
             pressure,
             plastic,
+            temperature: Vec::new(),
             load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,
@@ -121,6 +126,18 @@ impl Contact {
         let cells = field.as_slice_mut().expect("standard layout");
         self.pressure.iter().for_each(|(cell, p)| cells[*cell as usize] = *p);
         field
+    }
+
+    /// The temperature of the cells in contact, K, NaN elsewhere, `width` across; none where it is not computed.
+    pub fn temperature_field(&self, width: usize) -> Option<Field> {
+        let touching = !self.temperature.is_empty();
+        touching.then(|| {
+            let mut field = Field::from_elem([self.position.columns, width], f64::NAN);
+            let cells = field.as_slice_mut().expect("standard layout");
+            let of_cells = self.pressure.iter().zip(&self.temperature);
+            of_cells.for_each(|((cell, _), temperature)| cells[*cell as usize] = *temperature);
+            field
+        })
     }
 
     /// Plastic interference w of each cell in contact, in the order of the pressures; 0 where a cell does not yield.

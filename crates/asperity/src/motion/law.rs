@@ -10,7 +10,6 @@ use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
 use crate::motion::seat::Seat;
 use crate::solver::Sliding;
-use crate::temperature::FlashStep;
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
@@ -144,7 +143,15 @@ pub(super) struct Passage {
 pub type Sums = [Vec<Field>; 2];
 
 /// Tells the temperature of cells in contact, of the lower and of the upper body at a position, under the flux of friction on each.
-pub(super) type Heat<'a> = dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<FlashStep> + 'a;
+pub(super) type Heat<'a> =
+    dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<Vec<Kelvin>> + 'a;
+
+/// The heat of friction at a position.
+pub(super) struct Warmth {
+    pub(super) record: HeatRecord,
+    /// Temperature of the surfaces on each cell in contact.
+    pub(super) temperature: Vec<Kelvin>,
+}
 
 /// No sums yet of `laws` on a `pair`.
 pub(super) fn nothing(laws: &[Box<dyn Law>], pair: &Pair) -> Vec<Sums> {
@@ -160,7 +167,7 @@ pub(super) fn sums(
     contacts: &[Contact],
     passage: &Passage,
     mut heat: Option<&mut Heat<'_>>,
-) -> Result<(Vec<Sums>, Vec<HeatRecord>)> {
+) -> Result<(Vec<Sums>, Vec<Warmth>)> {
     let mut sums = nothing(laws, pair);
     let mut warm = Vec::new();
     for contact in contacts {
@@ -179,12 +186,14 @@ pub(super) fn sums(
         if let Some(heat) = &mut heat {
             let speed = passage.distance / passage.time;
             let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
-            let step = heat([&lower, &upper], &contact.position, &flux)?;
-            warm.push(HeatRecord {
+            let of_cells = heat([&lower, &upper], &contact.position, &flux)?;
+            let warmest = of_cells.iter().copied().reduce(f64::max);
+            let record = HeatRecord {
                 friction_power: contact.tangential_force.abs() * speed,
-                max_flash_temperature: step.max_temperature().unwrap_or(passage.bulk[0].max(passage.bulk[1])),
-            });
-            temperature = [step.temperature.clone(), step.temperature];
+                max_flash_temperature: warmest.unwrap_or(passage.bulk[0].max(passage.bulk[1])),
+            };
+            temperature = [of_cells.clone(), of_cells.clone()];
+            warm.push(Warmth { record, temperature: of_cells });
         }
         let touching = Touching {
             position: &contact.position,
@@ -219,6 +228,26 @@ pub(super) fn advance(
         depths.push(depth);
     }
     depths
+}
+
+/// The depth that `laws` take off each cell of the lower and of the upper body per pressure on it over a `distance`, under these
+/// sums, where shear is `friction` times the pressure, m/Pa.
+pub(super) fn compliance(
+    laws: &[Box<dyn Law>],
+    pair: &Pair,
+    sums: &[Sums],
+    friction: f64,
+    distance: Metre,
+) -> [CellValues; 2] {
+    let of_laws: Vec<_> =
+        laws.iter().zip(sums).map(|(law, sums)| law.per_pressure_of_cells(pair, sums, friction)).collect();
+    [0, 1].map(|body| {
+        let mut depth = Field::zeros([&pair.lower, &pair.upper][body].heights.raw_dim());
+        for (cell, depth) in depth.iter_mut().enumerate() {
+            *depth = distance * of_laws.iter().map(|of_law| of_law[body].at(cell)).sum::<f64>();
+        }
+        depth.into()
+    })
 }
 
 /// The depths that `laws` would take off a `pair` in so many passes with these sums.

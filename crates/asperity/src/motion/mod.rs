@@ -4,6 +4,8 @@ mod approach;
 mod body;
 mod contact;
 mod film;
+mod heat;
+mod implicit;
 mod jump;
 mod law;
 mod loading;
@@ -27,6 +29,7 @@ mod wear;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
+pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
 pub use loading::{

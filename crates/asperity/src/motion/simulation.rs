@@ -1,7 +1,5 @@
 //! The motion itself: pass after pass.
 
-use std::sync::{Mutex, PoisonError};
-
 use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
@@ -10,8 +8,9 @@ use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::film::FILM;
+use crate::motion::heat::PassHeat;
 use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
-use crate::motion::law::{self, Heat, Law, Sums};
+use crate::motion::law::{self, Heat, Law, Sums, Warmth};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
@@ -46,7 +45,7 @@ pub struct Simulation {
     /// How far single cells give way; known once a law repeats.
     softness: Option<Softness>,
     /// The flash temperature over a pass, where it is wanted.
-    heat: Option<Mutex<FlashTemperature>>,
+    heat: Option<PassHeat>,
     /// Passes that are computed.
     passes_done: usize,
     /// The state in which the next pass begins.
@@ -208,12 +207,14 @@ impl Simulation {
     }
 
     /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
-    /// cells in contact, which begin each pass at that of the bodies.
+    /// cells in contact, which begin each pass at that of the bodies. It is computed in the first and in every `every`-th computed
+    /// pass, ≥ 1; in those between the cells are as warm as they were in the mean over their contacts of the last such pass.
     ///
     /// # Errors
     /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, and where these change position by position;
     /// those of [`FlashTemperature::new`].
-    pub fn with_heat(self, thermal: [Thermal; 2]) -> Result<Self> {
+    pub fn with_heat(self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
+        check("every", every as f64, every > 0, "at least each computed pass")?;
         let time = self.motion.step_time(self.pair.pitch()[0]);
         let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
             return Err(Error::Unsupported(
@@ -227,7 +228,7 @@ impl Simulation {
         }
         let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
         let heat = FlashTemperature::new(grids, thermal, self.boundary, self.positions.len(), time, bulk)?;
-        Ok(Self { heat: Some(Mutex::new(heat)), ..self })
+        Ok(Self { heat: Some(PassHeat::new(heat, every)), ..self })
     }
 
     /// Passes of the motion that are done: those that the computed ones stand for.
@@ -275,39 +276,68 @@ impl Simulation {
         let began = Instant::now();
         let pass = self.passes_done + 1;
         let (mut outcome, guess, trials) = self.solve_pass(watch)?;
+        let begun = self.solve_with_wear(&mut outcome, watch)?;
         let step = |(k, contact): (usize, &Contact)| {
             contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1])
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
-        let (running, jump) =
-            if outcome.has_changed { (None, None) } else { self.advance(&mut outcome, &mut steps)? };
+        let (running, jump) = match outcome.has_changed {
+            true => (None, None),
+            false => self.advance(&mut outcome, &mut steps, begun.as_deref())?,
+        };
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
         Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors, running, jump, represented })
     }
 
-    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for.
+    /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging. Its contacts take the
+    /// place of those of the `outcome`; the depths that these would have taken are given.
+    fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<Vec<[Field; 2]>>> {
+        let Some(softness) = self.softness.filter(|_| !outcome.has_changed) else { return Ok(None) };
+        let passage = self.motion.passage(self.pair.pitch()[0]);
+        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+        let laws = &self.laws[self.once()..];
+        let relaxation = jump::relaxation(&outcome.pair, &outcome.contacts, laws, friction, passage.distance);
+        if relaxation < 2.0 * softness.chequered {
+            return Ok(None);
+        }
+        let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
+        let compliance = law::compliance(laws, &outcome.pair, &sums, friction, passage.distance);
+        let depths = law::tried(laws, &outcome.pair, &sums, 1);
+        outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
+        Ok(Some(depths))
+    }
+
+    /// How many of the laws, the first, act once in a computed pass; the others do again in the passes that it stands for.
+    fn once(&self) -> usize {
+        self.laws.iter().take_while(|law| !law.repeats()).count()
+    }
+
+    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for. `begun` are the depths that they
+    /// would have taken without its wear, where it was solved with that.
     fn advance(
         &self,
         pass: &mut Pass,
         steps: &mut [StepRecord],
+        begun: Option<&[[Field; 2]]>,
     ) -> Result<(Option<RunningRecord>, Option<Jump>)> {
         let passage = self.motion.passage(self.pair.pitch()[0]);
-        let mut heat = self.heat.as_ref().map(|heat| heat.lock().unwrap_or_else(PoisonError::into_inner));
-        if let Some(heat) = &mut heat {
-            heat.begin();
-        }
-        let mut step = heat.as_deref_mut().map(|heat| {
-            |cells: [&[u32]; 2], position: &Position, flux: &[f64]| {
-                heat.step_between(cells, position.fraction, flux)
-            }
-        });
-        let warming = step.as_mut().map(|step| step as &mut Heat);
-        let (mut sums, warm) = law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, warming)?;
+        let mut heat =
+            self.heat.as_ref().map(|heat| heat.of_pass(self.passes_done, &pass.pair, passage.bulk));
+        let step = heat.as_deref_mut().map(|heat| heat as &mut Heat);
+        let (mut sums, warm) = law::sums(&self.laws, &pass.pair, &pass.contacts, &passage, step)?;
         drop(heat);
-        steps.iter_mut().zip(&warm).for_each(|(step, warm)| step.heat = Some(*warm));
-        let once = self.laws.iter().take_while(|law| !law.repeats()).count();
+        for ((step, contact), Warmth { record, temperature }) in
+            steps.iter_mut().zip(&mut pass.contacts).zip(warm)
+        {
+            step.heat = Some(record);
+            contact.temperature = temperature;
+        }
+        if let Some(heat) = &self.heat {
+            heat.remember(self.passes_done, &mut pass.pair, &pass.contacts, passage.bulk);
+        }
+        let once = self.once();
         let (flow, laws) = self.laws.split_at(once);
         let repeated = sums.split_off(once);
         let mut lost = std::mem::take(&mut pass.lost);
@@ -317,7 +347,14 @@ impl Simulation {
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let Leap { passes, mean, error } = self.jump(pass, laws, &repeated, flown, passage.distance)?;
+        let Leap { passes, mean, error } = match begun {
+            // Euler's implicit and explicit steps err by as much, to either side.
+            Some(begun) => {
+                let taken = law::tried(laws, &pass.pair, &repeated, 1);
+                Leap { error: 0.5 * law::difference(begun, &taken), ..Leap::ONE }
+            }
+            None => self.jump(pass, laws, &repeated, flown, passage.distance),
+        };
         let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
@@ -338,7 +375,12 @@ impl Simulation {
             mean_film_lower: film(&pass.pair.lower),
             mean_film_upper: film(&pass.pair.upper),
             friction_work: passes as f64 * rubbed * passage.distance,
-            max_flash_temperature: match warm.iter().map(|warm| warm.max_flash_temperature).reduce(f64::max) {
+            max_flash_temperature: match steps
+                .iter()
+                .filter_map(|step| step.heat)
+                .map(|heat| heat.max_flash_temperature)
+                .reduce(f64::max)
+            {
                 Some(warmest) => warmest,
                 None => passage.bulk[0].max(passage.bulk[1]),
             },
@@ -356,18 +398,12 @@ impl Simulation {
         sums: &[Sums],
         flown: CubicMetre,
         distance: Metre,
-    ) -> Result<Leap> {
-        let Some(softness) = self.softness else { return Ok(Leap::ONE) };
+    ) -> Leap {
+        let Some(softness) = self.softness else { return Leap::ONE };
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let relaxation = jump::relaxation(&pass.pair, &pass.contacts, laws, friction, distance);
-        if relaxation >= 2.0 * softness.chequered {
-            return Err(Error::Unsupported(
-                "a single pass wears more than pressures of single cells bear without swinging: a smaller wear coefficient, \
-                 larger cells or a shorter pass are needed",
-            ));
-        }
         let Some(before) = self.warm.jump.as_ref().filter(|_| self.acceleration.max_jump > 1) else {
-            return Ok(Leap::ONE);
+            return Leap::ONE;
         };
         let one = law::tried(laws, &pass.pair, sums, 1);
         let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
@@ -388,13 +424,13 @@ impl Simulation {
                 &law::tried(laws, &pass.pair, &mean, passes),
             );
             if error <= allowed {
-                return Ok(Leap { passes, mean: Some(mean), error });
+                return Leap { passes, mean: Some(mean), error };
             }
             // The error of wear grows as the square.
             let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
             passes = fewer.clamp(1, passes - 1);
         }
-        Ok(Leap::ONE)
+        Leap::ONE
     }
 
     /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
@@ -422,10 +458,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
-    fn solve_pass(&self, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
-        let mut earlier: Vec<Vec<Contact>> =
-            self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
+    /// The solver of the next pass.
+    fn solver<'a>(&'a self, watch: &'a dyn Watch) -> Solver<'a> {
         let progress = Progress {
             pass: self.represented() + 1,
             passes: self.motion.passes,
@@ -435,7 +469,7 @@ impl Simulation {
             load: 0.0,
             together: None,
         };
-        let mut solver = Solver {
+        Solver {
             operators: &self.operators,
             positions: &self.positions,
             motion: &self.motion,
@@ -443,7 +477,14 @@ impl Simulation {
             laws: &self.laws,
             watch,
             progress,
-        };
+        }
+    }
+
+    /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
+    fn solve_pass(&self, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+        let mut earlier: Vec<Vec<Contact>> =
+            self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
+        let mut solver = self.solver(watch);
         let load = match (self.motion.control, self.motion.load_control) {
             (Control::Load(load), LoadControl::Pass) => load,
             (control, _) => return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1)),

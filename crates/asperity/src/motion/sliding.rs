@@ -397,7 +397,8 @@ impl InPlace {
         passage: &Passage,
         flash: Option<&FlashStep>,
     ) -> Result<Vec<Sums>> {
-        let mut known = flash.map(|flash| |_: [&[u32]; 2], _: &Position, _: &[f64]| Ok(flash.clone()));
+        let mut known =
+            flash.map(|flash| |_: [&[u32]; 2], _: &Position, _: &[f64]| Ok(flash.temperature.clone()));
         let heat = known.as_mut().map(|known| known as &mut Heat);
         Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), passage, heat)?.0)
     }

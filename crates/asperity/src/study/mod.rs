@@ -28,7 +28,9 @@ pub use loading::LoadingWriter;
 pub use passes::Passes;
 pub use prepare::{Bodies, Made, Origin, Prepared, bodies, exact_pitch, grids, topography, topography_spec};
 pub use rest::{NamedField, Rest, RestFields, rest};
-pub use results::{Existing, PassWriter, Results, Writer, cap_name, pressure_name, traction_name};
+pub use results::{
+    Existing, PassWriter, Results, Writer, cap_name, pressure_name, temperature_name, traction_name,
+};
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};

@@ -2,12 +2,13 @@
 
 use asperity::material::Material;
 use asperity::motion::{
-    Law, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Simulation, State,
-    Strategy, Touching,
+    Acceleration, Law, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Simulation,
+    State, Strategy, Touching,
 };
 use asperity::operator::Boundary;
-use asperity::solver::{Control, Params};
-use asperity::surface::{Amplitude, SelfAffine};
+use asperity::solver::{Control, Friction, Params};
+use asperity::surface::{Amplitude, Form, SelfAffine};
+use asperity::temperature::Thermal;
 use asperity::{Field, Grid, Result};
 
 const PITCH: f64 = 1e-6;
@@ -146,4 +147,87 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
         assert_eq!(found.upper, expected.upper);
     }
     assert_eq!(rest.passes.len(), 2);
+}
+
+/// Oxidation of both bodies where they rub, by the parabolic law: dξ²/dt = A exp(−Q/RT). The oxide stands higher than the metal that
+/// it is made of by the part `SWELLING` of its thickness.
+struct Oxidation;
+
+/// A of the parabolic law, m²/s.
+const OXIDATION: f64 = 1e-12;
+/// Q over the gas constant, K.
+const ACTIVATION: f64 = 5000.0;
+const SWELLING: f64 = 0.5;
+
+impl Law for Oxidation {
+    fn name(&self) -> &str {
+        "oxide"
+    }
+
+    fn prepare(&mut self, pair: &mut Pair) {
+        for body in [&mut pair.lower, &mut pair.upper] {
+            let values = Field::zeros(body.heights.raw_dim());
+            body.state.entry("oxide".to_owned()).or_insert(State { unit: "m".to_owned(), values });
+        }
+    }
+
+    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+        for (body, sums) in sums.iter_mut().enumerate() {
+            touching.add(body, &mut sums[0], |index| {
+                OXIDATION * (-ACTIVATION / touching.temperature[body][index]).exp() * touching.time
+            });
+        }
+    }
+
+    fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
+        let mut bodies = [&mut pair.lower, &mut pair.upper].into_iter().zip(sums);
+        [(); 2].map(|()| {
+            let (body, sums) = bodies.next().expect("two bodies");
+            let oxide = &mut body.state.get_mut("oxide").expect("prepared").values;
+            let before = oxide.clone();
+            oxide.zip_mut_with(&sums[0], |thickness, sum| {
+                *thickness = thickness.mul_add(*thickness, sum * passes).sqrt();
+            });
+            (before - &*oxide) * SWELLING
+        })
+    }
+}
+
+/// Two flat bodies that rub, warmer by friction or not; the thickness of the oxide on the lower one after 1000 passes, and what the
+/// computed ones lost.
+fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
+    let grid = Grid::new([8, 8], [PITCH, PITCH]).unwrap();
+    let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let pair = Pair::new(flat(), flat(), [&steel, &steel]).unwrap();
+    let motion = Motion::new(Strategy::Shift { speed_lower: 0.0, speed_upper: 2.0 }, Control::Load(0.05))
+        .with_passes(1000)
+        .with_stride(2)
+        .with_load_control(LoadControl::Step)
+        .with_friction(Friction::coulomb(0.1).unwrap())
+        .with_bulk([400.0, 500.0]);
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let simulation = simulation.with_law(Oxidation).with_acceleration(Acceleration::default()).unwrap();
+    let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
+    let mut simulation = if warmed { simulation.with_heat([thermal; 2], 1).unwrap() } else { simulation };
+    let mut kept = Kept::default();
+    simulation.run(&(), &mut [&mut kept]).unwrap();
+    let after = kept.pairs.pop().unwrap();
+    (kept.passes, after.lower.state["oxide"].values.clone())
+}
+
+/// ξ² = A exp(−Q/RT) t over any jump, and the ledger knows the oxide.
+#[test]
+fn a_law_from_outside_oxidises_the_bodies_by_its_closed_form() {
+    let (passes, oxide) = oxidised(false);
+    assert!(passes.len() < 20, "{} computed", passes.len());
+    let time = 1000.0 * 8.0 * PITCH / 2.0;
+    let expected = (OXIDATION * (-ACTIVATION / 400.0f64).exp() * time).sqrt();
+    assert!(oxide.iter().all(|thickness| (thickness / expected - 1.0).abs() < 1e-9), "{expected:e} {oxide}");
+    let lost: f64 = passes.iter().map(|pass| pass.lost("oxide")[0]).sum();
+    let volume = -SWELLING * expected * 64.0 * PITCH * PITCH;
+    assert!((lost / volume - 1.0).abs() < 1e-9, "{lost:e} {volume:e}");
+    // Both surfaces in contact have one temperature, above that of the cooler body.
+    let (_, warmer) = oxidised(true);
+    assert!(warmer.iter().all(|thickness| *thickness > 1.01 * expected), "{expected:e} {warmer}");
 }

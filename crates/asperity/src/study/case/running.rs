@@ -64,7 +64,7 @@ choice!(LawKind: "arrhenius" => Arrhenius, "mechano-chemical" => MechanoChemical
 pub struct TemperatureSpec {
     /// Temperatures of the lower and of the upper body far from the contact.
     pub bulk: [Kelvin; 2],
-    /// Computed passes from one of which the flash temperature is computed to the next: 1; 0 if in none.
+    /// Computed passes from one of which the flash temperature is computed to the next; 0 if in none.
     pub every: usize,
 }
 
@@ -241,17 +241,7 @@ pub(super) fn temperature(
     let entry = table.required("bulk", "\"100 °C\"")?;
     let expected = "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
     let bulk = entry.pair(expected, |item| item.positive(Dimension::Temperature))?;
-    let every = match table.get("every") {
-        None => usize::from(given[0]),
-        Some(entry) => match entry.count(0)? {
-            every @ (0 | 1) => every,
-            _ => {
-                return Err(
-                    entry.unexpected("1, the flash temperature of each computed pass, or 0, none", None)
-                );
-            }
-        },
-    };
+    let every = table.get("every").map_or(Ok(usize::from(given[0])), |entry| entry.count(0))?;
     if every > 0 {
         let place = table.get("every");
         let refused = |message: &str, hint: &str| {
@@ -372,10 +362,10 @@ impl Case {
             let films = Films::new(films, simulation.pair())?;
             simulation = simulation.with_law(films);
         }
-        if let (Some(TemperatureSpec { every: 1.., .. }), [Some(lower), Some(upper)]) =
+        if let (Some(TemperatureSpec { every: every @ 1.., .. }), [Some(lower), Some(upper)]) =
             (self.temperature, bodies.map(|body| body.thermal))
         {
-            simulation = simulation.with_heat([lower, upper])?;
+            simulation = simulation.with_heat([lower, upper], every)?;
         }
         match self.acceleration {
             Some(acceleration) => simulation.with_acceleration(acceleration),

@@ -300,6 +300,11 @@ pub fn cap_name(step: usize) -> String {
     format!("cap_{step:05}")
 }
 
+/// Name of the temperature of the surfaces in contact at a position, which is counted from 1; there where it is computed.
+pub fn temperature_name(step: usize) -> String {
+    format!("temperature_{step:05}")
+}
+
 /// Name of the shear traction along x of a position, which is counted from 1.
 pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")

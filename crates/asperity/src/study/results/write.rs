@@ -5,7 +5,9 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::entry::{self, Existing, Kept, Lock};
-use super::{BODIES, Results, cap_name, pressure_name, state_name, states_attribute, traction_name};
+use super::{
+    BODIES, Results, cap_name, pressure_name, state_name, states_attribute, temperature_name, traction_name,
+};
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
@@ -203,6 +205,9 @@ impl Output for PassWriter {
                 let corner = [contact.position.places()[0] * pair.pitch()[0], 0.0];
                 let grid = pair.grid(contact.position.columns);
                 file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
+                    file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
+                }
                 let friction = report.sliding.as_ref().map(|sliding| &sliding.friction);
                 if let CellValues::Field(cap) = pair.bounds(&contact.position, friction).upper() {
                     file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);

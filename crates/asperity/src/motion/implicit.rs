@@ -1,0 +1,214 @@
+//! A pass that wears while it is solved, so that the pressures are those at its end.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::grid::{CellValues, Field, Grid};
+use crate::motion::LoadControl;
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Pass, Solver};
+use crate::motion::path::Position;
+use crate::motion::watch::OneOfMany;
+use crate::operator::{Boundary, Operator, Operators};
+use crate::solver::{Bounds, Control, Method, Params, Solution, solve_normal_watched};
+
+impl Solver<'_> {
+    /// Solves a pass again that wear would change too much: with the depth that each cell of the bodies has lost at its end, the
+    /// `compliance`, m/Pa, times the sum of the pressures that it bears at all positions. All positions are one problem, from the
+    /// pressures of the `outcome`. That is Euler's implicit step, which is stable at any wear, as of a contact in place.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where each position bears a load of its own, or shear displaces the bodies normally;
+    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    pub(super) fn solve_implicitly(
+        &self,
+        outcome: &Pass,
+        compliance: [CellValues; 2],
+        params: &Params,
+    ) -> Result<Vec<Contact>> {
+        let pair = &outcome.pair;
+        let positions = self.positions.len();
+        let control = match (self.motion.control, self.motion.load_control) {
+            (Control::Load(_), LoadControl::Step) if positions > 1 => {
+                return Err(Error::Unsupported(TOO_MUCH_WEAR));
+            }
+            (Control::Load(load), _) => Control::Load(load * positions as f64),
+            (approach, _) => approach,
+        };
+        let sliding = self.motion.sliding();
+        if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
+            return Err(Error::Unsupported(TOO_MUCH_WEAR));
+        }
+        let friction = sliding.as_ref().map(|sliding| &sliding.friction);
+        let grid = pair.grid(self.positions.iter().map(|position| position.columns).sum());
+        let mut operator =
+            WornPass { pair, positions: self.positions, operators: self.operators, grid, compliance };
+        let gap = stacked(self.positions.iter().map(|position| pair.initial_gap(position)));
+        let bounds =
+            self.positions.iter().map(|position| pair.bounds(position, friction)).collect::<Vec<_>>();
+        let caps = bounds.iter().zip(self.positions).map(|(bounds, position)| {
+            let shape = pair.grid(position.columns).shape;
+            Field::from_shape_vec(
+                shape,
+                (0..shape[0] * shape[1]).map(|cell| bounds.upper().at(cell)).collect(),
+            )
+            .expect("a value for each cell")
+        });
+        let caps = Bounds::up_to(stacked(caps));
+        let start = stacked(outcome.contacts.iter().map(|contact| contact.pressure_field(grid.shape[1])));
+        let params = Params { method: Method::PolonskyKeer, ..*params };
+        let watch = OneOfMany(self.watch);
+        let solution =
+            solve_normal_watched(&mut operator, &gap, &caps, control, Some(&start), &params, &watch)?;
+        let contacts = rows(self.positions).zip(bounds).zip(&outcome.contacts);
+        let contact =
+            |(((position, rows), bounds), before): (((&Position, Range<usize>), Bounds), &Contact)| {
+                let of_position = |field: &Field| field.slice(ndarray::s![rows.clone(), ..]).to_owned();
+                let mut stats = solution.stats;
+                stats.convolutions += before.stats.convolutions;
+                let at_position = Solution {
+                    grid: pair.grid(position.columns),
+                    initial_gap: of_position(&solution.initial_gap),
+                    bounds,
+                    pressure: of_position(&solution.pressure),
+                    displacement: of_position(&solution.displacement),
+                    stats,
+                    ..solution
+                };
+                Contact::new(*position, sliding.as_ref(), &at_position)
+            };
+        Ok(contacts.map(contact).collect())
+    }
+}
+
+/// What is said where a pass wears too much to be solved explicitly, and cannot be solved otherwise.
+const TOO_MUCH_WEAR: &str = "a single pass wears more than pressures of single cells bear without swinging, and where each position bears a load of its \
+     own, or shear displaces the bodies normally, it is not solved with its wear: a smaller wear coefficient, larger cells or a \
+     shorter pass are needed";
+
+/// The displacement at all positions of a pass, one above the other in one field, under the pressures at all of them: that of the
+/// bodies, and the depth that their cells have worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the pressures that a
+/// cell of a body bears.
+struct WornPass<'a> {
+    pair: &'a Pair,
+    positions: &'a [Position],
+    operators: &'a Operators,
+    /// As many columns as face each other at all positions.
+    grid: Grid,
+    /// Depth over the sum of pressures κ of the lower and of the upper body, m/Pa.
+    compliance: [CellValues; 2],
+}
+
+impl WornPass<'_> {
+    /// The rows of each position, in their order.
+    fn rows(&self) -> impl Iterator<Item = (&Position, Range<usize>)> {
+        rows(self.positions)
+    }
+
+    /// The depths that the bodies have worn under pressures at all positions.
+    fn worn(&self, pressure: &Field) -> [Option<Field>; 2] {
+        [0, 1].map(|body| {
+            let compliance = &self.compliance[body];
+            if compliance.max() == 0.0 {
+                return None;
+            }
+            let heights = [&self.pair.lower, &self.pair.upper][body].heights.raw_dim();
+            let mut worn = Field::zeros(heights);
+            let cells = worn.as_slice_mut().expect("standard layout");
+            for (position, rows) in self.rows() {
+                let seat = &self.pair.seats(position)[body];
+                let pressure = pressure.slice(ndarray::s![rows, ..]);
+                for (cell, p) in pressure.iter().enumerate().filter(|(_, p)| **p != 0.0) {
+                    seat.parts(seat.cell(cell)).for_each(|(cell, weight)| cells[cell] += weight * p);
+                }
+            }
+            cells.iter_mut().enumerate().for_each(|(cell, sum)| *sum *= compliance.at(cell));
+            Some(worn)
+        })
+    }
+}
+
+impl Operator for WornPass<'_> {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Whatever lies beyond the edges of a position: no displacement is free of its mean once all of them wear.
+    fn boundary(&self) -> Boundary {
+        Boundary::FREE
+    }
+
+    fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
+        self.pair.response().harmonic_displacement(qx, qy)
+    }
+
+    /// Of cells at one position, as the bodies give way to them.
+    fn influence(&self, i: usize, j: usize) -> f64 {
+        let pitch = self.grid.pitch;
+        self.pair.response().influence(pitch).at(i as f64 * pitch[0], j as f64 * pitch[1])
+    }
+
+    fn self_influence(&self) -> CellValues {
+        let elastic = self.influence(0, 0);
+        let mut own = Field::from_elem(self.grid.shape, elastic);
+        for (position, rows) in self.rows() {
+            let mut own = own.slice_mut(ndarray::s![rows, ..]);
+            for (seat, compliance) in self.pair.seats(position).iter().zip(&self.compliance) {
+                for (cell, own) in own.iter_mut().enumerate() {
+                    let parts = seat.parts(seat.cell(cell));
+                    *own += parts.map(|(cell, weight)| weight * weight * compliance.at(cell)).sum::<f64>();
+                }
+            }
+        }
+        own.into()
+    }
+
+    fn apply(&mut self, pressure: &Field, displacement: &mut Field) {
+        let each = |rows: Range<usize>| {
+            let pressure = pressure.slice(ndarray::s![rows, ..]).to_owned();
+            let mut displacement = Field::zeros(pressure.raw_dim());
+            let shape = [pressure.nrows(), pressure.ncols()];
+            self.operators.on(shape).apply(&pressure, &mut displacement);
+            displacement
+        };
+        let blocks: Vec<_> = self.rows().map(|(_, rows)| rows).collect();
+        let elastic: Vec<Field> = blocks.into_par_iter().map(each).collect();
+        displacement.assign(&stacked(elastic.into_iter()));
+        let worn = self.worn(pressure);
+        for (position, rows) in self.rows() {
+            let seats = self.pair.seats(position);
+            for (seat, worn) in seats.iter().zip(&worn) {
+                let Some(worn) = worn else { continue };
+                for (j, row) in rows.clone().enumerate() {
+                    let mut row = displacement.row_mut(row);
+                    let row = row.as_slice_mut().expect("standard layout");
+                    seat.for_column(worn, j, row, |u, worn| *u += worn);
+                }
+            }
+        }
+    }
+
+    fn coarse(&self) -> Box<dyn Operator> {
+        unreachable!("conjugate gradients without a preconditioner need no coarse grid")
+    }
+}
+
+/// The rows of each position, one above the other.
+fn rows(positions: &[Position]) -> impl Iterator<Item = (&Position, Range<usize>)> {
+    let mut first = 0;
+    positions.iter().map(move |position| {
+        let rows = first..first + position.columns;
+        first = rows.end;
+        (position, rows)
+    })
+}
+
+/// Fields of one width, one above the other.
+fn stacked(fields: impl Iterator<Item = Field>) -> Field {
+    let fields: Vec<Field> = fields.collect();
+    let views: Vec<_> = fields.iter().map(|field| field.view()).collect();
+    ndarray::concatenate(ndarray::Axis(0), &views).expect("fields of one width")
+}
