@@ -209,6 +209,10 @@ def simulate(
     plastic_update: str | None = None,
     load_tolerance: float | None = None,
     speed: Quantity | None = None,
+    path: str | None = None,
+    offset_y: int | str | None = None,
+    seed: int | None = None,
+    counter: str | None = None,
     acceleration: Mapping[str, Any] | None = None,
     temperature: Mapping[str, Any] | None = None,
     boundary: str | Sequence[str] | None = None,
@@ -242,7 +246,7 @@ def simulate(
     strategy : {"overlap", "shift"}, optional
         Only what faces each other is solved, or both surfaces are shifted circularly.
     speed_lower, speed_upper : float or str, optional
-        Speeds of the surfaces in a shift, m/s; only their ratio matters.
+        Speeds of the surfaces in a shift, m/s; only their ratio matters. The slower one moves by parts of a cell.
     control : {"pass-load", "step-load", "approach"}, optional
         Where the load holds.
     plastic_update : {"pass", "step"}, optional
@@ -251,6 +255,16 @@ def simulate(
         Relative tolerance on the mean load of a pass; 1e-4 by default.
     speed : float or str, optional
         Speed of the upper body in an overlap, m/s, where bodies wear, grow films or are heated.
+    path : {"one-way", "reciprocating"}, optional
+        Whether a pass goes one way, or there and back.
+    offset_y : int or "random", optional
+        Cells by which the upper body lies further along y in each pass than in the one before, or anywhere, drawn from the `seed` and
+        the number of the pass.
+    seed : int, optional
+        Of ``offset_y="random"``; 0 by default.
+    counter : {"same", "fresh"}, optional
+        Whether the passes after the first have an upper body of their own, made by its generator from another seed. The upper surface is
+        then a generator's that is not made yet, such as ``asp.generate.low_pass(...)``.
     acceleration : mapping, optional
         How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed.
     temperature : mapping, optional
@@ -286,7 +300,8 @@ def simulate(
         lower, upper, lower_material, upper_material,
         load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
         speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
-        load_tolerance=load_tolerance, speed=speed, acceleration=acceleration, temperature=temperature,
+        load_tolerance=load_tolerance, speed=speed, path=path, offset_y=offset_y, seed=seed, counter=counter,
+        acceleration=acceleration, temperature=temperature,
         boundary=boundary, method=method, tolerance=tolerance, friction=friction,
         subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
         out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,

@@ -125,6 +125,28 @@ def test_what_is_done_between_two_cells_comes_to_both(pair: Pair) -> None:
         assert found / len(p.steps) == pytest.approx(np.asarray(expected[name].values), rel=1e-12)
 
 
+def test_a_pass_there_and_back_and_across_has_its_steps(pair: Pair) -> None:
+    run = asp.simulate(
+        *pair, load=0.02, passes=3, stride=8, boundary=("free", "periodic"), path="reciprocating", offset_y="random", seed=3
+    )
+    for number in (1, 2, 3):
+        steps = run.steps[run.steps["pass"] == number]
+        assert np.array_equal(steps["offset"], steps["offset"][::-1]) and len(set(steps["offset_y"])) == 1
+        assert np.array_equal(steps["load"], steps["load"][::-1])
+    with pytest.raises(errors.CaseError, match="a fresh counter-body is made from another seed"):
+        asp.simulate(pair[0], asp.Body(asp.form.flat((32, 32), pitch="1 um"), pair[0].material), load=0.02, counter="fresh")
+
+
+def test_a_fresh_counter_body_is_another_in_each_pass(pair: Pair) -> None:
+    lower, upper = (
+        asp.Body(asp.generate.low_pass((24, 16), pitch="1 um", sq="50 nm", cutoff="8 um", seed=s), pair[0].material)
+        for s in (1, 2)
+    )
+    run = asp.simulate(lower, upper, load=0.01, passes=3, stride=4, counter="fresh")
+    first, second, third = (run.upper(number).heights for number in (1, 2, 3))
+    assert abs(second - first).max() > 20e-9 and abs(third - second).max() > 20e-9
+
+
 def test_a_loop_is_the_law(pair: Pair) -> None:
     by_law = asp.simulate(*pair, load=0.02, passes=3, law=archard)
     simulation = asp.Simulation(*pair, load=0.02, passes=3)

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use asperity::Choice;
-use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage};
+use asperity::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{Boundary, LoadingPath, Mount, Side, StrategyKind};
+use asperity::study::case::{Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
 use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
@@ -177,6 +177,19 @@ fn motion(case: &Case, estimate: &Estimate) -> String {
         plural(estimate.positions, "position", "positions"),
         plural(motion.stride, "cell", "cells")
     );
+    if motion.path != Path::OneWay {
+        let _ = write!(text, ", {}", motion.path.word());
+    }
+    match motion.offset_y {
+        OffsetY::NONE => {}
+        OffsetY::Cells(cells) => {
+            let _ = write!(text, ", {} further along y in each pass", plural(cells, "cell", "cells"));
+        }
+        OffsetY::Random { .. } => text += ", anywhere along y",
+    }
+    if motion.counter == CounterBody::Fresh {
+        text += ", a fresh counter-body in each pass";
+    }
     if estimate.hardness.is_finite() {
         let _ = write!(text, ", plastic deformation {update}");
     }

@@ -8,6 +8,7 @@ use asperity::study::{Results, cap_name, pressure_name, temperature_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
+use serde_json::Value;
 
 use super::pressure;
 use super::profile::{Facing, Profile, boundary, materials};
@@ -41,9 +42,11 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         _ => format!("{}, passes 1 to {all}", load(&passes[0])),
     };
     let after_pass = format!("{}, after pass {all}", load(&passes[pass - 1]));
+    // How the upper body of a later pass was before is not kept.
+    let is_fresh = pass > 1 && is_fresh(&results.case()?);
 
     sheet.add("topographies", "topographies before and after", &throughout, || {
-        Ok(topographies(&before, &after, all))
+        Ok(topographies(&before, &after, all, is_fresh))
     })?;
     for (name, title, body) in [
         ("relief_lower", "lower body in perspective", &after[0]),
@@ -61,6 +64,10 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     })?;
     let [worn, film] = ["wear", "film"].map(|state| of_bodies(&last, state, &before));
     let (worn, film) = (worn?, film?);
+    let wear_since = match is_fresh {
+        true => "wear of the lower body since the beginning, of the upper body in its pass",
+        false => "wear since the beginning",
+    };
     if cap.is_finite() {
         // What other laws have not taken, but for the rounding of the heights.
         let flown = |body: usize, lost: Field| {
@@ -69,14 +76,15 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
             let flown = film.as_ref().map_or(worn.clone(), |film| worn + &film[body].field);
             before[body].with(flown.mapv_into(|depth| if depth.abs() < rounding { 0.0 } else { depth }))
         };
-        let depth =
-            [flown(0, &before[0].field - &after[0].field), flown(1, &after[1].field - &before[1].field)];
+        let mut depth =
+            vec![flown(0, &before[0].field - &after[0].field), flown(1, &after[1].field - &before[1].field)];
+        depth.truncate(if is_fresh { 1 } else { 2 });
         sheet.add("plastic", "plastic deformation since the beginning", &throughout, || {
             Ok(on_bodies(&depth, "depth"))
         })?;
     }
     for (name, title, quantity, fields) in
-        [("wear", "wear since the beginning", "depth", &worn), ("film", "tribofilm", "thickness", &film)]
+        [("wear", wear_since, "depth", &worn), ("film", "tribofilm", "thickness", &film)]
     {
         if let Some(fields) = fields {
             let of = if name == "wear" { &throughout } else { &after_pass };
@@ -108,6 +116,11 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     Ok(of)
 }
 
+/// Whether each pass has an upper body of its own.
+fn is_fresh(case: &Value) -> bool {
+    case["motion"]["counter"] == "fresh"
+}
+
 /// Passes of the motion that are done before the first and after each of the computed ones.
 fn done(passes: &[PassRecord]) -> Vec<usize> {
     let mut done = vec![0];
@@ -118,8 +131,17 @@ fn done(passes: &[PassRecord]) -> Vec<usize> {
 }
 
 /// Both bodies before and after, each on one scale, so that its change shows.
-fn topographies<'a>(before: &'a [Stored; 2], after: &'a [Stored; 2], pass: usize) -> Maps<'a> {
+fn topographies<'a>(
+    before: &'a [Stored; 2],
+    after: &'a [Stored; 2],
+    pass: usize,
+    is_fresh: bool,
+) -> Maps<'a> {
     let at_end = format!("after pass {pass}");
+    let upper_before = match is_fresh {
+        true => "upper body of the first pass, underside, before",
+        false => "upper body, underside, before",
+    };
     let mut remarks = Vec::new();
     let ranges = [0, 1].map(|body| {
         let (range, remark) = range_of_heights([&before[body].field, &after[body].field])?;
@@ -135,7 +157,7 @@ fn topographies<'a>(before: &'a [Stored; 2], after: &'a [Stored; 2], pass: usize
     };
     let maps = vec![
         map(&before[0], "lower body, before".to_owned(), 0),
-        map(&before[1], "upper body, underside, before".to_owned(), 1),
+        map(&before[1], upper_before.to_owned(), 1),
         map(&after[0], format!("lower body, {at_end}"), 0),
         map(&after[1], format!("upper body, underside, {at_end}"), 1),
     ];
@@ -157,12 +179,12 @@ fn of_bodies(fields: &Fields, state: &str, bodies: &[Stored; 2]) -> Outcome<Opti
 }
 
 /// A length on each body, on one scale: a body on which there is none is then seen to have none.
-fn on_bodies<'a>(fields: &'a [Stored; 2], quantity: &'a str) -> Maps<'a> {
+fn on_bodies<'a>(fields: &'a [Stored], quantity: &'a str) -> Maps<'a> {
     let largest = fields.iter().flat_map(|field| &field.field).copied().fold(f64::MIN_POSITIVE, f64::max);
-    let maps = [(&fields[0], "lower body"), (&fields[1], "upper body")].map(|(field, body)| {
+    let map = |(field, body): (&'a Stored, &str)| {
         field.map(body, quantity, Unit::Length, Colours::Pressure).range([0.0, largest])
-    });
-    Maps::new(maps.into())
+    };
+    Maps::new(fields.iter().zip(["lower body", "upper body"]).map(map).collect())
 }
 
 /// The pressures that were kept of the last pass: maps, an animation, their distribution, a section.
@@ -257,7 +279,8 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     // Without end where it is a word.
     let yields = |body: &str| !case[body]["hardness"].is_string();
     let step_by_step = case["motion"]["plastic_update"] == "step" && (yields("lower") || yields("upper"));
-    if step_by_step || (!case["friction"].is_null() && couples) {
+    let unknown = step.pass > 1 && is_fresh(&case);
+    if step_by_step || unknown || (!case["friction"].is_null() && couples) {
         return Ok(None);
     }
     let [below, above] = results.surfaces_after(step.pass - 1)?;
@@ -268,16 +291,21 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     let mut displacement = Field::zeros(shape);
     Operators::new(largest, bodies, boundary).on(shape).apply(&pressure.field, &mut displacement);
     // Between two columns a surface is between their heights.
-    let facing = |body: &Topography, first: f64| {
+    let facing = |body: &Topography, first: f64, across: usize| {
         let (columns, here) = (body.heights().nrows() as isize, first.floor());
-        let height = |i: isize, j| body.heights()[[i.rem_euclid(columns) as usize, j]];
+        let height = |i: isize, j: usize| {
+            let j = (j + shape[1] - across) % shape[1];
+            body.heights()[[i.rem_euclid(columns) as usize, j]]
+        };
         Field::from_shape_fn(shape, |(i, j)| {
             let i = here as isize + i as isize;
             height(i, j) + (first - here) * (height(i + 1, j) - height(i, j))
         })
     };
-    let below = facing(&below, pressure.place);
-    let above = facing(&above, pressure.place - step.offset / pressure.grid.pitch[0]);
+    let [dx, dy] = pressure.grid.pitch;
+    let across = (step.offset_y.unwrap_or(0.0) / dy).round() as usize;
+    let below = facing(&below, pressure.place, 0);
+    let above = facing(&above, pressure.place - step.offset / dx, across);
     // What is left of the interference where they touch.
     let mut plastic = &below - &above - &displacement + step.approach;
     plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });

@@ -70,6 +70,13 @@ impl Contact {
         Ok(Self::new(position, sliding, &solution))
     }
 
+    /// The same contact at a position on the way back, which costs nothing more.
+    pub(super) fn back(&self, position: Position) -> Self {
+        // Without friction 0 as before, not −0.
+        let tangential_force = 0.0 - self.tangential_force;
+        Self { position, tangential_force, stats: Stats::default(), ..self.clone() }
+    }
+
     /// A contact of which the pressure at an approach and the cost are known alone.
     pub(super) fn from_pressure(
         pair: &Pair,
@@ -177,6 +184,7 @@ impl Contact {
             pass,
             step,
             offset: self.position.offset * pair.pitch()[0],
+            offset_y: None,
             overlap_columns: self.position.columns,
             approach: self.approach,
             load: self.load,

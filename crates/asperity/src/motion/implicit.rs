@@ -10,7 +10,7 @@ use crate::motion::LoadControl;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::path::Position;
+use crate::motion::path::{Position, Way};
 use crate::motion::watch::OneOfMany;
 use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{Bounds, Control, Method, Params, Solution, solve_normal_watched};
@@ -38,7 +38,7 @@ impl Solver<'_> {
             (Control::Load(load), _) => Control::Load(load * positions as f64),
             (approach, _) => approach,
         };
-        let sliding = self.motion.sliding();
+        let sliding = self.motion.sliding(Way::Forth);
         if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
             return Err(Error::Unsupported(TOO_MUCH_WEAR));
         }
@@ -78,7 +78,7 @@ impl Solver<'_> {
                     stats,
                     ..solution
                 };
-                Contact::new(*position, sliding.as_ref(), &at_position)
+                Contact::new(*position, self.motion.sliding(position.way).as_ref(), &at_position)
             };
         Ok(contacts.map(contact).collect())
     }

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
-use crate::motion::Strategy;
 use crate::motion::contact::Contact;
 use crate::motion::law::{Law, Sums};
 use crate::motion::pair::Pair;
@@ -60,18 +59,6 @@ impl Acceleration {
         check("max_jump", self.max_jump as f64, self.max_jump > 0, "at least one pass")?;
         check_in(Dimension::Length, "max_wear", self.max_wear, self.max_wear > 0.0, "a depth above 0")?;
         Ok(self)
-    }
-
-    /// Whether passes of a motion repeat, so that one may stand for others: in a shift surfaces are back where they began only
-    /// if they move by whole rounds.
-    pub fn repeats(strategy: &Strategy) -> bool {
-        match *strategy {
-            Strategy::Overlap => true,
-            Strategy::Shift { speed_lower, speed_upper } => {
-                let slowest = speed_lower.abs().min(speed_upper.abs());
-                slowest == 0.0 || slowest == speed_lower.abs().max(speed_upper.abs())
-            }
-        }
     }
 }
 

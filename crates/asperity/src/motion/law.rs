@@ -129,7 +129,7 @@ impl Touching<'_> {
 /// What laws see of a position besides the contact.
 #[derive(Clone, Copy)]
 pub(super) struct Passage {
-    /// How the bodies slide, if there is friction.
+    /// How the bodies slide on the way forth, if there is friction.
     pub(super) sliding: Option<Sliding>,
     /// Distance slid from one position to the next.
     pub(super) distance: Metre,

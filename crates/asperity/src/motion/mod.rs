@@ -38,7 +38,8 @@ pub use loading::{
 pub use pair::Pair;
 #[cfg(feature = "study")]
 pub(crate) use pair::{facing_values, initial_gap};
-pub use path::{Position, overlap_positions, shift_positions};
+use path::shift_positions_after;
+pub use path::{OffsetY, Path, Position, Way, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{
     HeatRecord, IncrementRecord, LostVolume, PassRecord, RunningRecord, ShearRecord, StaticRecord,
@@ -160,6 +161,10 @@ pub struct Motion {
     pub speed: Option<MetrePerSecond>,
     /// Temperatures of the lower and of the upper body, > 0, where they are known.
     pub bulk: Option<[Kelvin; 2]>,
+    /// Whether a pass goes one way, or there and back.
+    pub path: Path,
+    /// Where along y the passes lie; other than at 0 where the boundary is periodic along y.
+    pub offset_y: OffsetY,
 }
 
 impl Motion {
@@ -177,6 +182,8 @@ impl Motion {
             friction: None,
             speed: None,
             bulk: None,
+            path: Path::OneWay,
+            offset_y: OffsetY::NONE,
         }
     }
 
@@ -240,6 +247,60 @@ impl Motion {
         Self { bulk: bulk.into(), ..self }
     }
 
+    /// The same with passes that go one way, or there and back.
+    #[must_use]
+    pub const fn with_path(self, path: Path) -> Self {
+        Self { path, ..self }
+    }
+
+    /// The same with passes that lie elsewhere along y.
+    #[must_use]
+    pub const fn with_offset_y(self, offset_y: OffsetY) -> Self {
+        Self { offset_y, ..self }
+    }
+
+    /// The positions of a `pass`, from 1, of a lower and an upper body of so many `columns`, `width` cells across.
+    ///
+    /// Passes in one direction by a shift go on from one another: the slower surface is where the pass before has left it.
+    pub fn positions(&self, columns: [usize; 2], width: usize, pass: usize) -> Vec<Position> {
+        let forth = match (self.strategy, self.path) {
+            (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
+                shift_positions_after(pass - 1, columns[0], self.stride, [speed_lower, speed_upper])
+            }
+            (strategy, _) => strategy.positions(columns[0], columns[1], self.stride),
+        };
+        let across = self.offset_y.of_pass(pass, width);
+        let mut positions: Vec<_> =
+            forth.into_iter().map(|position| Position { across, ..position }).collect();
+        if self.path == Path::Reciprocating {
+            let back: Vec<_> = positions.iter().rev().map(|position| position.back()).collect();
+            positions.extend(back);
+        }
+        positions
+    }
+
+    /// Whether all passes have the same positions: they all lie at one place along y, and the surfaces of a shift are back where they
+    /// began, because they move by whole rounds, or there and back.
+    pub fn repeats(&self) -> bool {
+        let returns = match (self.strategy, self.path) {
+            (Strategy::Overlap, _) | (_, Path::Reciprocating) => true,
+            (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
+                let slowest = speed_lower.abs().min(speed_upper.abs());
+                slowest == 0.0 || slowest == speed_lower.abs().max(speed_upper.abs())
+            }
+        };
+        returns && self.offset_y == OffsetY::NONE
+    }
+
+    /// How many of so many positions of a pass, the first ones, are contacts of their own: the way back of bodies that stay as they
+    /// are meets the contacts of the way forth again, unless friction displaces their surfaces normally.
+    pub(crate) fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
+        let stays = self.plastic_update == PlasticUpdate::Pass || !yields;
+        let pushed =
+            self.sliding(Way::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
+        if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
+    }
+
     /// Time from one position to the next of bodies of that pitch along x; NaN where the speed is not known.
     pub fn step_time(&self, pitch: Metre) -> Second {
         let step = self.stride as f64 * pitch;
@@ -252,16 +313,17 @@ impl Motion {
     /// What laws see of a position of bodies of that pitch along x besides the contact.
     fn passage(&self, pitch: Metre) -> law::Passage {
         law::Passage {
-            sliding: self.sliding(),
+            sliding: self.sliding(Way::Forth),
             distance: self.sliding_distance(pitch),
             time: self.step_time(pitch),
             bulk: self.bulk.unwrap_or([f64::NAN; 2]),
         }
     }
 
-    /// How the bodies slide, if there is friction: the upper one towards where it goes.
-    pub(crate) fn sliding(&self) -> Option<Sliding> {
-        self.friction.map(|friction| Sliding { friction, direction: [self.strategy.direction(), 0.0] })
+    /// How the bodies slide on one of the ways, if there is friction: the upper one towards where it goes.
+    pub fn sliding(&self, way: Way) -> Option<Sliding> {
+        let direction = [way.sign() * self.strategy.direction(), 0.0];
+        self.friction.map(|friction| Sliding { friction, direction })
     }
 
     /// Distance over which bodies of that pitch slide over each other from one position to the next.

@@ -82,19 +82,18 @@ impl Solver<'_> {
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
         let solved = AtomicUsize::new(0);
-        let sliding = self.motion.sliding();
-        let sliding = sliding.as_ref();
         let solve = |pair: &Pair, index: usize| {
             if self.watch.stop() {
                 return Err(Error::Interrupted);
             }
             let position = self.positions[index];
+            let sliding = self.motion.sliding(position.way);
             let start = first_guess(earlier, index, control, pair.lower.width());
             let contact = Contact::solve(
                 pair,
                 self.operators,
                 position,
-                sliding,
+                sliding.as_ref(),
                 control,
                 start.as_ref(),
                 params,

@@ -1,6 +1,69 @@
 //! The relative positions of a pass.
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::choice::choice;
 use crate::units::MetrePerSecond;
+
+/// What a pass of a motion is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Path {
+    /// All positions once.
+    OneWay,
+    /// All positions there, and in reverse order back, with sliding and friction the other way round.
+    Reciprocating,
+}
+
+choice!(Path: "one-way" => OneWay, "reciprocating" => Reciprocating);
+
+/// The way of a pass on which a position is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// As the strategy has it.
+    Forth,
+    /// The other way round.
+    Back,
+}
+
+impl Way {
+    /// 1 on the way forth, −1 on the way back.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Forth => 1.0,
+            Self::Back => -1.0,
+        }
+    }
+}
+
+/// Where along y the upper body passes over the lower one, pass by pass; cells beyond the width come in on the other side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OffsetY {
+    /// So many cells further in each pass than in the one before, the first one at 0.
+    Cells(usize),
+    /// Anywhere: a displacement for each pass, drawn from the seed and the number of the pass.
+    Random {
+        /// The seed.
+        seed: u64,
+    },
+}
+
+impl OffsetY {
+    /// All passes lie where the first does.
+    pub const NONE: Self = Self::Cells(0);
+
+    /// The displacement of the upper body in a `pass`, from 1, along bodies of a `width`, in cells below that.
+    pub fn of_pass(self, pass: usize, width: usize) -> usize {
+        match self {
+            Self::Cells(cells) => (cells % width * ((pass - 1) % width)) % width,
+            Self::Random { seed } => {
+                let mut random = ChaCha8Rng::seed_from_u64(seed);
+                random.set_stream(pass as u64);
+                random.random_range(0..width as u64) as usize
+            }
+        }
+    }
+}
 
 /// One relative position: which columns of the lower body face which of the upper one.
 ///
@@ -19,12 +82,21 @@ pub struct Position {
     pub fraction: [f64; 2],
     /// Number of columns that face each other.
     pub columns: usize,
+    /// Cells along y by which the upper body is displaced, counted cyclically.
+    pub across: usize,
+    /// The way on which it lies.
+    pub way: Way,
 }
 
 impl Position {
     /// Bodies that face each other with all of so many columns.
     pub fn flush(columns: usize) -> Self {
-        Self { offset: 0.0, lower: 0, upper: 0, fraction: [0.0; 2], columns }
+        Self { offset: 0.0, lower: 0, upper: 0, fraction: [0.0; 2], columns, across: 0, way: Way::Forth }
+    }
+
+    /// The same position on the way back.
+    pub(super) fn back(self) -> Self {
+        Self { way: Way::Back, ..self }
     }
 
     /// Where the contact begins on the lower and on the upper body, in columns.
@@ -68,11 +140,23 @@ pub fn shift_positions(
     speed_lower: MetrePerSecond,
     speed_upper: MetrePerSecond,
 ) -> Vec<Position> {
+    shift_positions_after(0, columns, stride, [speed_lower, speed_upper])
+}
+
+/// The positions of a pass by circular shift after so many rounds of the faster surface.
+pub(super) fn shift_positions_after(
+    rounds: usize,
+    columns: usize,
+    stride: usize,
+    [speed_lower, speed_upper]: [MetrePerSecond; 2],
+) -> Vec<Position> {
     let stride = stride.min(columns);
     let fastest = speed_lower.abs().max(speed_upper.abs());
     (0..columns.div_ceil(stride))
         .map(|step| {
-            let moved = |speed: f64| whole_if_near((step * stride) as f64 * speed / fastest);
+            let before =
+                |speed: f64| whole_if_near((rounds * columns) as f64 * speed / fastest) % columns as f64;
+            let moved = |speed: f64| whole_if_near(before(speed) + (step * stride) as f64 * speed / fastest);
             let (lower, upper) = (moved(speed_lower), moved(speed_upper));
             // The contact begins at −moved in the body's frame.
             let start = |moved: f64| (-moved).floor().rem_euclid(columns as f64) as usize;
@@ -82,7 +166,7 @@ pub fn shift_positions(
                 lower: start(lower),
                 upper: start(upper),
                 fraction: [fraction(lower), fraction(upper)],
-                columns,
+                ..Position::flush(columns)
             }
         })
         .collect()
@@ -90,8 +174,8 @@ pub fn shift_positions(
 
 /// A number of columns without what rounding has left of a whole one.
 fn whole_if_near(moved: f64) -> f64 {
-    /// Parts of a column that are none.
-    const NEAR: f64 = 1e-9;
+    /// Parts of a column that are none: what rounding leaves after 10⁸ columns.
+    const NEAR: f64 = 1e-7;
     // Added to −0, 0 makes 0 of it.
     if (moved - moved.round()).abs() < NEAR { moved.round() + 0.0 } else { moved }
 }
@@ -131,8 +215,26 @@ mod tests {
         assert!(sliding.iter().all(|p| p.lower == 0) && sliding[1].upper == 4 && sliding.len() == 5);
         let slip = shift_positions(8, 1, 1.0, -0.5);
         assert_eq!(slip[2], Position { offset: -3.0, lower: 6, upper: 1, ..Position::flush(8) });
-        let between = Position { offset: -4.5, lower: 5, upper: 1, fraction: [0.0, 0.5], columns: 8 };
+        let between =
+            Position { offset: -4.5, lower: 5, upper: 1, fraction: [0.0, 0.5], ..Position::flush(8) };
         assert_eq!(slip[3], between);
+        // A round later the slower surface goes on from where it was: at half of its own.
+        let next = shift_positions_after(1, 8, 1, [1.0, -0.5]);
+        assert_eq!((next[0].lower, next[0].upper, next[0].offset), (0, 4, -4.0));
+        assert_eq!(shift_positions_after(2, 8, 1, [1.0, -0.5]), slip);
+    }
+
+    #[test]
+    fn the_upper_body_moves_across_by_its_cells_or_anywhere() {
+        let of = |offset: OffsetY| (1..=7).map(|pass| offset.of_pass(pass, 5)).collect::<Vec<_>>();
+        assert_eq!(of(OffsetY::Cells(2)), [0, 2, 4, 1, 3, 0, 2]);
+        assert_eq!(of(OffsetY::Cells(12)), of(OffsetY::Cells(2)));
+        assert_eq!(of(OffsetY::NONE), [0; 7]);
+        // Frozen: whoever changes them changes what a resumed motion goes on with.
+        assert_eq!(of(OffsetY::Random { seed: 0 }), [3, 1, 0, 4, 0, 0, 2]);
+        let mut met = [0; 5];
+        (1..=500).for_each(|pass| met[OffsetY::Random { seed: 3 }.of_pass(pass, 5)] += 1);
+        assert!(met.iter().all(|count| (70..130).contains(count)), "{met:?}");
     }
 
     #[test]

@@ -236,6 +236,9 @@ pub struct StepRecord {
     pub step: usize,
     /// How far the upper body's left edge lies to the right of the lower body's.
     pub offset: Metre,
+    /// How far the upper body is displaced along y, cyclically; none where all passes lie at one place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset_y: Option<Metre>,
     /// Columns that face each other.
     pub overlap_columns: usize,
     /// Rigid-body approach δ.
@@ -281,7 +284,7 @@ pub struct PassRecord {
     pub mean_load: Newton,
     /// Mean friction force along x of the upper body on the lower one.
     pub mean_tangential_force: Newton,
-    /// Mean friction force over mean load.
+    /// Mean magnitude of the friction force over mean load.
     pub friction_coefficient: f64,
     /// Smallest load at a position of the pass.
     pub min_load: Newton,

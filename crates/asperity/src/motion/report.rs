@@ -2,11 +2,11 @@
 
 use crate::error::Result;
 use crate::grid::Field;
+use crate::motion::Motion;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
-use crate::solver::Sliding;
 
 /// A finished pass.
 #[non_exhaustive]
@@ -19,8 +19,8 @@ pub struct PassReport<'a> {
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
-    /// How they slid, if there is friction.
-    pub sliding: Option<Sliding>,
+    /// How they move.
+    pub motion: &'a Motion,
     /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
     pub warm: &'a WarmStart,
 }

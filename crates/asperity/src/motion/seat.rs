@@ -12,6 +12,8 @@ use crate::motion::path::Position;
 pub(super) struct Seat {
     /// The body's column under the first one of the contact.
     first: usize,
+    /// Cells by which the body is displaced along y.
+    across: usize,
     fraction: f64,
     /// Columns and width of the body.
     shape: [usize; 2],
@@ -20,14 +22,20 @@ pub(super) struct Seat {
 impl Seat {
     /// Those of the contact at `position` on the bodies of these shapes, lower one first.
     pub(super) fn of_bodies(position: &Position, shapes: [[usize; 2]; 2]) -> [Self; 2] {
-        let Position { lower, upper, fraction, .. } = *position;
-        [0, 1].map(|body| Self { first: [lower, upper][body], fraction: fraction[body], shape: shapes[body] })
+        let Position { lower, upper, fraction, across, .. } = *position;
+        [0, 1].map(|body| Self {
+            first: [lower, upper][body],
+            across: [0, across][body],
+            fraction: fraction[body],
+            shape: shapes[body],
+        })
     }
 
     /// The flat cell of the body under a flat cell of the contact, or the first of two.
     pub(super) fn cell(&self, cell: usize) -> usize {
         let [columns, width] = self.shape;
-        (self.first + cell / width) % columns * width + cell % width
+        let across = cell % width + width - self.across;
+        (self.first + cell / width) % columns * width + if across < width { across } else { across - width }
     }
 
     /// Part of a column by which the contact lies beyond the columns of the body.
@@ -64,13 +72,17 @@ impl Seat {
         row: &mut [f64],
         change: impl Fn(&mut f64, f64),
     ) {
-        let column = |ahead: usize| values.row((self.first + j + ahead) % self.shape[0]);
-        let here = column(0);
+        // What is displaced by some cells begins with the last ones.
+        let column = |ahead: usize| {
+            let column = values.row((self.first + j + ahead) % self.shape[0]);
+            let (most, last) = column.split_at(ndarray::Axis(0), self.shape[1] - self.across);
+            last.into_iter().chain(most)
+        };
         if self.fraction == 0.0 {
-            row.iter_mut().zip(here).for_each(|(at, value)| change(at, *value));
+            row.iter_mut().zip(column(0)).for_each(|(at, value)| change(at, *value));
         } else {
             let (near, far) = (1.0 - self.fraction, self.fraction);
-            let both = here.into_iter().zip(column(1));
+            let both = column(0).zip(column(1));
             row.iter_mut().zip(both).for_each(|(at, (one, next))| change(at, near * one + far * next));
         }
     }

@@ -1,5 +1,7 @@
 //! The motion itself: pass after pass.
 
+use std::borrow::Cow;
+
 use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
@@ -13,7 +15,7 @@ use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
 use crate::motion::law::{self, Heat, Law, Sums, Warmth};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::path::Position;
+use crate::motion::path::{OffsetY, Position};
 use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::{Output, PassReport};
@@ -33,7 +35,10 @@ pub struct Simulation {
     pair: Pair,
     motion: Motion,
     params: Params,
+    /// The positions of the next pass.
     positions: Vec<Position>,
+    /// How many of them, the first ones, are solved; the others are the same contacts on the way back.
+    distinct: usize,
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
@@ -46,11 +51,16 @@ pub struct Simulation {
     softness: Option<Softness>,
     /// The flash temperature over a pass, where it is wanted.
     heat: Option<PassHeat>,
+    /// What gives the upper body of each pass after the first, where they are not the same.
+    counter: Option<Counter>,
     /// Passes that are computed.
     passes_done: usize,
     /// The state in which the next pass begins.
     warm: WarmStart,
 }
+
+/// What gives the upper body of a pass.
+type Counter = Box<dyn Fn(usize) -> Result<Body> + Send + Sync>;
 
 /// A pass that is solved, and not yet [finished](Simulation::finish).
 pub struct SolvedPass {
@@ -118,7 +128,8 @@ impl Simulation {
         let positions = positions(&pair, boundary, &motion)?;
         let bearable: Vec<Newton> = positions.iter().map(|p| bearable(&pair, &motion, p)).collect();
         check_limit(motion.control, motion.load_control.plastic_limit(&bearable))?;
-        let columns: Vec<usize> = positions.iter().map(|p| p.columns).collect();
+        let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
+        let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
@@ -135,10 +146,12 @@ impl Simulation {
             motion,
             params,
             positions,
+            distinct,
             operators,
             acceleration: Acceleration::NONE,
             softness: None,
             heat: None,
+            counter: None,
             passes_done: 0,
             warm: WarmStart::default(),
         })
@@ -148,10 +161,54 @@ impl Simulation {
     /// before, and `warm` is what they left ([`PassReport::warm`]). It goes on as if it had not stopped, to the last bit.
     ///
     /// # Panics
-    /// If `warm` has not as many positions as a pass.
+    /// If `warm` has not as many positions as are solved of a pass, or any where passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
-        assert_eq!(warm.positions.len(), self.positions.len(), "positions of the warm start");
-        Self { passes_done: passes, warm, ..self }
+        let kept = if self.repeats() { self.distinct } else { 0 };
+        assert_eq!(warm.positions.len(), kept, "positions of the warm start");
+        let mut resumed = Self { passes_done: passes, warm, ..self };
+        resumed.positions = resumed.next_positions();
+        resumed
+    }
+
+    /// The same motion, in which each pass after the first has an upper body of its own: the one that the `counter` gives for the
+    /// number of the pass, on the grid of the first and prepared as that one is, with the states that laws keep of it. The upper body
+    /// of [`Simulation::pair`] is that of the last pass.
+    ///
+    /// Passes do not repeat then. What a pass does to an upper body is gone with it.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where a computed pass stands for others.
+    pub fn with_counter(
+        self,
+        counter: impl Fn(usize) -> Result<Body> + Send + Sync + 'static,
+    ) -> Result<Self> {
+        let simulation = Self { counter: Some(Box::new(counter)), ..self };
+        let acceleration = simulation.acceleration;
+        simulation.with_acceleration(acceleration)
+    }
+
+    /// Whether the next pass meets what this one does.
+    fn repeats(&self) -> bool {
+        self.motion.repeats() && self.counter.is_none()
+    }
+
+    /// The positions of the pass after those that are done.
+    fn next_positions(&self) -> Vec<Position> {
+        let columns = [self.pair.lower.columns(), self.pair.upper.columns()];
+        self.motion.positions(columns, self.pair.lower.width(), self.represented() + 1)
+    }
+
+    /// The bodies of the next pass.
+    fn next_pair(&self) -> Result<Cow<'_, Pair>> {
+        let (Some(counter), pass @ 2..) = (&self.counter, self.represented() + 1) else {
+            return Ok(Cow::Borrowed(&self.pair));
+        };
+        let upper = counter(pass)?;
+        assert_eq!(upper.heights.dim(), self.pair.upper.heights.dim(), "shape of the upper body");
+        upper.validate()?;
+        let mut pair = self.pair.clone();
+        pair.upper = upper;
+        Ok(Cow::Owned(pair))
     }
 
     /// The same motion, whose records tell what is in the interior of the bodies: farther than the part `rim` of their
@@ -187,9 +244,9 @@ impl Simulation {
     pub fn with_acceleration(self, acceleration: Acceleration) -> Result<Self> {
         let acceleration = acceleration.checked()?;
         if acceleration.max_jump > 1 {
-            if !Acceleration::repeats(&self.motion.strategy) {
+            if !self.repeats() {
                 return Err(Error::Unsupported(
-                    "surfaces that do not move by whole rounds meet anew in each pass",
+                    "surfaces that meet anew in each pass have none that stands for others",
                 ));
             }
             if self.changes_at_every_step() {
@@ -211,8 +268,8 @@ impl Simulation {
     /// pass, ≥ 1; in those between the cells are as warm as they were in the mean over their contacts of the last such pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, and where these change position by position;
-    /// those of [`FlashTemperature::new`].
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, where these change position by position, and
+    /// for a shift under a boundary that is free along x; those of [`FlashTemperature::new`].
     pub fn with_heat(self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
         check("every", every as f64, every > 0, "at least each computed pass")?;
         let time = self.motion.step_time(self.pair.pitch()[0]);
@@ -224,6 +281,11 @@ impl Simulation {
         if self.changes_at_every_step() {
             return Err(Error::Unsupported(
                 "a flash temperature is that of bodies that stay as they are in a pass",
+            ));
+        }
+        if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
+            return Err(Error::Unsupported(
+                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
             ));
         }
         let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
@@ -251,7 +313,7 @@ impl Simulation {
         &self.motion
     }
 
-    /// The positions of a pass.
+    /// The positions of the next pass.
     pub fn positions(&self) -> &[Position] {
         &self.positions
     }
@@ -275,10 +337,14 @@ impl Simulation {
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
-        let (mut outcome, guess, trials) = self.solve_pass(watch)?;
+        let (mut outcome, guess, trials) = self.solve_pass(&*self.next_pair()?, watch)?;
+        self.come_back(&mut outcome.contacts);
         let begun = self.solve_with_wear(&mut outcome, watch)?;
+        let displaced = self.motion.offset_y != OffsetY::NONE;
+        let offset_y = |across: usize| displaced.then_some(across as f64 * self.pair.pitch()[1]);
         let step = |(k, contact): (usize, &Contact)| {
-            contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1])
+            let record = contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1]);
+            StepRecord { offset_y: offset_y(contact.position.across), ..record }
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
         let (running, jump) = match outcome.has_changed {
@@ -289,6 +355,13 @@ impl Simulation {
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
         Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors, running, jump, represented })
+    }
+
+    /// Adds the contacts of the way back to those that are solved, if they are the same.
+    fn come_back(&self, contacts: &mut Vec<Contact>) {
+        let back = self.positions[self.distinct..].iter().zip(contacts.iter().rev());
+        let back: Vec<Contact> = back.map(|(position, contact)| contact.back(*position)).collect();
+        contacts.extend(back);
     }
 
     /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging. Its contacts take the
@@ -303,9 +376,13 @@ impl Simulation {
             return Ok(None);
         }
         let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
-        let compliance = law::compliance(laws, &outcome.pair, &sums, friction, passage.distance);
+        // The way back wears as much again under the same pressures.
+        let distance = passage.distance * (self.positions.len() / self.distinct) as f64;
+        let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
         let depths = law::tried(laws, &outcome.pair, &sums, 1);
+        outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
+        self.come_back(&mut outcome.contacts);
         Ok(Some(depths))
     }
 
@@ -445,14 +522,22 @@ impl Simulation {
     ) -> Result<()> {
         let record = pass.record();
         let SolvedPass { outcome: Pass { contacts, pair, .. }, steps, guess, jump, represented, .. } = pass;
-        let warm = WarmStart::new(guess, &contacts, jump, represented);
+        // Bodies that meet elsewhere begin anew.
+        let (guess, again) = match self.repeats() {
+            true => (guess, &contacts[..self.distinct]),
+            false => (None, &[][..]),
+        };
+        let warm = WarmStart::new(guess, again, jump, represented);
         for output in outputs.iter_mut() {
-            let sliding = self.motion.sliding();
+            let motion = &self.motion;
             let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);
-            output.pass(&PassReport { record, steps, contacts, pair, sliding, warm })?;
+            output.pass(&PassReport { record, steps, contacts, pair, motion, warm })?;
         }
         self.warm = warm;
         self.pair = pair;
+        if !self.motion.repeats() {
+            self.positions = self.next_positions();
+        }
         self.passes_done = record.pass;
         watch.pass(&record);
         Ok(())
@@ -465,13 +550,13 @@ impl Simulation {
             passes: self.motion.passes,
             trial: 1,
             solved: 0,
-            positions: self.positions.len(),
+            positions: self.distinct,
             load: 0.0,
             together: None,
         };
         Solver {
             operators: &self.operators,
-            positions: &self.positions,
+            positions: &self.positions[..self.distinct],
             motion: &self.motion,
             interiors: &self.interiors,
             laws: &self.laws,
@@ -481,22 +566,22 @@ impl Simulation {
     }
 
     /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
-    fn solve_pass(&self, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
-        let mut earlier: Vec<Vec<Contact>> =
-            self.warm.contacts(&self.pair, &self.positions).into_iter().collect();
+    fn solve_pass(&self, pair: &Pair, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+        let positions = &self.positions[..self.distinct];
+        let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
         let mut solver = self.solver(watch);
         let load = match (self.motion.control, self.motion.load_control) {
             (Control::Load(load), LoadControl::Pass) => load,
-            (control, _) => return Ok((solver.solve(&self.pair, control, &self.params, &earlier)?, None, 1)),
+            (control, _) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
         let mut residual = MAX_RESIDUAL;
         let mut guess = self.warm.guess;
         if self.together {
             let accuracy = self.motion.load_tolerance;
             let start = earlier.first();
-            match solver.solve_together(&self.pair, load, accuracy, &self.params, start) {
+            match solver.solve_together(pair, load, accuracy, &self.params, start) {
                 Ok(contacts) => {
-                    let slope = guess.map_or(1.0 / self.height_scale(), |guess| guess.slope);
+                    let slope = guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);
                     guess = Some(Guess { approach: contacts[0].approach, slope });
                     earlier = vec![contacts];
                     residual = self.params.tolerance;
@@ -508,20 +593,20 @@ impl Simulation {
         }
         let guess = match guess {
             Some(guess) => guess,
-            None => self.first_guess(load, watch)?,
+            None => self.first_guess(pair, load, watch)?,
         };
         let search = Search {
             load,
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
-            touch: self.touch(),
-            resolution: self.resolution(),
-            limit: self.limit(),
+            touch: self.touch(pair),
+            resolution: resolution(pair),
+            limit: self.limit(pair),
         };
         let mut closed = false;
         let found = search.run(guess, residual, |approach, residual| {
             let control = Control::Approach(approach);
-            let outcome = solver.solve_roughly(&self.pair, control, (residual, &self.params), &earlier)?;
+            let outcome = solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?;
             solver.progress.trial += 1;
             closed |= outcome.contacts.iter().any(|contact| self.leaves_mean_free(contact));
             earlier.insert(0, outcome.contacts.clone());
@@ -545,34 +630,25 @@ impl Simulation {
     }
 
     /// The position with the most columns, at two loads near its share of the pass-mean load.
-    fn first_guess(&self, load: Newton, watch: &dyn Watch) -> Result<Guess> {
+    fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
-        let limit = bearable(&self.pair, &self.motion, fullest);
+        let limit = bearable(pair, &self.motion, fullest);
         let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
         let solve = |load: Newton, start: Option<&Contact>| {
-            let start = start.map(|c| c.pressure_field(self.pair.lower.width()));
+            let start = start.map(|c| c.pressure_field(pair.lower.width()));
             let control = Control::Load(load);
-            Contact::solve(
-                &self.pair,
-                &self.operators,
-                *fullest,
-                None,
-                control,
-                start.as_ref(),
-                &params,
-                watch,
-            )
+            Contact::solve(pair, &self.operators, *fullest, None, control, start.as_ref(), &params, watch)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
-        let scale = self.height_scale();
+        let scale = height_scale(pair);
         let solved =
             solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
         let (approach, further) = match solved {
             Ok(approaches) => approaches,
             // A guess that cannot be had is no guess: from the first touch.
             Err(Error::NotConverged { .. }) => {
-                return Ok(Guess { approach: self.touch() + scale, slope: 1.0 / scale });
+                return Ok(Guess { approach: self.touch(pair) + scale, slope: 1.0 / scale });
             }
             Err(other) => return Err(other),
         };
@@ -581,35 +657,30 @@ impl Simulation {
     }
 
     /// The approach at which some position of the pass first touches.
-    fn touch(&self) -> Metre {
-        let lowest = |position| self.pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
-        self.positions.iter().map(lowest).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The rounding of the heights, as a length.
-    fn resolution(&self) -> Metre {
-        let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
-        f64::EPSILON * highest(&self.pair.lower.heights).max(highest(&self.pair.upper.heights))
+    fn touch(&self, pair: &Pair) -> Metre {
+        let lowest = |position| pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
+        self.positions[..self.distinct].iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
     /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
     /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
     /// they are in full contact at all positions. Where some cells yield and others never do, there is none.
-    fn limit(&self) -> Limit {
+    fn limit(&self, pair: &Pair) -> Limit {
         let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
-        let hardness = cap(self.pair.max_hardness());
+        let hardness = cap(pair.max_hardness());
         let largest = |value: fn(&Field) -> f64| {
-            self.positions.iter().map(|p| value(&self.pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
+            let positions = self.positions[..self.distinct].iter();
+            positions.map(|p| value(&pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
         };
         if hardness.is_finite() {
             let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
             let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
             // Of the hardness on all that faces; the shear of what slides adds less than μ times as much.
-            let sinks = self.operators.most_under_uniform([columns, self.pair.lower.width()]);
+            let sinks = self.operators.most_under_uniform([columns, pair.lower.width()]);
             let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
             let approach = highest + (1.0 + coefficient) * hardness * sinks;
             Limit { approach, cause: LoadLimit::Yielded }
-        } else if self.boundary.leaves_mean_free() && !self.pair.yields() {
+        } else if self.boundary.leaves_mean_free() && !pair.yields() {
             // Closer to it the load is less certain than the residual.
             let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
             let rough = largest(|gap| gap.std(0.0));
@@ -618,12 +689,18 @@ impl Simulation {
             Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact }
         }
     }
+}
 
-    /// The length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
-    fn height_scale(&self) -> Metre {
-        let roughness = self.pair.lower.heights.std(0.0).hypot(self.pair.upper.heights.std(0.0));
-        if roughness > 0.0 { 0.1 * roughness } else { self.pair.pitch()[0] }
-    }
+/// The rounding of the heights, as a length.
+fn resolution(pair: &Pair) -> Metre {
+    let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
+    f64::EPSILON * highest(&pair.lower.heights).max(highest(&pair.upper.heights))
+}
+
+/// The length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
+fn height_scale(pair: &Pair) -> Metre {
+    let roughness = pair.lower.heights.std(0.0).hypot(pair.upper.heights.std(0.0));
+    if roughness > 0.0 { 0.1 * roughness } else { pair.pitch()[0] }
 }
 
 fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {
@@ -661,7 +738,12 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
             check("speed", fastest, fastest > 0.0 && fastest.is_finite(), "a surface that moves")?;
         }
     }
-    Ok(motion.strategy.positions(lower, upper, motion.stride))
+    if motion.offset_y != OffsetY::NONE && !boundary.repeats(1) {
+        return Err(Error::Unsupported(
+            "bodies that are displaced along y continue over their edges there: their boundary is periodic along y",
+        ));
+    }
+    Ok(motion.positions([lower, upper], pair.lower.width(), 1))
 }
 
 /// The most load that the cells at a position bear together.
@@ -690,7 +772,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         approach: mean(|s| s.approach),
         mean_load: mean(|s| s.load),
         mean_tangential_force: mean(|s| s.tangential_force),
-        friction_coefficient: mean(|s| s.tangential_force).abs() / mean(|s| s.load),
+        friction_coefficient: mean(|s| s.tangential_force.abs()) / mean(|s| s.load),
         min_load: -most(|s| -s.load),
         max_load: most(|s| s.load),
         mean_pressure: mean(|s| s.load) / (mean_columns * pair.grid(1).area()),

@@ -13,7 +13,7 @@ use crate::motion::watch::{OneOfMany, Progress};
 use crate::motion::{LoadControl, Motion, PlasticUpdate};
 use crate::operator::{Operator, Operators};
 use crate::solver::Control;
-use crate::solver::{Bounds, Method, Params, Residual, Site, Sliding, coarse_site, solve_together};
+use crate::solver::{Bounds, Friction, Method, Params, Residual, Site, coarse_site, solve_together};
 use crate::units::Newton;
 
 /// The most cells of all positions together that are held at once.
@@ -63,9 +63,9 @@ impl Solver<'_> {
         params: &Params,
         earlier: Option<&Vec<Contact>>,
     ) -> Result<Vec<Contact>> {
-        let sliding = self.motion.sliding();
+        let friction = self.motion.friction;
         let facing =
-            |position: &Position| Facing { pair, operators: self.operators, sliding, position: *position };
+            |position: &Position| Facing { pair, operators: self.operators, friction, position: *position };
         let facing: Vec<Facing> = self.positions.iter().map(facing).collect();
         let sites: Vec<&dyn Site> = facing.iter().map(|site| site as &dyn Site).collect();
         let width = pair.lower.width();
@@ -94,7 +94,7 @@ impl Solver<'_> {
 struct Facing<'a> {
     pair: &'a Pair,
     operators: &'a Operators,
-    sliding: Option<Sliding>,
+    friction: Option<Friction>,
     position: Position,
 }
 
@@ -108,7 +108,7 @@ impl Site for Facing<'_> {
     }
 
     fn bounds(&self) -> Cow<'_, Bounds> {
-        Cow::Owned(self.pair.bounds(&self.position, self.sliding.as_ref().map(|sliding| &sliding.friction)))
+        Cow::Owned(self.pair.bounds(&self.position, self.friction.as_ref()))
     }
 
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {

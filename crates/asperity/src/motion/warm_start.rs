@@ -12,9 +12,11 @@ use crate::units::{Metre, Pascal};
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct WarmStart {
-    /// The guess with which the search for the approach begins; none where no mean load is prescribed.
+    /// The guess with which the search for the approach begins; none where no mean load is prescribed, nor where the next pass has
+    /// other positions or bodies.
     pub guess: Option<Guess>,
-    /// The bearing cells at each position of the last pass; nothing before the first.
+    /// The bearing cells at each position that was solved of the last pass; nothing before the first, nor where the next pass has
+    /// others.
     pub positions: Vec<Bearing>,
     /// The last jump; none before the first pass, nor where nothing wears.
     pub jump: Option<Jump>,

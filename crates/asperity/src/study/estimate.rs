@@ -10,7 +10,7 @@ pub use demand::{Demand, demand};
 use super::case::{Body, Case, Layer, LoadingPath, Source, TopographySpec};
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field};
+use crate::grid::{CellValues, Field, Grid};
 use crate::material::{Compliances, plastic_share};
 use crate::motion::{
     LoadControl, Motion, Position, Stage, Strategy, check_limit, facing_values, initial_gap,
@@ -70,7 +70,7 @@ pub struct Estimate {
 pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
-    let positions = positions(case, lower_grid.shape[0], upper_grid.shape[0]);
+    let positions = positions(case, [lower_grid, upper_grid]);
     let overlaps: Vec<usize> = positions.iter().map(|position| position.columns).collect();
     let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
@@ -153,11 +153,13 @@ fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
     }
 }
 
-/// The positions of a pass; of a static contact, the only one.
-fn positions(case: &Case, lower: usize, upper: usize) -> Vec<Position> {
-    match case.motion {
-        None => vec![Position::flush(lower.min(upper))],
-        Some(motion) => motion.strategy.positions(lower, upper, motion.stride),
+/// The positions of the first pass; of a static contact, the only one.
+fn positions(case: &Case, [lower, upper]: [Grid; 2]) -> Vec<Position> {
+    let columns = [lower.shape[0], upper.shape[0]];
+    // For where the bodies meet the load does not matter.
+    match case.motion(1.0) {
+        None => vec![Position::flush(columns[0].min(columns[1]))],
+        Some(motion) => motion.positions(columns, lower.shape[1], 1),
     }
 }
 
@@ -605,7 +607,8 @@ mod tests {
     fn every_position_of_a_pass_has_a_column_that_faces_another() {
         let columns = |stride| -> Vec<usize> {
             let case = case(&format!("[motion]\nstride = {stride}"), "load = 1");
-            positions(&case, 5, 3).iter().map(|position| position.columns).collect()
+            let grid = |columns| Grid::new([columns, 4], [1e-3; 2]).unwrap();
+            positions(&case, [grid(5), grid(3)]).iter().map(|position| position.columns).collect()
         };
         assert_eq!(columns(1), [1, 2, 3, 3, 3, 2, 1]);
         assert_eq!(columns(2), [1, 3, 3, 1]);

@@ -188,6 +188,7 @@ mod tests {
             ("swept_creepages", "ccb05528"),
             ("swept_pressures", "776fc760"),
             ("swept_rolling", "50369784"),
+            ("there_and_back", "1c9f39ac"),
             ("wearing", "9fbaeaa5"),
         ];
         assert_eq!(identities, frozen.map(|(name, identity)| (name.to_owned(), identity.to_owned())));

@@ -6,12 +6,12 @@ use serde_json::Value;
 use web_time::Instant;
 
 use crate::error::{Error, Result};
-use crate::motion::{Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
-use crate::study::case::Case;
+use crate::motion::{Body, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
+use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
 use crate::study::given::Given;
 use crate::study::identity;
-use crate::study::prepare::bodies;
+use crate::study::prepare::{bodies, fresh_heights};
 use crate::study::results::{Existing, PassWriter, Writer};
 use crate::study::review;
 use crate::study::run::{conclude, pair, params};
@@ -46,7 +46,7 @@ impl Passes {
         let motion =
             case.motion(apparent_area).ok_or(Error::Unsupported("a contact at rest has no passes"))?;
         let resolved = identity::resolved(case, &bodies);
-        let simulation = simulation(case, pair(case, bodies)?, motion)?;
+        let simulation = simulation(case, pair(case, bodies)?, motion, None)?;
         let writer = Writer::enter(directory, &resolved, existing)?;
         writer.begin()?;
         let output = writer.passes(case.output.pressure_every, subsurface)?;
@@ -65,7 +65,8 @@ impl Passes {
                 (pair.lower.heights, pair.upper.heights) = (lower.into_heights(), upper.into_heights());
                 [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
                 let warm = writer.results().warm_start_after(done)?;
-                self::simulation(case, pair, motion)?.resumed(done, warm)
+                let virgin = &simulation.pair().upper;
+                self::simulation(case, pair, motion, Some(virgin))?.resumed(done, warm)
             }
         };
         let (case, done) = (case.clone(), passes.len());
@@ -128,7 +129,17 @@ impl Passes {
     }
 }
 
-fn simulation(case: &Case, pair: Pair, motion: Motion) -> Result<Simulation> {
+/// The motion of a case. Its upper body is `virgin` before a pass that has one of its own; that of the pair unless it is told.
+fn simulation(case: &Case, pair: Pair, motion: Motion, virgin: Option<&Body>) -> Result<Simulation> {
     let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
-    case.running(simulation.with_rim(case.output.rim)?)
+    let simulation = case.running(simulation.with_rim(case.output.rim)?)?;
+    if case.motion.is_none_or(|motion| motion.counter == CounterBody::Same) {
+        return Ok(simulation);
+    }
+    let virgin = virgin.unwrap_or(&simulation.pair().upper).clone();
+    let (case, lower) = (case.clone(), simulation.pair().lower_grid());
+    simulation.with_counter(move |pass| {
+        let heights = fresh_heights(&case, lower, pass)?;
+        Ok(Body { heights, ..virgin.clone() })
+    })
 }

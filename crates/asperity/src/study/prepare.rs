@@ -2,11 +2,14 @@
 
 use std::path::Path;
 
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
 use super::case::document::Document;
 use super::case::{Body, Case, Hardness, Mount, Source, TopographySpec, topography_alone};
 use super::given::Given;
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Grid};
+use crate::grid::{CellValues, Field, Grid};
 use crate::io::{sha256, sha256_of};
 use crate::motion::Strategy;
 use crate::surface::{self, Findings, LengthUnit, Preparation, ReadOptions, Resample, Scan, Topography};
@@ -123,6 +126,28 @@ pub fn bodies(case: &Case, mut given: Given) -> Result<Bodies> {
     Ok(Bodies { lower, upper })
 }
 
+/// The heights of the upper body of a `pass` after the first, made as that of the first is but from a seed of its own, on the
+/// `grid` of the lower body.
+///
+/// # Errors
+/// [`Error::Case`] as of [`bodies`].
+pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Field> {
+    let mut body = case.upper.clone();
+    if let Source::Generate { seed, .. } = &mut body.topography.source {
+        *seed = seed_of_pass(*seed, pass);
+    }
+    let given = &mut Given::default();
+    let topography = turned(case, "upper", &body, Some(lower), given)?.0.topography;
+    Ok(topography.into_heights())
+}
+
+/// The seed of a `pass` after the first: the first number of the pass's stream of random numbers.
+fn seed_of_pass(seed: u64, pass: usize) -> u64 {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(pass as u64);
+    random.next_u64()
+}
+
 /// The grids on which [`bodies`] will be, from the case and the sizes in its files alone.
 ///
 /// # Errors
@@ -181,6 +206,19 @@ fn prepared(
     other: Option<Grid>,
     given: &mut Given,
 ) -> Result<Prepared> {
+    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, given)?;
+    let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
+    Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
+}
+
+/// The surface of a body as it faces the other one, every height defined.
+fn turned(
+    case: &Case,
+    name: &str,
+    body: &Body,
+    other: Option<Grid>,
+    given: &mut Given,
+) -> Result<(Made, Mount)> {
     let table = topography_of(name);
     let at = Place { document: case.document(), table: &table, spec: &body.topography };
     let Made { topography, origin, findings } = made(at, other, given)?;
@@ -198,8 +236,7 @@ fn prepared(
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
-    Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
+    Ok((Made { topography, origin, findings }, mount))
 }
 
 /// What is described at a place, after all its steps, on what it lacks from the `other` body.
@@ -579,8 +616,32 @@ fn by([nx, ny]: [usize; 2]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Field;
     use crate::io::fields::FieldFile;
+
+    #[test]
+    fn a_fresh_counter_body_is_made_like_the_first_from_a_seed_of_its_pass() {
+        let text = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { form = \"flat\", shape = [24, 16], pitch = \"1 um\" }\n\
+            [upper]\nyoung = \"210 GPa\"\npoisson = 0.3\n[upper.topography]\ngenerate = \"self-affine\"\nseed = 6\nsq = \"0.1 um\"\n\
+            hurst = 0.8\nlevel = \"plane\"\n[contact]\nload = \"1 mN\"\n[motion]\ncounter = \"fresh\"\npasses = 3\n";
+        let case = |text: &str| Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap();
+        let made = |text: &str| bodies(&case(text), Given::default()).unwrap().upper.topography;
+        let first = made(text);
+        let lower = Grid::new([24, 16], [1e-6; 2]).unwrap();
+        let of = |pass| fresh_heights(&case(text), lower, pass).unwrap();
+        let (second, third) = (of(2), of(3));
+        assert!(second != third && second != *first.heights() && second == of(2));
+        // Frozen: whoever changes it changes what a resumed motion goes on with.
+        let seeds = [seed_of_pass(5, 2), seed_of_pass(5, 3), seed_of_pass(6, 2)];
+        assert_eq!(
+            seeds,
+            [18_227_308_612_529_490_622, 14_334_089_863_870_952_822, 5_263_930_057_923_644_503]
+        );
+        // It is what a case file would make with that seed.
+        let other = text.replace("seed = 6", &format!("seed = {}", seeds[2]));
+        assert_eq!(made(&other).heights(), &second);
+        let sq = |heights: &Field| heights.std(0.0);
+        assert!((sq(&second) / sq(first.heights()) - 1.0).abs() < 0.5);
+    }
 
     #[test]
     fn the_underside_in_results_is_mounted_as_it_is_unless_the_case_says_otherwise() {

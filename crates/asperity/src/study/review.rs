@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Acceleration, Interior, LoadedContact, Pair, PassRecord, SweepRecord};
+use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
 use crate::operator::Boundary;
 use crate::units::{self, Dimension};
 
@@ -75,8 +75,7 @@ fn thick_films(passes: &[PassRecord]) -> Option<String> {
 fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
     /// Passes from which on it is worth a word.
     const MANY: usize = 100;
-    let strategy = case.motion?.strategy;
-    let repeats = Acceleration::repeats(&strategy);
+    let repeats = case.motion?.repeats();
     let all = case.acceleration.is_none() && case.runs_in() && passes.len() >= MANY;
     (all && repeats).then(|| {
         format!("all {} passes were computed: with `[acceleration]` one stands for many, within an error that is told", passes.len())

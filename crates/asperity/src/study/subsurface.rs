@@ -79,12 +79,7 @@ impl Plan {
             error("step", format!("'step' is {}, a pass has {} positions", index + 1, positions.len()))
         })?;
         let grid = Grid { shape: [position.columns, lower.shape[1]], pitch: lower.pitch };
-        let [lower, upper] = position.places();
-        let first = match spec.body {
-            Side::Lower => lower,
-            Side::Upper => upper,
-        };
-        let corner = [first * grid.pitch[0], 0.0];
+        let corner = corner(spec.body, position, lower);
         let cell = |key: &str, axis: usize, at: Metre| {
             let length = |value| units::format(value, Dimension::Length);
             let [from, to] = [corner[axis], corner[axis] + grid.extent()[axis]];
@@ -116,6 +111,11 @@ impl Plan {
             volume: case.output.paraview,
             grid,
         }))
+    }
+
+    /// The same cells where a pass has them: on a body that moves on from pass to pass they lie elsewhere in each.
+    pub(super) fn at(&self, position: &Position, lower: &Grid) -> Self {
+        Self { corner: corner(self.body, position, lower), ..self.clone() }
     }
 
     /// Memory that the stress takes for each thread, bytes.
@@ -263,5 +263,14 @@ impl SubsurfaceRecord {
         };
         let missing = || std::io::Error::new(std::io::ErrorKind::InvalidData, "no stress in it");
         record().ok_or_else(|| Error::File { path: path.to_owned(), source: missing() })
+    }
+}
+/// The corner of the contact at a position on one of the bodies, whose cells are those of the `lower` one.
+fn corner(body: Side, position: &Position, lower: &Grid) -> [Metre; 2] {
+    let [first_lower, first_upper] = position.places();
+    let [dx, dy] = lower.pitch;
+    match body {
+        Side::Lower => [first_lower * dx, 0.0],
+        Side::Upper => [first_upper * dx, ((lower.shape[1] - position.across) % lower.shape[1]) as f64 * dy],
     }
 }

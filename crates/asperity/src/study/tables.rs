@@ -344,6 +344,7 @@ mod tests {
             pass: 1,
             step,
             offset: -1.0 / 3.0 * 1e-6,
+            offset_y: None,
             overlap_columns: 17,
             approach: f64::MIN_POSITIVE,
             load: 0.1 + 0.2,
@@ -487,7 +488,8 @@ mod tests {
         write_new(&path, &[worn.clone(), worn.clone()]);
         assert_eq!(format!("{:?}", read_passes(&path).unwrap()), format!("{:?}", [worn.clone(), worn]));
         let warm = HeatRecord { friction_power: 0.1, max_flash_temperature: 373.15 };
-        let steps = [step(1), step(2)].map(|step| StepRecord { heat: Some(warm), ..step });
+        let steps = [step(1), step(2)];
+        let steps = steps.map(|step| StepRecord { heat: Some(warm), offset_y: Some(3e-6), ..step });
         write_new(&path, &steps);
         assert_eq!(format!("{:?}", read_steps(&path).unwrap()), format!("{steps:?}"));
     }

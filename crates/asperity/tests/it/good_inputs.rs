@@ -33,6 +33,25 @@ fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none
 }
 
 #[test]
+fn a_path_an_offset_and_a_fresh_counter_body_are_read_and_written_where_they_are_given() {
+    let case = load("there_and_back");
+    let motion = case.motion.unwrap();
+    assert_eq!(motion.path, asperity::motion::Path::Reciprocating);
+    assert_eq!(motion.offset_y, asperity::motion::OffsetY::Random { seed: 12 });
+    assert_eq!(motion.counter, asperity::study::case::CounterBody::Fresh);
+    assert!(!motion.repeats() && load("running_in").motion.unwrap().repeats());
+    let written = serde_json::to_value(&case).unwrap();
+    let keys = |value: &serde_json::Value| {
+        ["path", "offset_y", "seed", "counter"].map(|key| value["motion"][key].clone())
+    };
+    let expected: [serde_json::Value; 4] =
+        ["reciprocating".into(), "random".into(), 12.into(), "fresh".into()];
+    assert_eq!(keys(&written), expected);
+    let plain = serde_json::to_value(load("running_in")).unwrap();
+    assert!(keys(&plain).iter().all(serde_json::Value::is_null));
+}
+
+#[test]
 fn the_case_of_the_contract_is_read_in_si() {
     let case = load("running_in");
     assert_eq!(case.title, "two ground steel surfaces running in");

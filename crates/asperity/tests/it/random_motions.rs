@@ -5,8 +5,8 @@
 use asperity::error::LoadLimit;
 use asperity::material::{Coating, Material};
 use asperity::motion::{
-    LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Position, Simulation,
-    StepRecord, Strategy,
+    LoadControl, Motion, OffsetY, Output, Pair, PassRecord, PassReport, Path, PlasticUpdate, Position,
+    Simulation, StepRecord, Strategy,
 };
 use asperity::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity::solver::{
@@ -93,7 +93,11 @@ impl Case {
             .with_load_control(LoadControl::Pass)
             .with_plastic_update(plastic_update)
             .with_load_tolerance([1e-4, 1e-2, 1e-6][pick(rng, 3)])
+            .with_path([Path::OneWay, Path::Reciprocating][pick(rng, 2)])
             .with_friction(friction);
+        if boundary.repeats(1) && pick(rng, 2) == 0 {
+            motion.offset_y = [OffsetY::Cells(2), OffsetY::Random { seed: 1 }][pick(rng, 2)];
+        }
         let maps = pick(rng, 3) == 0;
         let cap = if maps { SOFTEST } else { 1.0 }
             * friction.map_or(hardness[0].min(hardness[1]), |f| f.sliding_cap(hardness[0].min(hardness[1])));
@@ -184,7 +188,10 @@ impl Case {
     fn under(&self, position: &Position, body: usize, [j, iy]: [usize; 2]) -> Vec<([usize; 2], f64)> {
         let first = [position.lower, position.upper][body];
         let part = position.fraction[body];
-        let cell = |ahead: usize| [(first + j + ahead) % self.columns[body], iy];
+        let across = [0, position.across][body];
+        let cell = |ahead: usize| {
+            [(first + j + ahead) % self.columns[body], (iy + self.width - across) % self.width]
+        };
         [(cell(0), 1.0 - part), (cell(1), part)].into_iter().filter(|(_, weight)| *weight > 0.0).collect()
     }
 
@@ -283,7 +290,7 @@ fn hold(
         before.response().clone(),
         case.boundary,
     );
-    let positions = case.motion.strategy.positions(case.columns[0], case.columns[1], case.motion.stride);
+    let positions = case.motion.positions(case.columns, case.width, pass.pass);
     let mut now = before.clone();
     let mut deepest = [Field::zeros(now.lower.heights.raw_dim()), Field::zeros(now.upper.heights.raw_dim())];
     let area = PITCH * PITCH;
@@ -378,8 +385,13 @@ fn again(
     match case.motion.friction {
         Some(friction) => {
             let mut operator: Box<dyn CoupledOperator> = operators.coupled_on(shape);
-            let loading =
-                Loading { normal, tangential: Tangential::Sliding([case.motion.strategy.direction(), 0.0]) };
+            let loading = Loading {
+                normal,
+                tangential: Tangential::Sliding([
+                    position.way.sign() * case.motion.strategy.direction(),
+                    0.0,
+                ]),
+            };
             let found = solve_frictional(operator.as_mut(), gap, &bounds, &friction, loading, None, &exact);
             let found = found.unwrap_or_else(|error| panic!("{error}: {case:?} {step:?}")).normal;
             let w = of(&found.pressure, &found.displacement, Some(friction));

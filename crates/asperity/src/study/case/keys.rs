@@ -65,6 +65,10 @@ const TABLES: [(&str, &[&str]); 15] = [
             "plastic_update",
             "load_tolerance",
             "speed",
+            "path",
+            "offset_y",
+            "seed",
+            "counter",
         ],
     ),
     (

@@ -32,8 +32,11 @@ use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::material::{Coating, Material};
-use crate::motion::{Acceleration, LoadControl, Motion, PlasticUpdate, Strategy};
+use crate::motion::{
+    Acceleration, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
+};
 pub use crate::operator::{Boundary, Edge};
+use crate::solver::Control;
 pub use crate::solver::Method;
 use crate::temperature::Thermal;
 use crate::units::SquareMetre;
@@ -166,6 +169,51 @@ pub struct MotionSpec {
     /// Speed of the upper body over the lower one in an overlap, where it is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
+    /// One way, or there and back.
+    #[serde(skip_serializing_if = "is_one_way")]
+    pub path: MotionPath,
+    /// Where along y the passes lie.
+    #[serde(flatten, serialize_with = "with_seed")]
+    pub offset_y: OffsetY,
+    /// What meets the lower body in the passes after the first.
+    #[serde(skip_serializing_if = "is_same")]
+    pub counter: CounterBody,
+}
+
+/// The upper body in the passes after the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CounterBody {
+    /// The same as before.
+    Same,
+    /// One that is made anew for each, by the same generator from another seed.
+    Fresh,
+}
+
+choice!(CounterBody: "same" => Same, "fresh" => Fresh);
+
+impl MotionSpec {
+    /// Whether all passes are alike: the same bodies meet at the same positions.
+    pub fn repeats(&self) -> bool {
+        self.counter == CounterBody::Same && self.under(Control::Approach(0.0)).repeats()
+    }
+
+    /// The motion under a control.
+    fn under(&self, control: Control) -> Motion {
+        Motion {
+            strategy: self.strategy,
+            passes: self.passes,
+            stride: self.stride,
+            control,
+            load_control: self.control.load_control(),
+            plastic_update: self.plastic_update,
+            load_tolerance: self.load_tolerance,
+            friction: None,
+            speed: self.speed,
+            bulk: None,
+            path: self.path,
+            offset_y: self.offset_y,
+        }
+    }
 }
 
 /// The control of a motion without its value.
@@ -271,18 +319,10 @@ impl Case {
 
     /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
-        let spec = self.motion?;
         Some(Motion {
-            strategy: spec.strategy,
-            passes: spec.passes,
-            stride: spec.stride,
-            control: self.contact.prescribed.control(apparent_area),
-            load_control: spec.control.load_control(),
-            plastic_update: spec.plastic_update,
-            load_tolerance: spec.load_tolerance,
             friction: self.friction.as_ref().map(|friction| friction.law),
-            speed: spec.speed,
             bulk: self.temperature.map(|temperature| temperature.bulk),
+            ..self.motion?.under(self.contact.prescribed.control(apparent_area))
         })
     }
 
@@ -363,6 +403,35 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
     }
     Keys { body: upper, mount: upper.mount }.serialize(serializer)
 }
+
+// What is as it is by default is left out: cases of before these keys stay known by their digests.
+
+fn is_one_way(path: &MotionPath) -> bool {
+    *path == MotionPath::OneWay
+}
+
+fn is_same(counter: &CounterBody) -> bool {
+    *counter == CounterBody::Same
+}
+
+fn with_seed<S: Serializer>(offset: &OffsetY, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(untagged)]
+    enum Keys {
+        None {},
+        Cells { offset_y: usize },
+        Random { offset_y: &'static str, seed: u64 },
+    }
+    let keys = match *offset {
+        OffsetY::NONE => Keys::None {},
+        OffsetY::Cells(offset_y) => Keys::Cells { offset_y },
+        OffsetY::Random { seed } => Keys::Random { offset_y: RANDOM, seed },
+    };
+    keys.serialize(serializer)
+}
+
+/// The word for passes that lie anywhere along y.
+const RANDOM: &str = "random";
 
 fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
     #[derive(Serialize)]

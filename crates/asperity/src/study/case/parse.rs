@@ -12,8 +12,8 @@ use super::running;
 use super::subsurface::subsurface;
 use super::sweep::{self, sweep};
 use super::{
-    Body, Boundary, Case, Contact, ControlKind, Edge, FrictionSpec, Layer, Method, MotionSpec, Mount, Output,
-    Prescribed, Source, StageSpec, StrategyKind, TopographySpec,
+    Body, Boundary, Case, Contact, ControlKind, CounterBody, Edge, FrictionSpec, Layer, Method, MotionPath,
+    MotionSpec, Mount, OffsetY, Output, Prescribed, RANDOM, Source, StageSpec, StrategyKind, TopographySpec,
 };
 use crate::error::Result;
 use crate::grid::MAX_CELLS;
@@ -92,11 +92,14 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         let message = "surfaces of equal speeds do not slide over each other".to_owned();
         return Err(root.required_table("friction")?.error(message, Some(hint)));
     }
+    if let Some(motion) = motion {
+        fresh(&root, &motion, &upper.topography)?;
+    }
     running::runs_in(&root, [&lower, &upper], motion.as_ref())?;
     let acceleration =
         root.table("acceleration")?.map(|table| accelerated(&table, [&lower, &upper], motion.as_ref()));
     let acceleration = acceleration.transpose()?;
-    let temperature = running::temperature(&root, [&lower, &upper], motion.as_ref())?;
+    let temperature = running::temperature(&root, [&lower, &upper], motion.as_ref(), contact.boundary)?;
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
@@ -141,11 +144,21 @@ fn accelerated(table: &Table<'_>, bodies: [&Body; 2], motion: Option<&MotionSpec
         let hint = "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out".to_owned();
         return Err(table.error("[acceleration] is of bodies that wear or grow films".to_owned(), Some(hint)));
     }
-    if acceleration.max_jump > 1 && motion.is_some_and(|motion| !Acceleration::repeats(&motion.strategy)) {
-        let hint = "set `max_jump = 1`, or speeds of which one is 0 or which are equal".to_owned();
-        let message =
-            "surfaces that do not move by whole rounds meet anew in each pass: no pass stands for others";
-        return Err(table.error(message.to_owned(), Some(hint)));
+    if let Some(motion) = motion.filter(|motion| acceleration.max_jump > 1 && !motion.repeats()) {
+        let (what, other) = match motion {
+            MotionSpec { counter: CounterBody::Fresh, .. } => {
+                ("a fresh counter-body meets", "`counter = \"same\"`")
+            }
+            MotionSpec { offset_y, .. } if *offset_y != OffsetY::NONE => {
+                ("surfaces that are displaced across meet", "`offset_y = 0`")
+            }
+            _ => (
+                "surfaces that do not move by whole rounds meet",
+                "speeds of which one is 0 or which are equal, or `path = \"reciprocating\"`",
+            ),
+        };
+        let message = format!("{what} anew in each pass: no pass stands for others");
+        return Err(table.error(message, Some(format!("set `max_jump = 1`, or {other}"))));
     }
     Ok(acceleration)
 }
@@ -596,7 +609,46 @@ fn motion(table: &Table<'_>, contact_table: &Table<'_>, contact: &Contact) -> Re
         plastic_update: table.choice_or("plastic_update", PlasticUpdate::Pass)?,
         load_tolerance: fraction_or(table, "load_tolerance", 1e-4)?,
         speed: speed(table, is_shift)?,
+        path: table.choice_or("path", MotionPath::OneWay)?,
+        offset_y: offset_y(table, contact.boundary)?,
+        counter: table.choice_or("counter", CounterBody::Same)?,
     })
+}
+
+/// Where along y the passes lie.
+fn offset_y(table: &Table<'_>, boundary: Boundary) -> Result<OffsetY> {
+    let entry = table.get("offset_y");
+    let is_random = entry.as_ref().is_some_and(|entry| entry.text().is_ok());
+    if let Some(seed) = table.get("seed").filter(|_| !is_random) {
+        let hint = "set `offset_y = \"random\"`, or leave 'seed' out".to_owned();
+        return Err(seed.error("'seed' is that of passes that lie anywhere along y".to_owned(), Some(hint)));
+    }
+    let Some(entry) = entry else { return Ok(OffsetY::NONE) };
+    let offset = if is_random {
+        let random = entry.word(&[(RANDOM, ())]);
+        random.map_err(|_| entry.unexpected("a whole number of cells, or \"random\"", None))?;
+        OffsetY::Random { seed: seed(table)? }
+    } else {
+        OffsetY::Cells(entry.count(0)?)
+    };
+    if offset != OffsetY::NONE && !boundary.repeats(1) {
+        let hint = "set `boundary = [\"free\", \"periodic\"]` or `\"periodic\"` in [contact], or leave 'offset_y' out".to_owned();
+        let message =
+            "what is displaced along y comes in on the other side: its boundary is periodic along y";
+        return Err(entry.error(message.to_owned(), Some(hint)));
+    }
+    Ok(offset)
+}
+
+/// An error if the upper body is to be made anew for each pass, and is not made from a seed.
+fn fresh(root: &Table<'_>, motion: &MotionSpec, upper: &TopographySpec) -> Result<()> {
+    if motion.counter == CounterBody::Same || matches!(upper.source, Source::Generate { .. }) {
+        return Ok(());
+    }
+    let entry = root.required_table("motion")?.required("counter", "\"fresh\"")?;
+    let message = "a fresh counter-body is made from another seed: the upper topography has none".to_owned();
+    let hint = "give [upper.topography] a `generate`, or set `counter = \"same\"`".to_owned();
+    Err(entry.error(message, Some(hint)))
 }
 
 /// The speed of the upper body, of an overlap alone.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::keys::known_in;
-use super::{Body, Case, Hardness, MotionSpec};
+use super::{Body, Boundary, Case, Hardness, MotionSpec};
 use crate::choice::{Choice, choice};
 use crate::error::Result;
 use crate::motion::{
@@ -216,6 +216,7 @@ pub(super) fn temperature(
     root: &Table<'_>,
     bodies: [&Body; 2],
     motion: Option<&MotionSpec>,
+    boundary: Boundary,
 ) -> Result<Option<TemperatureSpec>> {
     let given = bodies.map(|body| body.thermal.is_some());
     if given[0] != given[1] {
@@ -265,6 +266,12 @@ pub(super) fn temperature(
             return refused(
                 "a flash temperature needs a speed",
                 "for example `speed = \"0.5 m/s\"` in [motion]",
+            );
+        }
+        if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
+            return refused(
+                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+                "set `boundary = \"periodic\"` in [contact], or `every = 0`",
             );
         }
         if motion.plastic_update == PlasticUpdate::Step {

@@ -8,7 +8,7 @@ use crate::material::Compliances;
 use crate::motion::{PlasticUpdate, Point, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Control, Coupling, Friction, Method, Sliding};
-use crate::study::case::{Body, Case, ControlKind, Layer, LoadingPath, Source};
+use crate::study::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source};
 use crate::study::given::Given;
 use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
@@ -38,8 +38,7 @@ pub struct Demand {
 /// [`Error::Case`] if a file cannot be read, or if a step of its preparation has no meaning on its grid.
 pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
     let [lower, upper] = grids(case, given)?;
-    let overlaps: Vec<usize> =
-        super::positions(case, lower.shape[0], upper.shape[0]).iter().map(|p| p.columns).collect();
+    let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
     let surfaces = sizes.surfaces();
     let Memory { solver, together, results } = sizes.memory();
@@ -156,7 +155,7 @@ impl Sizes<'_> {
         // iteration some thirty numbers for each cell.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
-        let positions = super::positions(case, self.lower.shape[0], self.upper.shape[0]);
+        let positions = super::positions(case, [self.lower, self.upper]);
         if let Ok(Some(plan)) = Plan::new(case, &self.lower, &positions) {
             solver += plan.memory();
         }
@@ -164,7 +163,7 @@ impl Sizes<'_> {
         let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
         let together = motion
             .and_then(|motion| {
-                memory_together(&motion, case.contact.method, yields, self.overlaps, self.lower.shape[1])
+                memory_together(&motion, case.contact.method, yields, self.solved(), self.lower.shape[1])
             })
             .unwrap_or(0.0);
         // Each field as it is, and as it is written; the solution.
@@ -179,6 +178,14 @@ impl Sizes<'_> {
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
         Memory { solver, together, results: NUMBER * results }
+    }
+
+    /// Columns that face each other at the positions that are solved.
+    fn solved(&self) -> &[usize] {
+        let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
+        let yields = self.case.lower.hardness.yields() || self.case.upper.hardness.yields();
+        let all = self.overlaps.len();
+        &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
     }
 
     /// Whether tractions along all directions are computed.
@@ -234,7 +241,7 @@ impl Sizes<'_> {
         };
         let digits = (-case.contact.tolerance.log10() / 6.0).max(0.3);
         let normal = SOLVE * boundary * method * digits;
-        let all: f64 = self.overlaps.iter().map(|columns| work(*columns as f64)).sum();
+        let all: f64 = self.solved().iter().map(|columns| work(*columns as f64)).sum();
         let mut effort = match (case.motion, &case.friction) {
             (Some(motion), _) => {
                 let searches = match (motion.control, motion.plastic_update) {
@@ -243,7 +250,7 @@ impl Sizes<'_> {
                     _ => 1.0,
                 };
                 let sliding = if self.is_coupled() { 8.0 } else { 1.0 };
-                let at_once = threads.clamp(1, self.overlaps.len().max(1)) as f64;
+                let at_once = threads.clamp(1, self.solved().len().max(1)) as f64;
                 self.computed_passes(motion.passes) * searches * sliding * normal * all / at_once.powf(0.85)
             }
             (None, friction) => {
@@ -278,8 +285,13 @@ impl Sizes<'_> {
             let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
             effort += passes * STRESS * tractions * (spec.layers + spec.planes.len()) as f64 * work(nx);
         }
-        let made: f64 = self.making().iter().map(|[cells, _]| cells * cells.max(2.0).log2()).sum();
-        effort + MAKING * made
+        // A fresh counter-body is made for each pass.
+        let times = match case.motion {
+            Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
+            _ => [1.0; 2],
+        };
+        let made = self.making().into_iter().zip(times);
+        effort + MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>()
     }
 }
 

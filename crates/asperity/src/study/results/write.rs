@@ -194,7 +194,7 @@ impl Output for PassWriter {
         let results = &self.results;
         let mut file = FieldFile::of_run(&self.identity);
         file.set("pass", report.record.pass);
-        set_caps(&mut file, pair, report.sliding.as_ref().map(|sliding| &sliding.friction));
+        set_caps(&mut file, pair, report.motion.friction.as_ref());
         add_bodies(&mut file, pair);
         let [lower, upper] = report.mean_pressure();
         file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
@@ -208,11 +208,11 @@ impl Output for PassWriter {
                 if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
                     file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
                 }
-                let friction = report.sliding.as_ref().map(|sliding| &sliding.friction);
+                let friction = report.motion.friction.as_ref();
                 if let CellValues::Field(cap) = pair.bounds(&contact.position, friction).upper() {
                     file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
                 }
-                if let Some(sliding) = report.sliding {
+                if let Some(sliding) = report.motion.sliding(contact.position.way) {
                     let traction = pressure.mapv(|p| sliding.shear(p)[0]);
                     file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
                 }
@@ -221,10 +221,13 @@ impl Output for PassWriter {
         file.write(&results.fields_path(report.record.pass))?;
         if let Some(plan) = &self.plan {
             let pass = Some(report.record.pass);
-            let pressure = report.contacts[plan.index].pressure_field(pair.lower.width());
+            let contact = &report.contacts[plan.index];
+            let pressure = contact.pressure_field(pair.lower.width());
+            let sliding = report.motion.sliding(contact.position.way);
             let path = results.subsurface_path(pass);
-            let shear = |axis: usize| report.sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
+            let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            let plan = plan.at(&contact.position, &pair.lower_grid());
             plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?;
         }
         let passes = report.record.pass;
