@@ -163,6 +163,14 @@ fn motion(case: &Case, estimate: &Estimate) -> String {
             Some(LoadingPath::Sweep(points)) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
+            None => match case.sliding {
+                Some(sliding) => format!(
+                    "in place over {}, {}",
+                    units::format(sliding.distance, Dimension::Length),
+                    plural(sliding.updates, "update", "updates")
+                ),
+                None => "none: one static contact".to_owned(),
+            },
             _ => "none: one static contact".to_owned(),
         };
     };

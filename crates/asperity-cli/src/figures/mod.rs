@@ -8,6 +8,7 @@ mod profile;
 mod rest;
 mod running;
 mod sheet;
+mod sliding;
 mod stored;
 mod subsurface;
 mod sweep;
@@ -45,6 +46,10 @@ pub(crate) fn draw(
         true => rest::draw(results, &mut sheet)?,
         false => motion::draw(results, &passes, &mut sheet)?,
     };
+    let updates = results.updates()?;
+    if !updates.is_empty() {
+        sliding::draw(&updates, &results.static_fields()?, &of, &mut sheet)?;
+    }
     let points = results.sweep()?;
     if !points.is_empty() {
         sweep::draw(&points, &results.case()?, &mut sheet)?;

@@ -411,9 +411,10 @@ impl PassRecord {
 
 /// Volumes as columns: four for each law, by its name.
 mod lost_volumes {
-    use std::collections::BTreeMap;
+    use std::fmt;
 
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+    use serde::de::{Deserializer, Error, MapAccess, Visitor};
+    use serde::ser::Serializer;
 
     use super::{CubicMetre, LostVolume};
 
@@ -442,18 +443,37 @@ mod lost_volumes {
         endings: [&str; N],
     ) -> Result<Vec<(String, [CubicMetre; N])>, D::Error> {
         // All columns that no field has come here, those of numbers that there are not among them.
-        let columns = BTreeMap::<String, Option<CubicMetre>>::deserialize(deserializer)?;
-        let laws = columns.keys().filter_map(|column| column.strip_suffix(endings[0]));
+        let columns = deserializer.deserialize_map(InOrder)?;
+        let laws = columns.iter().filter_map(|(column, _)| column.strip_suffix(endings[0]));
         laws.map(|law| {
             let mut values = [0.0; N];
             for (value, ending) in values.iter_mut().zip(endings) {
                 let column = format!("{law}{ending}");
-                let found = columns.get(&column).copied().flatten();
+                let found = columns.iter().find(|(known, _)| *known == column).and_then(|(_, value)| *value);
                 *value = found.ok_or_else(|| D::Error::custom(format!("no column `{column}`")))?;
             }
             Ok((law.to_owned(), values))
         })
         .collect()
+    }
+
+    /// Columns in their order, which is that of the laws.
+    struct InOrder;
+
+    impl<'de> Visitor<'de> for InOrder {
+        type Value = Vec<(String, Option<CubicMetre>)>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+            formatter.write_str("columns of numbers")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut columns = Vec::new();
+            while let Some(column) = map.next_entry()? {
+                columns.push(column);
+            }
+            Ok(columns)
+        }
     }
 
     /// Those of the whole bodies: two for each law.

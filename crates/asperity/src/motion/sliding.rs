@@ -132,6 +132,13 @@ pub struct SlidingState {
     pub pressure: Field,
 }
 
+impl SlidingState {
+    /// The state of a `contact` whose bodies are those after these `updates`, the last of which had that `pressure`.
+    pub fn resumed(contact: &InPlace, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
+        Self { pair: contact.pair.clone(), updates, pressure }
+    }
+}
+
 /// Takes the updates of a contact that slides. An output that cannot be written ends it.
 pub trait SlidingOutput {
     /// Takes the state after an update.

@@ -29,7 +29,7 @@ pub struct Estimate {
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
-    /// How a static contact is computed; none of a motion.
+    /// How a static contact is computed; none of a motion, nor of one that slides in place.
     pub loading_path: Option<LoadingPath>,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; of maps the least.
     pub hardness: Pascal,
@@ -96,6 +96,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     }
     let cap = |hardness| match (case.motion(apparent_area), &loading_path) {
         (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
+        (None, None) => law.map_or(hardness, |friction| friction.sliding_cap(hardness)),
         (None, Some(LoadingPath::Stages(stages))) => stage_cap(law, &stages[0], hardness),
         _ => hardness,
     };

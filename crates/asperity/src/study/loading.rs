@@ -189,15 +189,15 @@ impl LoadingWriter {
 }
 
 /// A state as it is read back.
-struct Stored {
+pub(super) struct Stored {
     path: PathBuf,
-    fields: Fields,
+    pub(super) fields: Fields,
     names: Vec<String>,
     attributes: BTreeMap<String, Attribute>,
 }
 
 impl Stored {
-    fn open(path: &Path) -> Result<Self> {
+    pub(super) fn open(path: &Path) -> Result<Self> {
         let fields = Fields::open(path)?;
         let (names, attributes) = (fields.names()?, fields.attributes()?);
         Ok(Self { path: path.to_owned(), fields, names, attributes })
@@ -207,7 +207,7 @@ impl Stored {
         self.names.iter().any(|held| held == name)
     }
 
-    fn field(&self, name: &str) -> Result<Field> {
+    pub(super) fn field(&self, name: &str) -> Result<Field> {
         self.fields.read(name)?.into_field().ok_or_else(|| self.damaged(name))
     }
 
@@ -215,7 +215,7 @@ impl Stored {
         Ok([self.field(&format!("{name}_x"))?, self.field(&format!("{name}_y"))?])
     }
 
-    fn number(&self, name: &str) -> Result<f64> {
+    pub(super) fn number(&self, name: &str) -> Result<f64> {
         match self.attributes.get(name) {
             Some(Attribute::Number(number)) => Ok(*number),
             Some(Attribute::Integer(number)) => Ok(*number as f64),

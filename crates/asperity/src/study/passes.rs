@@ -123,7 +123,7 @@ impl Passes {
         let passes = self.done()?;
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
         let subsurface = self.output.subsurface(passes.len())?;
-        let outcome = (Outcome::Passes(passes), subsurface);
+        let outcome = (Outcome::Passes(passes), subsurface, None);
         let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
         Ok((summary, self.writer))
     }

@@ -3,10 +3,10 @@
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::motion::{
-    Equilibrium, IncrementRecord, LoadedContact, Pair, StaticContact, Watch, load_in_stages, press, roll,
-    sweep,
+    Equilibrium, FILM, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState, State, StaticContact,
+    UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, roll, sweep,
 };
-use crate::solver::{Params, Solution};
+use crate::solver::{Friction, Params, Solution};
 use crate::study::case::{Case, LoadingPath};
 use crate::study::estimate::estimate;
 use crate::study::given::Given;
@@ -15,6 +15,7 @@ use crate::study::prepare::bodies;
 use crate::study::results::Writer;
 use crate::study::review;
 use crate::study::run::{pair, params};
+use crate::study::sliding::SlidingWriter;
 use crate::study::summary::Outcome;
 use crate::subsurface::Tractions;
 use crate::units::{Metre, Pascal, SquareMetre};
@@ -27,6 +28,8 @@ pub struct Rest {
     pub outcome: Outcome,
     /// The increments of a loading in stages; none of other contacts.
     pub increments: Vec<IncrementRecord>,
+    /// The updates of a contact that slides in place, the first before it slides; none of other contacts.
+    pub updates: Vec<UpdateRecord>,
     /// The fields of the contact, at the last point of a sweep.
     pub fields: RestFields,
     /// What the user should know about the result.
@@ -76,6 +79,7 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     Ok(Rest {
         outcome: solved.outcome(),
         increments: solved.increments().to_vec(),
+        updates: solved.updates().to_vec(),
         fields: solved.into_fields(pair),
         warnings: [estimate.warnings, warnings].concat(),
     })
@@ -89,6 +93,24 @@ pub(super) enum Solved {
     Loaded(Box<LoadedContact>, Option<Box<LoadingWriter>>),
     /// A sweep: its points, the last as a whole.
     Swept(Outcome, Box<LoadedContact>),
+    /// Worn in place.
+    Slid(Box<WornContact>, Option<Friction>, Option<Box<SlidingWriter>>),
+}
+
+/// What has kept the course of a contact.
+pub(super) enum UnderWay {
+    Loading(Box<LoadingWriter>),
+    Sliding(Box<SlidingWriter>),
+}
+
+impl UnderWay {
+    /// Removes what was kept to go on from.
+    pub(super) fn done(&self) -> Result<()> {
+        match self {
+            Self::Loading(writer) => writer.done(),
+            Self::Sliding(writer) => writer.done(),
+        }
+    }
 }
 
 /// Solves the static contact of `case`, whose bodies are a `pair`, and tells what to be wary of in the answer. What is kept on
@@ -105,6 +127,21 @@ pub(super) fn solve(
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let begin = || writer.map_or(Ok(()), Writer::begin);
     let every = case.output.pressure_every;
+    if let Some(slide) = case.slide(apparent_area) {
+        let friction = slide.friction;
+        begin()?;
+        let mut kept = writer.map(|writer| Box::new(writer.sliding(slide.ends.len() + 1)));
+        let left = kept.as_ref().map(|kept| kept.under_way(pair)).transpose()?.flatten();
+        let from = left.as_ref().map_or(pair, |left| &left.pair).clone();
+        let contact = case.wearing(InPlace::new(from, boundary, slide, *params)?)?;
+        let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
+        let worn = match &mut kept {
+            None => contact.run(state, watch, &mut ())?,
+            Some(kept) => contact.run(state, watch, kept.as_mut())?,
+        };
+        let warnings = at_rest(&worn.state.pair, case, &worn.solution);
+        return Ok((Solved::Slid(Box::new(worn), friction, kept), warnings));
+    }
     Ok(match (case.loading_path(apparent_area), law) {
         (Some(LoadingPath::Sweep(points)), law) => {
             begin()?;
@@ -161,20 +198,34 @@ impl Solved {
             Self::Pressed(contact) => Outcome::Static(Box::new(contact.record.clone())),
             Self::Loaded(contact, _) => Outcome::Static(Box::new(contact.record.clone())),
             Self::Swept(outcome, _) => outcome.clone(),
+            Self::Slid(contact, ..) => Outcome::Static(Box::new(contact.record.clone())),
+        }
+    }
+
+    /// The last update of a contact that has slid in place.
+    pub(super) fn last_update(&self) -> Option<UpdateRecord> {
+        self.updates().last().cloned()
+    }
+
+    fn updates(&self) -> &[UpdateRecord] {
+        match self {
+            Self::Slid(contact, ..) => &contact.state.updates,
+            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) => &[],
         }
     }
 
     fn increments(&self) -> &[IncrementRecord] {
         match self {
             Self::Loaded(contact, _) => &contact.increments,
-            Self::Pressed(_) | Self::Swept(..) => &[],
+            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) => &[],
         }
     }
 
-    /// What has kept the increments of a loading.
-    pub(super) fn take_under_way(&mut self) -> Option<Box<LoadingWriter>> {
+    /// What has kept the course of a loading, or of sliding in place.
+    pub(super) fn take_under_way(&mut self) -> Option<UnderWay> {
         match self {
-            Self::Loaded(_, loading) => loading.take(),
+            Self::Loaded(_, loading) => loading.take().map(UnderWay::Loading),
+            Self::Slid(_, _, sliding) => sliding.take().map(UnderWay::Sliding),
             Self::Pressed(_) | Self::Swept(..) => None,
         }
     }
@@ -183,6 +234,7 @@ impl Solved {
     pub(super) fn into_fields(self, pair: Pair) -> RestFields {
         let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
         let (solution, plastic, slip) = match self {
+            Self::Slid(contact, friction, _) => return worn_fields(*contact, friction, hardness),
             Self::Pressed(contact) => {
                 let StaticContact { solution, .. } = *contact;
                 let plastic = solution.plastic_interference();
@@ -229,6 +281,48 @@ impl Solved {
         }
         RestFields { grid, approach: normal.approach, hardness, fields }
     }
+}
+
+/// Names of the fields of what laws keep of the lower and of the upper body.
+const STATES: [(&str, [&str; 2]); 3] = [
+    (WEAR, ["wear_lower", "wear_upper"]),
+    (FILM, ["film_lower", "film_upper"]),
+    ("film_grown", ["film_grown_lower", "film_grown_upper"]),
+];
+
+/// The fields of a contact that was worn in place, with its bodies as they are then.
+fn worn_fields(contact: WornContact, friction: Option<Friction>, hardness: Pascal) -> RestFields {
+    let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
+    let (grid, approach) = (pair.lower_grid(), solution.approach);
+    let (gap, plastic) = (solution.gap(), solution.plastic_interference());
+    let mut fields = Vec::new();
+    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    let shear = friction.map(|friction| solution.pressure.mapv(|p| friction.shear_limit(p)));
+    add("pressure", "Pa", solution.pressure);
+    add("displacement", "m", solution.displacement);
+    add("gap", "m", gap);
+    for (state, names) in STATES {
+        for (name, body) in names.into_iter().zip([&pair.lower, &pair.upper]) {
+            if let Some(State { values, .. }) = body.state.get(state) {
+                add(name, "m", values.clone());
+            }
+        }
+    }
+    add("lower", "m", pair.lower.heights);
+    add("upper", "m", pair.upper.heights);
+    add("plastic", "m", plastic);
+    if let CellValues::Field(cap) = solution.bounds.upper() {
+        add("cap", "Pa", cap.clone());
+    }
+    if let Some(shear) = shear {
+        let nothing = Field::zeros(shear.raw_dim());
+        add("traction_x", "Pa", shear);
+        add("traction_y", "Pa", nothing);
+    }
+    if let Some(temperature) = temperature {
+        add("temperature", "K", temperature);
+    }
+    RestFields { grid, approach, hardness, fields }
 }
 
 impl RestFields {

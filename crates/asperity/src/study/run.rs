@@ -5,7 +5,7 @@ use std::path::Path;
 use web_time::Instant;
 
 use crate::error::Result;
-use crate::motion::{Pair, Watch};
+use crate::motion::{Pair, UpdateRecord, Watch};
 use crate::solver::Params;
 use crate::study::case::Case;
 use crate::study::estimate::{Estimate, estimate};
@@ -50,14 +50,15 @@ pub fn run(
     let writer = Writer::enter(directory, &resolved, existing)?;
     let (mut solved, of_answer) = rest::solve(case, &pair, apparent_area, Some(&writer), watch)?;
     warnings.extend(of_answer);
-    let (outcome, under_way) = (solved.outcome(), solved.take_under_way());
+    let (outcome, sliding) = (solved.outcome(), solved.last_update());
+    let under_way = solved.take_under_way();
     let fields = solved.into_fields(pair);
     writer.write_rest(&fields)?;
     let stress =
         subsurface.map(|plan| writer.write_subsurface(&plan, fields.into_tractions())).transpose()?;
     let summary =
-        conclude(case, &writer, resolved, began, (outcome, stress.into_iter().collect()), warnings)?;
-    under_way.map_or(Ok(()), |loading| loading.done())?;
+        conclude(case, &writer, resolved, began, (outcome, stress.into_iter().collect(), sliding), warnings)?;
+    under_way.map_or(Ok(()), |under_way| under_way.done())?;
     Ok((summary, writer))
 }
 
@@ -67,7 +68,7 @@ pub(super) fn conclude(
     writer: &Writer,
     resolved: serde_json::Value,
     began: Instant,
-    (outcome, subsurface): (Outcome, Vec<SubsurfaceRecord>),
+    (outcome, subsurface, sliding): (Outcome, Vec<SubsurfaceRecord>, Option<UpdateRecord>),
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     warnings.extend(writer.warning().map(str::to_owned));
@@ -80,6 +81,7 @@ pub(super) fn conclude(
     };
     let summary = Summary {
         running_in,
+        sliding,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::motion::{PassRecord, StaticRecord, SweepRecord};
+use crate::motion::{PassRecord, StaticRecord, SweepRecord, UpdateRecord};
 use crate::units::{CubicMetre, Metre, Second};
 
 /// The content of `summary.json`.
@@ -25,6 +25,9 @@ pub struct Summary {
     /// What the passes of bodies that wear or grow films come to together; none of others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub running_in: Option<RunningIn>,
+    /// The last update of a contact that has slid in place: what it has lost and come to; none of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<UpdateRecord>,
     /// The most stressed point, of a static contact once, of a motion for each pass; none where the stress was not
     /// wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -146,6 +149,7 @@ mod tests {
             version: "0.1.0".into(),
             case: serde_json::json!({"contact": {"load": 2.0}}),
             running_in: None,
+            sliding: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {
                 pass: None,

@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord};
+use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -162,7 +162,15 @@ pub(super) fn read_passes(path: &Path) -> Result<Vec<PassRecord>> {
     read_growing(path)
 }
 
-/// `steps.csv` or `passes.csv` of a motion under way: rows are added to its end.
+/// Reads `updates.csv`.
+///
+/// # Errors
+/// [`Error::File`]; the message has the line where a row is damaged.
+pub(super) fn read_updates(path: &Path) -> Result<Vec<UpdateRecord>> {
+    read_growing(path)
+}
+
+/// `steps.csv` or `passes.csv` of a motion, or `updates.csv` of a contact that slides in place, under way: rows are added to its end.
 pub(super) struct GrowingTable {
     path: PathBuf,
     /// Its columns; none of a table without a row.

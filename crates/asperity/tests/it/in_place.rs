@@ -1,13 +1,16 @@
 //! Contacts that slide and wear in place: implicit updates, and the compliance with which they are solved.
 
+use std::path::Path;
+
 use asperity::grid::CellValues;
 use asperity::material::Material;
 use asperity::motion::{
-    FILM, Film, FilmLaw, FilmStress, Films, InPlace, Law, Pair, Slide, SlidingOutput, SlidingState, State,
-    Touching, WEAR, Wear, WearCoefficient, WornContact, press,
+    FILM, Film, FilmLaw, FilmStress, Films, InPlace, Law, Pair, Progress, Slide, SlidingOutput, SlidingState,
+    State, Touching, UpdateRecord, WEAR, Watch, Wear, WearCoefficient, WornContact, press,
 };
 use asperity::operator::{Boundary, Compliant, DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Coupling, Friction, Method, Params, Solution, solve_normal};
+use asperity::study::{self, Case, Existing, Given};
 use asperity::surface::{Amplitude, Form, SelfAffine};
 use asperity::temperature::Thermal;
 use asperity::{Error, Field, Grid, Result};
@@ -367,7 +370,7 @@ fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
     for stop in [1, 3, 6] {
         let mut kept = Kept(Vec::new(), stop);
         assert!(everything(pair.clone(), 6).run(None, &(), &mut kept).is_err());
-        let mut state = kept.0.pop().unwrap();
+        let state = kept.0.pop().unwrap();
         // From the heights and the films alone, as files keep them.
         let mut at = pair.clone();
         for (body, worn) in [(&mut at.lower, &state.pair.lower), (&mut at.upper, &state.pair.upper)] {
@@ -375,7 +378,7 @@ fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
             body.state.clone_from(&worn.state);
         }
         let contact = everything(at, 6);
-        state.pair = contact.pair().clone();
+        let state = SlidingState::resumed(&contact, state.updates, state.pressure);
         let rest = contact.run(Some(state), &(), &mut ()).unwrap();
         assert_eq!(rest.state.updates, whole.state.updates);
         assert_eq!(rest.state.pair.upper.heights, whole.state.pair.upper.heights);
@@ -467,4 +470,88 @@ fn what_has_no_meaning_is_refused() {
     let slide = Slide::graded(1.0, 3, load).with_friction(Friction::coulomb(0.1).unwrap());
     let error = InPlace::new(unlike, Boundary::FREE, slide, Params::default()).err().unwrap();
     assert!(error.to_string().contains("coupling"), "{error}");
+}
+
+const CASE: &str = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+hardness = "2 GPa"
+conductivity = "46 W/(m K)"
+heat_capacity = "460 J/(kg K)"
+density = "7850 kg/m3"
+topography = { form = "flat", shape = [32, 32], pitch = "4 um" }
+wear = { coefficient = "1e-4 mm3/(N m)", under_film = "1e-5 mm3/(N m)" }
+film = { law = "mechano-chemical", max_thickness = "50 nm", x = 1e-14, c3 = "5 nm", c4 = 0.1, hardness = "1.5 GPa" }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+conductivity = "46 W/(m K)"
+heat_capacity = "460 J/(kg K)"
+density = "7850 kg/m3"
+topography = { form = "sphere", radius = "5 mm", shape = [32, 32], pitch = "4 um" }
+wear = { energy = "1e-3 mm3/J" }
+[contact]
+load = "1 N"
+[friction]
+coefficient = 0.1
+coupling = "none"
+[sliding]
+distance = "50 mm"
+speed = "10 mm/s"
+updates = 8
+[temperature]
+bulk = "100 °C"
+"#;
+
+/// Stops after so many updates.
+struct Stop(std::sync::atomic::AtomicUsize);
+
+impl Watch for Stop {
+    fn at(&self, _: &Progress) {}
+
+    fn update(&self, _: &UpdateRecord) {
+        self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(std::sync::atomic::Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse(CASE, Path::new("case.toml"), folder.path()).unwrap();
+    let run = |name: &str, existing, watch: &dyn Watch| {
+        study::run(&case, Given::default(), &folder.path().join(name), existing, watch)
+    };
+    let (summary, writer) = run("whole", Existing::Keep, &()).unwrap();
+    let whole = writer.results().clone();
+    let updates = whole.updates().unwrap();
+    assert_eq!(updates.len(), 9);
+    assert_eq!(summary.sliding.as_ref(), updates.last());
+    let last = updates.last().unwrap();
+    assert!((last.distance, last.time) == (0.05, 5.0) && last.max_temperature > 373.15);
+    assert!(last.lost("wear").iter().all(|volume| *volume > 0.0) && last.lost("film")[0] < 0.0);
+    // By the energy of friction, whatever the pressures: α μ W s.
+    assert!((last.lost("wear")[1] / (1e-12 * 0.1 * 0.05) - 1.0).abs() < 1e-9);
+    let names = whole.static_fields().unwrap().names().unwrap();
+    for name in ["pressure", "gap", "lower", "wear_lower", "wear_upper", "film_lower", "temperature"] {
+        assert!(names.iter().any(|known| known == name), "{name} is missing in {names:?}");
+    }
+    assert!(matches!(run("cut", Existing::Keep, &Stop(4.into())).err(), Some(Error::Interrupted)));
+    let (again, writer) = run("cut", Existing::Resume, &()).unwrap();
+    assert_eq!(again.sliding, summary.sliding);
+    assert_eq!(again.outcome, summary.outcome);
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name).join("updates.csv")).unwrap();
+    assert_eq!(text("cut"), text("whole"));
+    for name in names.iter().filter(|name| *name != "temperature") {
+        let [one, other] = [&whole, writer.results()]
+            .map(|results| results.static_fields().unwrap().read(name).unwrap().into_field().unwrap());
+        assert_eq!(one, other, "{name}");
+    }
+    assert!(!folder.path().join("cut/fields/update-state.h5").exists());
+    let memory = study::rest(&case, Given::default(), &()).unwrap();
+    assert_eq!(memory.updates, updates);
 }

@@ -102,12 +102,12 @@ impl LoadingPath {
 
 impl Case {
     /// The loading path of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
-    /// `[motion]`.
+    /// `[motion]` or `[sliding]`.
     ///
     /// Without friction a first stage is a single increment: pressed for the first time, a contact does not depend on its
     /// steps.
     pub fn loading_path(&self, apparent_area: SquareMetre) -> Option<LoadingPath> {
-        if self.motion.is_some() {
+        if self.motion.is_some() || self.sliding.is_some() {
             return None;
         }
         let friction = self.friction.as_ref();

@@ -5,7 +5,7 @@ use super::document::join;
 use crate::error::Result;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 15] = [
+const TABLES: [(&str, &[&str]); 16] = [
     (
         "lower",
         &[
@@ -91,6 +91,7 @@ const TABLES: [(&str, &[&str]); 15] = [
     ("subsurface", &["body", "to", "layers", "planes", "section", "columns", "step"]),
     ("output", &["pressure_every", "rim", "paraview"]),
     ("acceleration", &["tolerance", "max_jump", "max_wear"]),
+    ("sliding", &["distance", "speed", "updates"]),
     ("temperature", &["bulk", "every"]),
     ("lower.wear", WEAR),
     ("upper.wear", WEAR),

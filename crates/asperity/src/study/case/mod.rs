@@ -11,6 +11,7 @@ mod keys;
 mod parse;
 mod prescribed;
 mod running;
+mod sliding;
 mod source;
 mod subsurface;
 mod sweep;
@@ -25,6 +26,7 @@ pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{GivenMap, Hardness, HardnessMap};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
+pub use self::sliding::SlidingSpec;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 pub use self::sweep::Sweep;
@@ -63,6 +65,9 @@ pub struct Case {
     /// How they move; a static contact if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
+    /// How a static contact slides in place; not at all if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<SlidingSpec>,
     /// How many passes a computed one may stand for; each is computed if absent.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "with_jumps")]
     pub acceleration: Option<Acceleration>,

@@ -9,6 +9,7 @@ use super::hardness::hardness;
 use super::keys::{belongs, known_in, known_of_topographies, suits};
 use super::prescribed::prescribed;
 use super::running;
+use super::sliding::{alone, sliding};
 use super::subsurface::subsurface;
 use super::sweep::{self, sweep};
 use super::{
@@ -48,7 +49,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
     /// The tables and keys of the root of a case file.
-    const ROOT: [&str; 11] = [
+    const ROOT: [&str; 12] = [
         "title",
         "lower",
         "upper",
@@ -56,6 +57,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         "friction",
         "history",
         "motion",
+        "sliding",
         "acceleration",
         "temperature",
         "subsurface",
@@ -79,9 +81,11 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
     let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
+    let sliding = root.table("sliding")?.map(|table| sliding(&table)).transpose()?;
+    alone(&root, [&lower, &upper])?;
+    let slides = motion.is_some() || sliding.is_some();
     let yields = lower.hardness.yields() || upper.hardness.yields();
-    let friction =
-        root.table("friction")?.map(|table| friction(&table, yields, motion.is_some())).transpose()?;
+    let friction = root.table("friction")?.map(|table| friction(&table, yields, slides)).transpose()?;
     let stages = root.get("history");
     stands_alone(&contact_table, friction.as_ref(), motion.is_some(), stages.is_some())?;
     let history = history(stages.as_ref(), motion.is_some(), friction.as_ref())?;
@@ -95,11 +99,17 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     if let Some(motion) = motion {
         fresh(&root, &motion, &upper.topography)?;
     }
-    running::runs_in(&root, [&lower, &upper], motion.as_ref())?;
+    running::runs_in(&root, [&lower, &upper], motion.as_ref(), sliding.as_ref())?;
     let acceleration =
         root.table("acceleration")?.map(|table| accelerated(&table, [&lower, &upper], motion.as_ref()));
     let acceleration = acceleration.transpose()?;
-    let temperature = running::temperature(&root, [&lower, &upper], motion.as_ref(), contact.boundary)?;
+    let temperature = running::temperature(
+        &root,
+        [&lower, &upper],
+        motion.as_ref(),
+        sliding.as_ref(),
+        contact.boundary,
+    )?;
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
@@ -118,7 +128,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         return Err(entry.error(message.to_owned(), Some(hint)));
     }
     if [&lower, &upper].iter().any(|body| body.material.coating.is_some()) {
-        pressed_alone(&root, &contact, friction.as_ref(), motion.is_some())?;
+        pressed_alone(&root, &contact, friction.as_ref(), slides)?;
     }
     let output = output(root.table("output")?.as_ref())?;
     Ok(Case {
@@ -129,6 +139,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         friction,
         history,
         motion,
+        sliding,
         acceleration,
         temperature,
         subsurface,

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::keys::known_in;
-use super::{Body, Boundary, Case, Hardness, MotionSpec};
+use super::{Body, Boundary, Case, Hardness, MotionSpec, SlidingSpec};
 use crate::choice::{Choice, choice};
 use crate::error::Result;
 use crate::motion::{
-    Acceleration, Film, FilmLaw, FilmStress, Films, PlasticUpdate, Simulation, Strategy, Wear,
+    Acceleration, Film, FilmLaw, FilmStress, Films, InPlace, Pair, PlasticUpdate, Simulation, Strategy, Wear,
     WearCoefficient,
 };
 use crate::temperature::Thermal;
@@ -216,6 +216,7 @@ pub(super) fn temperature(
     root: &Table<'_>,
     bodies: [&Body; 2],
     motion: Option<&MotionSpec>,
+    sliding: Option<&SlidingSpec>,
     boundary: Boundary,
 ) -> Result<Option<TemperatureSpec>> {
     let given = bodies.map(|body| body.thermal.is_some());
@@ -236,13 +237,16 @@ pub(super) fn temperature(
         };
     };
     known_in(&table)?;
-    let Some(motion) = motion else {
+    if motion.is_none() && sliding.is_none() {
         return Err(table.error("a contact at rest has no [temperature]".to_owned(), None));
-    };
+    }
     let entry = table.required("bulk", "\"100 °C\"")?;
     let expected = "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
     let bulk = entry.pair(expected, |item| item.positive(Dimension::Temperature))?;
     let every = table.get("every").map_or(Ok(usize::from(given[0])), |entry| entry.count(0))?;
+    if let (Some(entry), Some(_), 2..) = (table.get("every"), sliding, every) {
+        return Err(entry.unexpected("1, the flash temperature of each update, or 0, none", None));
+    }
     if every > 0 {
         let place = table.get("every");
         let refused = |message: &str, hint: &str| {
@@ -262,19 +266,23 @@ pub(super) fn temperature(
                 "add a [friction] table, or set `every = 0`",
             );
         }
-        if motion.strategy == Strategy::Overlap && motion.speed.is_none() {
+        if sliding.is_some_and(|sliding| sliding.speed.is_none()) {
+            let hint = "for example `speed = \"10 mm/s\"` in [sliding]";
+            return refused("a flash temperature needs a speed", hint);
+        }
+        if motion.is_some_and(|motion| motion.strategy == Strategy::Overlap && motion.speed.is_none()) {
             return refused(
                 "a flash temperature needs a speed",
                 "for example `speed = \"0.5 m/s\"` in [motion]",
             );
         }
-        if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
+        if motion.is_some_and(|motion| motion.strategy != Strategy::Overlap) && !boundary.repeats(0) {
             return refused(
                 "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
                 "set `boundary = \"periodic\"` in [contact], or `every = 0`",
             );
         }
-        if motion.plastic_update == PlasticUpdate::Step {
+        if motion.is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step) {
             return refused(
                 "a flash temperature is that of bodies that stay as they are in a pass",
                 "set `plastic_update = \"pass\"`",
@@ -285,14 +293,27 @@ pub(super) fn temperature(
 }
 
 /// An error if what runs in does not move, has no speed or rubs nothing.
-pub(super) fn runs_in(root: &Table<'_>, bodies: [&Body; 2], motion: Option<&MotionSpec>) -> Result<()> {
+pub(super) fn runs_in(
+    root: &Table<'_>,
+    bodies: [&Body; 2],
+    motion: Option<&MotionSpec>,
+    sliding: Option<&SlidingSpec>,
+) -> Result<()> {
     let has_friction = root.table("friction")?.is_some();
     for (name, body) in ["lower", "upper"].into_iter().zip(bodies) {
         let body_table = root.required_table(name)?;
         for key in ["wear", "film"] {
             let Some(table) = body_table.table(key)? else { continue };
+            if let Some(sliding) = sliding {
+                if key == "film" && sliding.speed.is_none() {
+                    let hint = Some("for example `speed = \"10 mm/s\"` in [sliding]".to_owned());
+                    let message = "missing key 'speed' in [sliding]: films take time".to_owned();
+                    return Err(root.required_table("sliding")?.error(message, hint));
+                }
+                continue;
+            }
             let Some(motion) = motion else {
-                let hint = Some("add a [motion] with its `speed`".to_owned());
+                let hint = Some("add a [motion] with its `speed`, or [sliding]".to_owned());
                 return Err(table.error(format!("a contact at rest has no {key}"), hint));
             };
             let motion_table = root.required_table("motion")?;
@@ -354,6 +375,44 @@ impl Case {
     /// # Errors
     /// What the library has against them.
     pub(in crate::study) fn running(&self, simulation: Simulation) -> Result<Simulation> {
+        let (wear, films) = self.laws(simulation.pair())?;
+        let mut simulation = simulation;
+        if let Some(wear) = wear {
+            simulation = simulation.with_law(wear);
+        }
+        if let Some(films) = films {
+            simulation = simulation.with_law(films);
+        }
+        if let (Some(thermal), Some(temperature)) = (self.heated(), self.temperature) {
+            simulation = simulation.with_heat(thermal, temperature.every)?;
+        }
+        match self.acceleration {
+            Some(acceleration) => simulation.with_acceleration(acceleration),
+            None => Ok(simulation),
+        }
+    }
+
+    /// A contact that slides in place with the same laws.
+    ///
+    /// # Errors
+    /// What the library has against them.
+    pub(in crate::study) fn wearing(&self, contact: InPlace) -> Result<InPlace> {
+        let (wear, films) = self.laws(contact.pair())?;
+        let mut contact = contact;
+        if let Some(wear) = wear {
+            contact = contact.with_law(wear);
+        }
+        if let Some(films) = films {
+            contact = contact.with_law(films);
+        }
+        match self.heated() {
+            Some(thermal) => contact.with_heat(thermal),
+            None => Ok(contact),
+        }
+    }
+
+    /// The laws by which the bodies of a `pair` wear and grow films.
+    fn laws(&self, pair: &Pair) -> Result<(Option<Wear>, Option<Films>)> {
         let bodies = [&self.lower, &self.upper];
         let films = bodies.map(|body| body.film.as_ref().map(FilmSpec::film).transpose());
         let [lower, upper] = films;
@@ -361,23 +420,16 @@ impl Case {
         let coefficients = bodies.map(|body| body.wear.as_ref().map(WearSpec::coefficient).transpose());
         let [lower, upper] = coefficients;
         let coefficients = [lower?, upper?];
-        let mut simulation = simulation;
-        if coefficients.iter().any(Option::is_some) {
-            simulation = simulation.with_law(Wear::new(coefficients, films.clone())?);
-        }
-        if films.iter().any(Option::is_some) {
-            let films = Films::new(films, simulation.pair())?;
-            simulation = simulation.with_law(films);
-        }
-        if let (Some(TemperatureSpec { every: every @ 1.., .. }), [Some(lower), Some(upper)]) =
-            (self.temperature, bodies.map(|body| body.thermal))
-        {
-            simulation = simulation.with_heat([lower, upper], every)?;
-        }
-        match self.acceleration {
-            Some(acceleration) => simulation.with_acceleration(acceleration),
-            None => Ok(simulation),
-        }
+        let wears = coefficients.iter().any(Option::is_some);
+        let wear = wears.then(|| Wear::new(coefficients, films.clone())).transpose()?;
+        let grows = films.iter().any(Option::is_some);
+        Ok((wear, grows.then(|| Films::new(films, pair)).transpose()?))
+    }
+
+    /// The thermal constants of bodies that friction heats; none where that is not computed.
+    fn heated(&self) -> Option<[Thermal; 2]> {
+        let wanted = self.temperature.is_some_and(|temperature| temperature.every > 0);
+        Some([self.lower.thermal?, self.upper.thermal?]).filter(|_| wanted)
     }
 
     /// Whether bodies wear or grow films.

@@ -196,10 +196,10 @@ impl Sizes<'_> {
                 sliding(friction).shear_displaces_normally(compliances.coupling != 0.0)
             })
         };
-        self.case
-            .friction
-            .as_ref()
-            .is_some_and(|friction| self.case.motion.is_none() || shear_displaces_normally(friction.law))
+        self.case.friction.as_ref().is_some_and(|friction| {
+            (self.case.motion.is_none() && self.case.sliding.is_none())
+                || shear_displaces_normally(friction.law)
+        })
     }
 
     /// The work, in units of a cell times the binary logarithm of the cells of its contact.
@@ -252,6 +252,10 @@ impl Sizes<'_> {
                 let sliding = if self.is_coupled() { 8.0 } else { 1.0 };
                 let at_once = threads.clamp(1, self.solved().len().max(1)) as f64;
                 self.computed_passes(motion.passes) * searches * sliding * normal * all / at_once.powf(0.85)
+            }
+            (None, _) if case.sliding.is_some() => {
+                let updates = case.sliding.map_or(0, |sliding| sliding.updates) as f64;
+                (2.0 + updates) * normal * all
             }
             (None, friction) => {
                 let [nx, ny] = self.facing();

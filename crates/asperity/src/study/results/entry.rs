@@ -73,7 +73,7 @@ pub(super) enum Kept {
     Nothing,
     /// A number of finished passes.
     Passes(usize),
-    /// A loading under way.
+    /// A loading, or a contact that slides in place, under way.
     Increments,
     /// Points of a sweep.
     Points,
@@ -146,10 +146,11 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
 fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     identity::compare(results.directory(), &results.case()?, case)?;
     let identity = identity::of(case);
-    let state = results.increment_state_path();
-    if state.exists() {
-        whole(&state, &identity, None)?;
-        return Ok(Kept::Increments);
+    for state in [results.increment_state_path(), results.update_state_path()] {
+        if state.exists() {
+            whole(&state, &identity, None)?;
+            return Ok(Kept::Increments);
+        }
     }
     let points = results.sweep()?;
     if !points.is_empty() {
@@ -230,7 +231,10 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
     match kept {
         Kept::Nothing => {
             // First what says that something is done, never the file by which the directory is known as ours.
-            for name in ["passes.csv", "steps.csv", "increments.csv", "sweep.csv"].iter().chain(&AT_REST) {
+            for name in ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv"]
+                .iter()
+                .chain(&AT_REST)
+            {
                 results.remove(&at(name))?;
             }
             let folders = [results.fields_folder(), results.figures_folder()];

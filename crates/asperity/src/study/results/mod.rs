@@ -9,6 +9,8 @@
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
+//!     updates.csv          a contact that slides in place: a row per update
+//!     fields/update-state.h5      what the next update goes on from, until all is done
 //!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
 //!     fields/increment-state.h5   what the next increment goes on from, until all is done
@@ -31,13 +33,14 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub use entry::Existing;
+pub(super) use write::add_bodies;
 pub use write::{PassWriter, Writer};
 
 use super::{summary, tables, warm_start};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
-use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, WarmStart};
+use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart};
 use crate::study::summary::Summary;
 use crate::surface::Topography;
 
@@ -129,6 +132,15 @@ impl Results {
         if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
     }
 
+    /// The updates of a contact that slides in place, the first before it slides; none of other contacts.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn updates(&self) -> Result<Vec<UpdateRecord>> {
+        let path = self.updates_path();
+        if path.exists() { tables::read_updates(&path) } else { Ok(Vec::new()) }
+    }
+
     /// The points of a sweep that are done; none of other contacts.
     ///
     /// # Errors
@@ -174,7 +186,11 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn states_after(&self, passes: usize) -> Result<[BTreeMap<String, State>; 2]> {
-        let fields = self.fields_after(passes)?;
+        Self::states_of(&self.fields_after(passes)?)
+    }
+
+    /// What laws keep of the lower and of the upper body, by name, in a file of fields.
+    pub(super) fn states_of(fields: &Fields) -> Result<[BTreeMap<String, State>; 2]> {
         let attributes = fields.attributes()?;
         let states = |body: &str| {
             let names = match attributes.get(&states_attribute(body)) {
@@ -219,6 +235,14 @@ impl Results {
 
     pub(super) fn increments_path(&self) -> PathBuf {
         self.directory.join("increments.csv")
+    }
+
+    pub(super) fn updates_path(&self) -> PathBuf {
+        self.directory.join("updates.csv")
+    }
+
+    pub(super) fn update_state_path(&self) -> PathBuf {
+        self.fields_folder().join("update-state.h5")
     }
 
     pub(super) fn sweep_path(&self) -> PathBuf {

@@ -16,6 +16,7 @@ use crate::motion::{Output, Pair, PassReport, State};
 use crate::solver::Friction;
 use crate::study::loading::LoadingWriter;
 use crate::study::rest::{NamedField, RestFields};
+use crate::study::sliding::SlidingWriter;
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
 use crate::study::sweep::SweepWriter;
@@ -100,6 +101,11 @@ impl Writer {
     /// What keeps each increment of a loading of so many `increments` here.
     pub fn loading(&self, pair: &Pair, increments: usize) -> LoadingWriter {
         LoadingWriter::new(&self.results, &self.identity, pair, increments)
+    }
+
+    /// What keeps each update of a contact that slides in place here, of so many, the one before it slides included.
+    pub fn sliding(&self, updates: usize) -> SlidingWriter {
+        SlidingWriter::new(&self.results, &self.identity, updates)
     }
 
     /// The output that keeps each point of a sweep here, with the fields of every `fields_every`-th (0: of none).
@@ -248,7 +254,7 @@ fn set_caps(file: &mut FieldFile, pair: &Pair, friction: Option<&Friction>) {
 }
 
 /// The bodies: heights, and what laws keep of them, whose names stand in an attribute.
-fn add_bodies(file: &mut FieldFile, pair: &Pair) {
+pub(in crate::study) fn add_bodies(file: &mut FieldFile, pair: &Pair) {
     let grids = [pair.lower_grid(), pair.upper_grid()];
     for ((name, body), grid) in BODIES.into_iter().zip([&pair.lower, &pair.upper]).zip(grids) {
         file.add_field(name, "m", &grid, [0.0, 0.0], &body.heights);

@@ -1,0 +1,74 @@
+//! Figures of a contact that slides in place: its course, and what it leaves on the bodies.
+
+use asperity::io::fields::Fields;
+use asperity::motion::UpdateRecord;
+use asperity::units::CELSIUS;
+
+use super::sheet::Sheet;
+use super::stored::Stored;
+use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
+use crate::report::Outcome;
+
+type Number = fn(&UpdateRecord) -> f64;
+
+pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
+    sheet.add("sliding", "wear in place over the sliding distance", of, || Ok(charts(updates)))?;
+    let names = fields.names()?;
+    let given = |name: &str| names.iter().any(|given| given == name);
+    for (state, title, quantity) in
+        [("wear", "wear since the beginning", "depth"), ("film", "tribofilm", "thickness")]
+    {
+        let mut maps = Vec::new();
+        for body in ["lower", "upper"] {
+            let name = format!("{state}_{body}");
+            if given(&name) {
+                maps.push((Stored::read(fields, &name)?, format!("{body} body")));
+            }
+        }
+        if !maps.is_empty() {
+            sheet.add(state, title, of, || {
+                let each = maps.iter();
+                let each = each.map(|(map, of)| map.map(of, quantity, Unit::Length, Colours::Pressure));
+                Ok(Maps::new(each.collect()))
+            })?;
+        }
+    }
+    if given("temperature") {
+        // What is not in contact has no temperature that is known: drawn as the coldest that is.
+        let stored = Stored::read(fields, "temperature")?;
+        let coldest = stored.field.iter().copied().filter(|t| t.is_finite()).fold(f64::INFINITY, f64::min);
+        let shown = stored.field.mapv(|t| if t.is_finite() { t } else { coldest } - CELSIUS);
+        let shown = stored.with(shown);
+        sheet.add("temperature", "temperature of the contact", of, || {
+            Ok(Maps::new(vec![shown.map("", "temperature", Unit::Of("°C"), Colours::Pressure)]))
+        })?;
+    }
+    Ok(())
+}
+
+fn charts(updates: &[UpdateRecord]) -> Charts {
+    let over = |value: Number| updates.iter().map(|update| [update.distance, value(update)]).collect();
+    let bodies = |values: [Number; 2]| -> Vec<Series> {
+        // Broken, so that neither hides the other where they are the same.
+        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
+        looks.zip(values).map(|((name, mark), value)| Series::new(name, over(value), mark)).collect()
+    };
+    let alone = |value: Number| vec![Series::new("", over(value), Mark::Line)];
+    let shown = [
+        (Axis::linear("contact area", Unit::Area), alone(|u| u.contact_area)),
+        (Axis::linear("largest pressure", Unit::Pressure), alone(|u| u.max_pressure)),
+        (Axis::linear("deepest wear", Unit::Length), bodies([|u| u.max_wear_lower, |u| u.max_wear_upper])),
+        (
+            Axis::linear("mean film in contact", Unit::Length),
+            bodies([|u| u.mean_film_lower, |u| u.mean_film_upper]),
+        ),
+        (Axis::linear("largest temperature", Unit::Of("°C")), alone(|u| u.max_temperature - CELSIUS)),
+    ];
+    let is_there = |(_, series): &(Axis, Vec<Series>)| {
+        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
+    };
+    let x = Axis::linear("sliding distance", Unit::Length);
+    let charts = shown.into_iter().filter(is_there);
+    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
+    Charts { charts, columns: 2, aspect: 0.7 }
+}
