@@ -241,6 +241,26 @@ pub enum Error {
         /// What is wrong there.
         source: Box<Error>,
     },
+    /// An increment of a load could not be solved.
+    #[error("increment {increment}: {source}")]
+    AtIncrement {
+        /// The increment, from 1.
+        increment: usize,
+        /// What is wrong there.
+        source: Box<Error>,
+    },
+    /// Plastic strain and stress did not come to agree.
+    #[error(
+        "plastic flow does not settle in {products} products: mismatch {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
+    )]
+    FlowNotConverged {
+        /// Applications of the residual-stress operator.
+        products: usize,
+        /// Mismatch of the stress over the yield stress.
+        mismatch: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
     /// A computation takes more memory than there is.
     #[error("about {} of memory are needed, {} are free", bytes(*needed), bytes(*available))]
     Memory {
@@ -367,6 +387,10 @@ impl Error {
             Self::UndefinedSamples { .. } => {
                 Some("fill them, from the nearest sample or by a membrane over each hole".into())
             }
+            Self::FlowNotConverged { .. } => {
+                Some("take more increments, so that each of them flows less".into())
+            }
+            Self::AtIncrement { source, .. } => source.hint(),
             Self::Memory { .. } => Some("fewer cells take less, and so do fewer threads".into()),
             _ => None,
         }

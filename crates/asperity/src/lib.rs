@@ -29,6 +29,7 @@
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and what heats them | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature, and what heat goes where |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and where it is largest |
+//! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | the residual stress and displacement that it leaves, and how it grows |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
 //! | a doubt | [`reference`](mod@reference), [`verification`] | closed forms, and the order at which each is met |
 //!
@@ -101,6 +102,7 @@ pub mod operator;
 pub mod solver;
 pub mod subsurface;
 pub mod temperature;
+pub mod plasticity;
 pub mod motion;
 pub mod verification;
 #[cfg(feature = "study")]

@@ -18,7 +18,7 @@ const BLOCK: usize = 8;
 const ROOM: usize = 8;
 
 /// The plans of a cyclic grid, for transforms in the precision of `T`.
-pub(super) struct Plans<T> {
+pub(crate) struct Plans<T> {
     pub(super) shape: [usize; 2],
     along_y: Arc<dyn RealToComplex<T>>,
     back_y: Arc<dyn ComplexToReal<T>>,
@@ -27,7 +27,8 @@ pub(super) struct Plans<T> {
 }
 
 impl<T: FftNum> Plans<T> {
-    pub(super) fn new(shape: [usize; 2]) -> Self {
+    /// The plans of a grid of `shape`.
+    pub(crate) fn new(shape: [usize; 2]) -> Self {
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         let [mx, my] = shape;
@@ -59,8 +60,10 @@ impl<T: FftNum> Plans<T> {
 
 /// How a kernel changes with the sign of an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Parity {
+pub(crate) enum Parity {
+    /// Not at all.
     Even,
+    /// Its sign does.
     Odd,
 }
 
@@ -89,7 +92,7 @@ impl Plans<f64> {
     /// Transform of the kernel with the values `table[[i, j]]` at the offsets i, j for `i ≤ Mx/2`, `j ≤ My/2`, and of
     /// this parity along x and y: the real number by which iⁿ is multiplied, n the number of odd axes, at `[ky, kx]` for
     /// `ky ≤ My/2`, `kx ≤ Mx/2`.
-    pub(super) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
+    pub(crate) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
         let [mx, my] = self.shape;
         let mut scratch = self.scratch();
         let mut spectrum = Field::zeros([self.half(), mx / 2 + 1]);

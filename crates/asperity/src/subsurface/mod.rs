@@ -58,7 +58,7 @@ impl Tractions {
     }
 
     /// The tractions that are not zero throughout.
-    fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
+    pub(crate) fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
         let [qx, qy] = &self.shear;
         let all = [
             (Traction::X, qx.as_ref()),

@@ -24,6 +24,7 @@ mod heat;
 mod in_place;
 mod operators;
 mod partial_slip;
+mod plasticity;
 mod rolling;
 mod rough;
 mod running_in;
@@ -159,6 +160,15 @@ pub const CASES: &[Case] = &[
     heat::HERTZIAN,
     heat::TRANSIENT,
     heat::DIVISION,
+    plasticity::ENERGY,
+    plasticity::ONSET,
+    plasticity::SPHERE,
+    plasticity::STEPS,
+    plasticity::FULLY_PLASTIC,
+    plasticity::LINE,
+    plasticity::RESIDUAL,
+    plasticity::KINEMATIC,
+    plasticity::POINT,
     running_in::GROOVES,
     running_in::FILM_GROWTH,
     in_place::GROOVES,

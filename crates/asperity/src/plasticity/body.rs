@@ -1,0 +1,514 @@
+//! A body that may flow.
+
+use std::sync::Arc;
+
+use ndarray::s;
+use rayon::prelude::*;
+
+use super::flow::{CellState, FlowLaw, Tensor, contract, equivalent};
+use super::{COMPONENTS, TensorField, Volume, VolumeField};
+use crate::grid::Field;
+use crate::kernel::Traction;
+use crate::math::together;
+use crate::subsurface::Tractions;
+use crate::units::{CubicMetre, Joule, Pascal};
+
+/// θ, the share of 2μ by which the predictor's stress relaxes: above ½, or nothing converges.
+const RELAXATION: f64 = 0.65;
+/// Cells whose equivalent predictor is above this share of the yield stress may flow.
+const MAY_FLOW: f64 = 0.5;
+
+/// What acts on a body.
+#[derive(Debug, Clone)]
+pub enum Action {
+    /// Tractions on its surface, in its own frame.
+    Tractions(Tractions),
+    /// A stress in its layers, Pa, which is as it would be without plastic strain.
+    Stress(Arc<TensorField>),
+}
+
+/// An elasto-plastic half-space: the volume under its surface, its flow law, and what flow has left in it so far.
+pub struct PlasticBody {
+    volume: Volume,
+    law: Arc<dyn FlowLaw>,
+    strain: TensorField,
+    accumulated: VolumeField,
+    back: Option<TensorField>,
+    /// What acts on it, and the stress under that.
+    action: Option<Action>,
+    stress: TensorField,
+    /// The inward displacement of the surface by the strain.
+    displacement: Field,
+    /// What the last increment added to the strain of the cells that flowed.
+    increment: Vec<(usize, Tensor)>,
+    trial: Trial,
+}
+
+/// An increment under way.
+struct Trial {
+    /// y.
+    predictor: TensorField,
+    /// ε of that predictor.
+    strain: TensorField,
+    /// σ of that strain.
+    stress: TensorField,
+    /// Whether a cell flows.
+    flows: ndarray::Array3<bool>,
+}
+
+/// What an increment has done to a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct BodyFlow {
+    /// Cells of all layers that have flowed.
+    pub flowing_cells: usize,
+    /// Plastic work ∫ ½ (σ₀ + σ₁) : Δε, J.
+    pub plastic_work: Joule,
+}
+
+/// A flat place in the layers: the layer, and the cell in it.
+type Place = usize;
+
+impl PlasticBody {
+    /// A body without plastic strain that nothing acts on.
+    pub fn new(volume: Volume, law: Arc<dyn FlowLaw>) -> Self {
+        let zeros = || volume.zeros();
+        let shape = [volume.layers().count(), volume.grid().shape[0], volume.grid().shape[1]];
+        Self {
+            strain: zeros(),
+            accumulated: VolumeField::zeros(shape),
+            back: law.is_kinematic().then(zeros),
+            action: None,
+            stress: zeros(),
+            displacement: volume.grid().zeros(),
+            increment: Vec::new(),
+            trial: Trial {
+                predictor: zeros(),
+                strain: zeros(),
+                stress: zeros(),
+                flows: ndarray::Array3::from_elem(shape, false),
+            },
+            volume,
+            law,
+        }
+    }
+
+    /// The volume and its operators.
+    pub fn volume(&mut self) -> &mut Volume {
+        &mut self.volume
+    }
+
+    /// The flow law.
+    pub fn law(&self) -> &dyn FlowLaw {
+        &*self.law
+    }
+
+    /// Plastic strain ε.
+    pub fn strain(&self) -> &TensorField {
+        &self.strain
+    }
+
+    /// Accumulated plastic strain p̄.
+    pub fn accumulated(&self) -> &VolumeField {
+        &self.accumulated
+    }
+
+    /// Back stress X, Pa, of a law that has one.
+    pub fn back_stress(&self) -> Option<&TensorField> {
+        self.back.as_ref()
+    }
+
+    /// The stress under what acts on the body and its plastic strain, Pa.
+    pub fn stress(&self) -> &TensorField {
+        &self.stress
+    }
+
+    /// The inward displacement r of the surface by the plastic strain, m.
+    pub fn displacement(&self) -> &Field {
+        &self.displacement
+    }
+
+    /// The stress that the plastic strain alone leaves, Pa: a product.
+    pub fn residual_stress(&mut self) -> TensorField {
+        self.volume.residual(&self.strain)
+    }
+
+    /// Stored energy −½ ∫ ε : K ε ≥ 0 of the residual stress, J: a product.
+    pub fn stored_energy(&mut self) -> Joule {
+        let residual = self.residual_stress();
+        -0.5 * self.volume.inner_product(&residual, &self.strain)
+    }
+
+    /// Volume of the cells that have ever flowed, m³.
+    pub fn yielded_volume(&self) -> CubicMetre {
+        let layers = self.accumulated.outer_iter().enumerate();
+        let cells = |layer: ndarray::ArrayView2<f64>| layer.iter().filter(|p| **p > 0.0).count() as f64;
+        let height: f64 = layers.map(|(n, layer)| self.volume.layers().thickness(n) * cells(layer)).sum();
+        self.volume.grid().cell_area() * height
+    }
+
+    /// κ = 2μθ, of the predictor y = dev σ + κ ε.
+    fn stiffness(&self) -> Pascal {
+        let material = self.volume.material();
+        RELAXATION * material.young / (1.0 + material.poisson)
+    }
+
+    // ---- an increment, step by step ----------------------------------------------------------------------
+
+    /// The displacement that the loading meets first.
+    pub(super) fn displacement_before(&self) -> Field {
+        self.displacement.clone()
+    }
+
+    /// The predictor of no further flow under an `action`. Whether that took a product.
+    pub(super) fn predict_elastic(&mut self, action: &Action) -> bool {
+        let product = match (self.action.as_ref(), action) {
+            (None, Action::Tractions(now)) if self.increment.is_empty() && self.is_virgin() => {
+                self.volume.forget();
+                self.volume.stress(Some(now), &mut self.trial.stress);
+                false
+            }
+            (Some(Action::Tractions(before)), Action::Tractions(now)) => {
+                let change = difference(now, before);
+                self.volume.forget();
+                self.volume.stress(Some(&change), &mut self.trial.stress);
+                self.trial.stress += &self.stress;
+                false
+            }
+            (Some(Action::Stress(before)), Action::Stress(now)) => {
+                self.trial.stress.assign(&self.stress);
+                self.trial.stress += &**now;
+                self.trial.stress -= &**before;
+                false
+            }
+            _ => {
+                self.volume.take(&self.strain);
+                self.respond(action);
+                true
+            }
+        };
+        self.trial.strain.assign(&self.strain);
+        self.predict();
+        product
+    }
+
+    fn is_virgin(&self) -> bool {
+        self.accumulated.iter().all(|p| *p == 0.0)
+    }
+
+    /// Whether the body has flowed in the last increment.
+    pub(super) fn remembers(&self) -> bool {
+        !self.increment.is_empty()
+    }
+
+    /// Takes the strain of the last increment once more, from where the load has moved it by so many cells. Whether there was
+    /// any.
+    pub(super) fn guess(&mut self, shift: [isize; 2]) -> bool {
+        let [nx, ny] = self.volume.grid().shape;
+        let wraps = self.volume.boundary().leaves_mean_free();
+        self.trial.strain.assign(&self.strain);
+        let mut any = false;
+        for (place, increment) in &self.increment {
+            let (layer, cell) = (place / (nx * ny), place % (nx * ny));
+            let at = |index: usize, n: usize, by: isize| {
+                let moved = index as isize + by;
+                let n = n as isize;
+                if wraps {
+                    Some(moved.rem_euclid(n) as usize)
+                } else {
+                    (0..n).contains(&moved).then_some(moved as usize)
+                }
+            };
+            let (Some(ix), Some(iy)) = (at(cell / ny, nx, shift[0]), at(cell % ny, ny, shift[1])) else {
+                continue;
+            };
+            any = true;
+            (0..COMPONENTS).for_each(|c| self.trial.strain[[layer, c, ix, iy]] += increment[c]);
+        }
+        any
+    }
+
+    /// Takes up the trial strain: the displacement of the surface by it.
+    pub(super) fn take_trial(&mut self) -> Field {
+        self.volume.take(&self.trial.strain);
+        self.volume.surface(Traction::Pressure)
+    }
+
+    /// The stress of the strain that was taken up under an `action`.
+    pub(super) fn respond(&mut self, action: &Action) {
+        match action {
+            Action::Tractions(tractions) => self.volume.stress(Some(tractions), &mut self.trial.stress),
+            Action::Stress(stress) => {
+                self.volume.stress(None, &mut self.trial.stress);
+                self.trial.stress += &**stress;
+            }
+        }
+    }
+
+    /// The predictor of the trial stress and strain.
+    pub(super) fn predict(&mut self) {
+        let stiffness = self.stiffness();
+        let Trial { predictor, strain, stress, .. } = &mut self.trial;
+        let layers = layers_mut(predictor).zip(layers(stress)).zip(layers(strain));
+        layers.for_each(|((y, stress), strain)| {
+            each_cell(stress, strain, stiffness, |cell, cells, g| {
+                (0..COMPONENTS).for_each(|c| y[c * cells + cell] = g[c]);
+            });
+        });
+    }
+
+    /// The strain of the predictor. Returns how far it lies from `start`, as a stress over the yield stress.
+    pub(super) fn flow(&mut self, start: Start) -> f64 {
+        let stiffness = self.stiffness();
+        let Self { law, strain, accumulated, back, trial, .. } = self;
+        let Trial { predictor, strain: trial, flows, .. } = trial;
+        let cells = accumulated.shape()[1] * accumulated.shape()[2];
+        let yields = law.yield_stress();
+        let moved = layers_mut(trial)
+            .zip(flows.as_slice_mut().expect("standard layout").par_chunks_exact_mut(cells))
+            .enumerate()
+            .map(|(layer, (trial, flows))| {
+                let before = Before::new(layer, strain, accumulated, back.as_ref());
+                let y = layer_of(predictor, layer);
+                let mut moved = 0.0f64;
+                for (cell, flows) in flows.iter_mut().enumerate() {
+                    let state = before.at(cell);
+                    let y = tensor(y, cell, cells);
+                    let next = law.flow(&y, stiffness, &state);
+                    *flows = next.is_some();
+                    let next = next.map_or(state.strain, |next| next.strain);
+                    for c in 0..COMPONENTS {
+                        let from = match start {
+                            Start::Before => state.strain[c],
+                            Start::Trial => trial[c * cells + cell],
+                        };
+                        moved = moved.max((next[c] - from).abs());
+                        trial[c * cells + cell] = next[c];
+                    }
+                }
+                moved
+            })
+            .reduce(|| 0.0, f64::max);
+        stiffness * moved / yields
+    }
+
+    /// The largest mismatch of the predictor, of what the trial stress and strain make of it, over the yield stress.
+    pub(super) fn mismatch(&self) -> f64 {
+        let stiffness = self.stiffness();
+        let Trial { predictor, strain, stress, .. } = &self.trial;
+        let largest = layers(predictor)
+            .zip(layers(stress))
+            .zip(layers(strain))
+            .map(|((y, stress), strain)| {
+                let mut largest = 0.0f64;
+                each_cell(stress, strain, stiffness, |cell, cells, g| {
+                    for c in 0..COMPONENTS {
+                        let f = (g[c] - y[c * cells + cell]).abs();
+                        largest = if f > largest || f.is_nan() { f } else { largest };
+                    }
+                });
+                largest
+            })
+            .reduce(|| 0.0, |a, b| if a > b || a.is_nan() { a } else { b });
+        largest / self.law.yield_stress()
+    }
+
+    /// The places that may flow in this increment.
+    pub(super) fn candidates(&self) -> Vec<Place> {
+        let (cells, stiffness) = (self.cells(), self.stiffness());
+        let least = MAY_FLOW * self.law.yield_stress();
+        let per_layer: Vec<Vec<Place>> = (0..self.accumulated.shape()[0])
+            .into_par_iter()
+            .map(|layer| {
+                let before = Before::new(layer, &self.strain, &self.accumulated, self.back.as_ref());
+                let y = layer_of(&self.trial.predictor, layer);
+                let may = |cell: usize| {
+                    let (y, state) = (tensor(y, cell, cells), before.at(cell));
+                    let xi: Tensor =
+                        std::array::from_fn(|c| y[c] - stiffness * state.strain[c] - state.back[c]);
+                    equivalent(&xi) > least
+                };
+                (0..cells).filter(|cell| may(*cell)).map(|cell| layer * cells + cell).collect()
+            })
+            .collect();
+        per_layer.concat()
+    }
+
+    /// The predictor at some places, and by how much it is wrong.
+    pub(super) fn gather(&self, places: &[Place]) -> [Vec<f64>; 2] {
+        let (cells, stiffness) = (self.cells(), self.stiffness());
+        let Trial { predictor, strain, stress, .. } = &self.trial;
+        let mut gathered =
+            [Vec::with_capacity(COMPONENTS * places.len()), Vec::with_capacity(COMPONENTS * places.len())];
+        for place in places {
+            let (layer, cell) = (place / cells, place % cells);
+            let at = |field: &TensorField| tensor(layer_of(field, layer), cell, cells);
+            let (y, g) = (at(predictor), response(&at(stress), &at(strain), stiffness));
+            gathered[0].extend(y);
+            gathered[1].extend((0..COMPONENTS).map(|c| g[c] - y[c]));
+        }
+        gathered
+    }
+
+    /// Entries of what is gathered at these places that belong to cells which flow.
+    pub(super) fn flowing_entries(&self, places: &[Place]) -> impl Iterator<Item = usize> {
+        let flows = self.trial.flows.as_slice().expect("standard layout");
+        let flowing = places.iter().enumerate().filter(|(_, place)| flows[**place]);
+        flowing.flat_map(|(n, _)| COMPONENTS * n..COMPONENTS * (n + 1))
+    }
+
+    /// Sets the predictor at some places to these `values`.
+    pub(super) fn scatter(&mut self, places: &[Place], values: &[f64]) {
+        let cells = self.cells();
+        let predictor = self.trial.predictor.as_slice_mut().expect("standard layout");
+        for (place, value) in places.iter().zip(values.chunks_exact(COMPONENTS)) {
+            let (layer, cell) = (place / cells, place % cells);
+            (0..COMPONENTS).for_each(|c| predictor[(layer * COMPONENTS + c) * cells + cell] = value[c]);
+        }
+    }
+
+    /// Ends the increment: what the trial has come to is the body's state under an `action`.
+    pub(super) fn commit(&mut self, action: Action, displacement: Field) -> BodyFlow {
+        let (cells, stiffness) = (self.cells(), self.stiffness());
+        let mut flow = BodyFlow { flowing_cells: 0, plastic_work: 0.0 };
+        self.increment.clear();
+        for layer in 0..self.accumulated.shape()[0] {
+            let volume = self.volume.grid().cell_area() * self.volume.layers().thickness(layer);
+            for cell in 0..cells {
+                if !self.trial.flows.as_slice().expect("standard layout")[layer * cells + cell] {
+                    continue;
+                }
+                let state = Before::new(layer, &self.strain, &self.accumulated, self.back.as_ref()).at(cell);
+                let y = tensor(layer_of(&self.trial.predictor, layer), cell, cells);
+                let Some(next) = self.law.flow(&y, stiffness, &state) else { continue };
+                let change = std::array::from_fn(|c| next.strain[c] - state.strain[c]);
+                let before = tensor(layer_of(&self.stress, layer), cell, cells);
+                let after = tensor(layer_of(&self.trial.stress, layer), cell, cells);
+                flow.plastic_work += 0.5 * volume * (contract(&before, &change) + contract(&after, &change));
+                flow.flowing_cells += 1;
+                self.increment.push((layer * cells + cell, change));
+                let at = [cell / self.displacement.ncols(), cell % self.displacement.ncols()];
+                self.accumulated[[layer, at[0], at[1]]] = next.accumulated;
+                for c in 0..COMPONENTS {
+                    self.strain[[layer, c, at[0], at[1]]] = next.strain[c];
+                    if let Some(back) = &mut self.back {
+                        back[[layer, c, at[0], at[1]]] = next.back[c];
+                    }
+                }
+            }
+        }
+        std::mem::swap(&mut self.stress, &mut self.trial.stress);
+        self.action = Some(action);
+        self.displacement = displacement;
+        flow
+    }
+
+    /// Cells of a layer.
+    fn cells(&self) -> usize {
+        self.displacement.len()
+    }
+
+    /// The largest plastic strain, and the layer and cell where it is.
+    pub fn max_accumulated(&self) -> (f64, [usize; 3]) {
+        let mut largest = (0.0, [0; 3]);
+        for ((layer, ix, iy), value) in self.accumulated.indexed_iter() {
+            if *value > largest.0 {
+                largest = (*value, [layer, ix, iy]);
+            }
+        }
+        largest
+    }
+
+    /// Shear of the body's layers: the mean of 2 ε_xz over the cells of each.
+    pub fn mean_shear(&self) -> Vec<f64> {
+        self.strain.outer_iter().map(|layer| 2.0 * layer.slice(s![4, .., ..]).mean().unwrap_or(0.0)).collect()
+    }
+}
+
+/// Where a strain is seen to have moved from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Start {
+    /// The strain before the increment.
+    Before,
+    /// The trial strain.
+    Trial,
+}
+
+/// The states before an increment of the cells of a layer.
+struct Before<'a> {
+    strain: &'a [f64],
+    accumulated: &'a [f64],
+    back: Option<&'a [f64]>,
+}
+
+impl<'a> Before<'a> {
+    fn new(
+        layer: usize,
+        strain: &'a TensorField,
+        accumulated: &'a VolumeField,
+        back: Option<&'a TensorField>,
+    ) -> Self {
+        let cells = accumulated.shape()[1] * accumulated.shape()[2];
+        let accumulated = accumulated.as_slice().expect("standard layout");
+        Self {
+            strain: layer_of(strain, layer),
+            accumulated: &accumulated[layer * cells..][..cells],
+            back: back.map(|back| layer_of(back, layer)),
+        }
+    }
+
+    #[inline]
+    fn at(&self, cell: usize) -> CellState {
+        let cells = self.accumulated.len();
+        CellState {
+            strain: tensor(self.strain, cell, cells),
+            accumulated: self.accumulated[cell],
+            back: self.back.map_or([0.0; 6], |back| tensor(back, cell, cells)),
+        }
+    }
+}
+
+#[inline]
+fn tensor(layer: &[f64], cell: usize, cells: usize) -> Tensor {
+    std::array::from_fn(|c| layer[c * cells + cell])
+}
+
+fn layer_of(field: &TensorField, layer: usize) -> &[f64] {
+    let length = field.len() / field.shape()[0];
+    &field.as_slice().expect("standard layout")[layer * length..][..length]
+}
+
+fn layers(field: &TensorField) -> impl IndexedParallelIterator<Item = &[f64]> {
+    let length = field.len() / field.shape()[0];
+    field.as_slice().expect("standard layout").par_chunks_exact(length).with_min_len(together(length))
+}
+
+fn layers_mut(field: &mut TensorField) -> impl IndexedParallelIterator<Item = &mut [f64]> {
+    let length = field.len() / field.shape()[0];
+    field.as_slice_mut().expect("standard layout").par_chunks_exact_mut(length).with_min_len(together(length))
+}
+
+/// g = dev σ + κ ε.
+#[inline]
+fn response(stress: &Tensor, strain: &Tensor, stiffness: Pascal) -> Tensor {
+    let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+    std::array::from_fn(|c| stress[c] - if c < 3 { mean } else { 0.0 } + stiffness * strain[c])
+}
+
+/// Calls `look` with each cell of a layer, the number of its cells, and g.
+fn each_cell(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, usize, Tensor)) {
+    let cells = stress.len() / COMPONENTS;
+    for cell in 0..cells {
+        look(cell, cells, response(&tensor(stress, cell, cells), &tensor(strain, cell, cells), stiffness));
+    }
+}
+
+fn difference(now: &Tractions, before: &Tractions) -> Tractions {
+    let shear = [0, 1].map(|axis| match (&now.shear[axis], &before.shear[axis]) {
+        (Some(now), Some(before)) => Some(now - before),
+        (Some(now), None) => Some(now.clone()),
+        (None, Some(before)) => Some(-before),
+        (None, None) => None,
+    });
+    Tractions { pressure: &now.pressure - &before.pressure, shear }
+}

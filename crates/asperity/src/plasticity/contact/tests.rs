@@ -1,0 +1,201 @@
+use std::sync::Arc;
+
+use super::*;
+use crate::grid::Grid;
+use crate::material::Material;
+use crate::operator::{Boundary, PeriodicFft};
+use crate::plasticity::{Hardening, J2, Layers, Volume};
+
+/// A rigid sphere on a body of E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an independent
+/// program.
+const RADIUS: f64 = 14.0;
+const YIELD: f64 = 0.003;
+
+fn steel() -> Material {
+    Material::elastic(1.0, 0.3).unwrap()
+}
+
+/// The load at which it begins to yield by Hertz, at p₀ = 1.6 σY.
+fn first_yield() -> f64 {
+    std::f64::consts::PI.powi(3) * RADIUS * RADIUS * (1.6 * YIELD).powi(3)
+        / (6.0 * steel().plane_strain_modulus().powi(2))
+}
+
+fn gap(n: usize) -> Field {
+    Field::from_shape_fn([n, n], |(i, j)| {
+        let [x, y] = [i, j].map(|i| i as f64 / n as f64 - 0.5);
+        (x * x + y * y) / (2.0 * RADIUS)
+    })
+}
+
+fn body(n: usize, layers: usize, law: J2) -> PlasticBody {
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
+    let layers = Layers::new(0.35, layers, 1.0).unwrap();
+    PlasticBody::new(Volume::new(grid, layers, Boundary::PERIODIC, &steel()).unwrap(), Arc::new(law))
+}
+
+fn perfect() -> J2 {
+    J2::new(Hardening::perfect(YIELD).unwrap())
+}
+
+fn contact(n: usize, bodies: Vec<PlasticBody>, flow: FlowParams) -> PlasticContact {
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
+    let modulus = steel().plane_strain_modulus() / bodies.len() as f64;
+    let params = Params::default().with_tolerance(1e-8);
+    PlasticContact::new(Box::new(PeriodicFft::new(grid, modulus)), gap(n), bodies, flow, params)
+}
+
+fn sphere(n: usize, layers: usize) -> PlasticContact {
+    contact(n, vec![body(n, layers, perfect())], FlowParams::new())
+}
+
+fn max_pressure(contact: &PlasticContact) -> f64 {
+    contact.pressure().iter().fold(0.0, |m: f64, p| m.max(*p)) / YIELD
+}
+
+fn range(field: &Field) -> f64 {
+    let (low, high) = field.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    high - low
+}
+
+#[test]
+fn a_sphere_on_a_body_that_yields_is_that_of_an_independent_program() {
+    // Times the load of first yield: largest pressure over σY, cells in contact, p̄, range of r; products.
+    let found = [
+        (0.9, 1.57117, 29, 0.0, 0.0, 0),
+        (1.2, 1.69291, 37, 2.77958e-4, 1.69970e-6, 4),
+        (2.0, 1.80464, 49, 1.23695e-3, 4.77232e-5, 8),
+        (4.0, 2.00361, 89, 2.74525e-3, 2.22582e-4, 11),
+        (8.0, 2.17027, 145, 4.68313e-3, 6.44741e-4, 12),
+        (4.0, 1.63100, 109, 4.68313e-3, 6.44741e-4, 0),
+        (1.0, 0.97998, 49, 4.68313e-3, 6.44741e-4, 0),
+        (0.0, 0.0, 0, 4.68313e-3, 6.44741e-4, 0),
+    ];
+    let mut contact = sphere(32, 16);
+    for (times, pressure, cells, strain, displacement, products) in found {
+        let increment = contact.go_to(Control::Load(times * first_yield())).unwrap();
+        let close = |what: &str, a: f64, b: f64, tolerance: f64| {
+            assert!((a - b).abs() <= tolerance * b, "{times} F_Y: {what} is {a}, not {b}");
+        };
+        close("the largest pressure", max_pressure(&contact), pressure, 1e-3);
+        assert_eq!(contact.pressure().iter().filter(|p| **p > 0.0).count(), cells, "{times} F_Y");
+        let body = &contact.bodies()[0];
+        close("the plastic strain", body.max_accumulated().0, strain, 1e-2);
+        close("r", range(body.displacement()), displacement, if times < 2.0 { 3e-2 } else { 5e-3 });
+        assert!(increment.products <= products, "{times} F_Y: {} products", increment.products);
+        assert_eq!(increment.products == 0, increment.flowing_cells() == 0);
+    }
+    assert!(contact.approach().is_none());
+    // Flow keeps the volume.
+    let strain = contact.bodies()[0].strain();
+    for layer in strain.outer_iter() {
+        for cell in ndarray::indices([32, 32]) {
+            let trace: f64 = (0..3).map(|c| layer[[c, cell.0, cell.1]]).sum();
+            assert!(trace.abs() < 1e-16);
+        }
+    }
+}
+
+#[test]
+fn more_steps_of_the_load_are_of_the_first_order() {
+    let found = [(1, 2.229), (8, 2.104)].map(|(steps, expected)| {
+        let mut contact = sphere(32, 16);
+        contact.load_to(8.0 * first_yield(), steps).unwrap();
+        (max_pressure(&contact), expected)
+    });
+    for (pressure, expected) in found {
+        assert!((pressure / expected - 1.0).abs() < 2e-3, "{pressure} is {expected}");
+    }
+}
+
+#[test]
+fn below_first_yield_it_is_the_elastic_contact_bit_by_bit() {
+    let mut contact = sphere(24, 4);
+    for times in [0.5, 0.9, 0.3] {
+        let start = contact.pressure().clone();
+        let start = start.iter().any(|p| *p > 0.0).then_some(&start);
+        let increment = contact.go_to(Control::Load(times * first_yield())).unwrap();
+        let mut operator = PeriodicFft::new(*contact.operator.grid(), steel().plane_strain_modulus());
+        let load = Control::Load(times * first_yield());
+        let elastic =
+            solve_normal(&mut operator, &gap(24), &Bounds::ELASTIC, load, start, &contact.contact).unwrap();
+        assert_eq!(*contact.pressure(), elastic.pressure);
+        assert_eq!(contact.approach(), Some(elastic.approach));
+        assert_eq!((increment.products, increment.flowing_cells(), increment.plastic_work()), (0, 0, 0.0));
+    }
+}
+
+#[test]
+fn an_approach_comes_to_what_its_load_does() {
+    let (mut by_load, mut by_approach) = (sphere(24, 8), sphere(24, 8));
+    for times in [2.0, 5.0] {
+        by_load.go_to(Control::Load(times * first_yield())).unwrap();
+        by_approach.go_to(Control::Approach(by_load.approach().unwrap())).unwrap();
+        assert!((by_approach.load() / by_load.load() - 1.0).abs() < 1e-3);
+        let [a, b] = [by_load.bodies()[0].max_accumulated(), by_approach.bodies()[0].max_accumulated()];
+        assert!((a.0 / b.0 - 1.0).abs() < 1e-2 && a.1 == b.1, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn bodies_that_are_equal_flow_equally() {
+    let pair = vec![body(24, 8, perfect()), body(24, 8, perfect())];
+    let mut contact = contact(24, pair, FlowParams::new());
+    // E* is half: twice as wide a contact for the same pressure takes four times the load.
+    let increment = contact.go_to(Control::Load(8.0 * first_yield())).unwrap();
+    assert!(increment.products > 0 && increment.bodies[0] == increment.bodies[1]);
+    let [lower, upper] = contact.bodies() else { panic!("two bodies") };
+    assert!(lower.max_accumulated().0 > 1e-4);
+    assert_eq!((lower.strain(), lower.displacement()), (upper.strain(), upper.displacement()));
+}
+
+#[test]
+fn each_hardening_lessens_the_strain_and_keeps_its_own_record() {
+    let strain = |law: J2| {
+        let mut contact = contact(24, vec![body(24, 8, law)], FlowParams::new());
+        contact.load_to(4.0 * first_yield(), 2).unwrap();
+        let body = &contact.bodies()[0];
+        let back = body.back_stress().map(|back| back.iter().fold(0.0f64, |m, x| m.max(x.abs())));
+        (body.max_accumulated().0, back, body.yielded_volume())
+    };
+    let soft = strain(perfect());
+    let isotropic = strain(J2::new(Hardening::linear(YIELD, 0.1).unwrap()));
+    let prager = strain(perfect().with_back_stress(0.1, 0.0).unwrap());
+    let recovering = strain(perfect().with_back_stress(0.1, 100.0).unwrap());
+    assert!(isotropic.0 < 0.95 * soft.0 && prager.0 < 0.95 * soft.0, "{soft:?} {isotropic:?} {prager:?}");
+    assert!(prager.0 < recovering.0 && recovering.0 < soft.0, "{recovering:?}");
+    assert!(soft.1.is_none() && isotropic.1.is_none() && prager.1 > recovering.1);
+    assert!(soft.2 > 0.0);
+}
+
+#[test]
+fn an_increment_that_does_not_settle_says_which_and_leaves_all_as_it_was() {
+    let mut contact = contact(24, vec![body(24, 8, perfect())], FlowParams::new().with_max_products(2));
+    contact.go_to(Control::Load(0.8 * first_yield())).unwrap();
+    let (pressure, stress) = (contact.pressure().clone(), contact.bodies()[0].stress().clone());
+    let error = contact.go_to(Control::Load(8.0 * first_yield())).unwrap_err();
+    let message = error.to_string();
+    assert!(
+        message.starts_with("increment 2: plastic flow does not settle in 2 products: mismatch"),
+        "{message}"
+    );
+    assert!(error.hint().is_some_and(|hint| hint.contains("more increments")));
+    assert_eq!(*contact.pressure(), pressure);
+    assert_eq!(*contact.bodies()[0].stress(), stress);
+    assert_eq!(contact.bodies()[0].max_accumulated().0, 0.0);
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let answer = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut contact = sphere(32, 8);
+            let increments = contact.load_to(5.0 * first_yield(), 2).unwrap();
+            (increments, contact.pressure().clone(), contact.bodies()[0].strain().clone())
+        })
+    };
+    let one = answer(1);
+    assert_eq!(one, answer(2));
+    assert_eq!(one, answer(7));
+}

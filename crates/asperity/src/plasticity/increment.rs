@@ -1,0 +1,251 @@
+//! An increment: plastic strain and contact pressure that go together.
+
+use super::anderson::Anderson;
+use super::body::{Action, BodyFlow, PlasticBody, Start};
+use crate::error::{Error, Result, check};
+use crate::grid::Field;
+use crate::units::Joule;
+
+/// What the surfaces of the bodies meet, which may move with them.
+pub trait Loading {
+    /// What acts on each body where plastic strain has displaced their surfaces inward by `residual`, each on its own grid, m.
+    ///
+    /// # Errors
+    /// What the loading has of its own.
+    fn act(&mut self, residual: &[Field]) -> Result<Vec<Action>>;
+}
+
+/// What an increment may cost, and when it is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FlowParams {
+    /// Mismatch at which an increment is done, > 0: of the stress, as a share of the yield stress.
+    pub tolerance: f64,
+    /// Products, applications of the residual-stress operator, after which it is given up.
+    pub max_products: usize,
+}
+
+impl FlowParams {
+    /// A mismatch of 10⁻⁴, 200 products at the most.
+    pub const fn new() -> Self {
+        Self { tolerance: 1e-4, max_products: 200 }
+    }
+
+    /// The same with another mismatch at which an increment is done.
+    #[must_use]
+    pub const fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// The same with another number of products after which an increment is given up.
+    #[must_use]
+    pub const fn with_max_products(self, max_products: usize) -> Self {
+        Self { max_products, ..self }
+    }
+}
+
+impl Default for FlowParams {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What an increment has done.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Increment {
+    /// Products: applications of the residual-stress operator to each of the bodies. 0 where nothing flows.
+    pub products: usize,
+    /// Mismatch of the stress over the yield stress; 0 where nothing flows.
+    pub mismatch: f64,
+    /// What has become of each body.
+    pub bodies: Vec<BodyFlow>,
+}
+
+impl Increment {
+    /// Cells of all layers of all bodies that have flowed.
+    pub fn flowing_cells(&self) -> usize {
+        self.bodies.iter().map(|body| body.flowing_cells).sum()
+    }
+
+    /// Plastic work in all bodies, J.
+    pub fn plastic_work(&self) -> Joule {
+        self.bodies.iter().map(|body| body.plastic_work).sum()
+    }
+}
+
+/// Brings bodies that may flow into equilibrium under a `loading`, in one increment from where they are.
+///
+/// For every plastic strain the loading acts anew, so that there is no alternation of contact and flow. What is iterated is the
+/// predictor y of the flow law: y → ε → the loading → σ → y, by Anderson's acceleration on the cells that may flow. A step that
+/// does not lower the mismatch is halved, then taken without acceleration. Flow is a step of backward Euler: its error is of
+/// the first order in the increments.
+///
+/// It starts where the bodies are; or, where the load has moved over them by `shift` whole cells since the last increment (by
+/// none where it has grown), with the strain of that increment added once more: whichever is nearer to the answer.
+///
+/// # Errors
+/// [`Error::FlowNotConverged`]; [`Error::OutOfRange`] for a tolerance without meaning; those of the loading. The bodies are
+/// then as before.
+pub fn advance(
+    bodies: &mut [&mut PlasticBody],
+    loading: &mut dyn Loading,
+    shift: Option<[isize; 2]>,
+    params: &FlowParams,
+) -> Result<Increment> {
+    check("tolerance", params.tolerance, params.tolerance > 0.0, "a mismatch above 0")?;
+    let mut trial = Trial { bodies, products: 0, actions: Vec::new(), residual: Vec::new() };
+    trial.begin_elastic(loading)?;
+    let start = trial.flow(Start::Before);
+    if start == 0.0 {
+        return Ok(trial.end(0.0));
+    }
+    if let Some(shift) = shift
+        && trial.remembers()
+    {
+        let nearer = trial.guess(shift, loading)? && trial.flow(Start::Trial) < start;
+        if !nearer {
+            trial.begin_elastic(loading)?;
+            trial.flow(Start::Before);
+        }
+    }
+    let mismatch = iterate(&mut trial, loading, params)?;
+    Ok(trial.end(mismatch))
+}
+
+/// Iterates from the trial strain on, of whose predictor the flow is known.
+fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) -> Result<f64> {
+    let places: Vec<Vec<usize>> = trial.bodies.iter().map(|body| body.candidates()).collect();
+    let mut anderson = Anderson::default();
+    let (mut least, mut step) = (f64::INFINITY, Step::Plain);
+    loop {
+        trial.respond(loading)?;
+        let mismatch = trial.bodies.iter().map(|body| body.mismatch()).fold(0.0, f64::max);
+        if mismatch < params.tolerance {
+            return Ok(mismatch);
+        }
+        if trial.products >= params.max_products || mismatch.is_nan() {
+            return Err(Error::FlowNotConverged {
+                products: trial.products,
+                mismatch,
+                tolerance: params.tolerance,
+            });
+        }
+        let [y, f] = trial.gather(&places);
+        let worse = mismatch >= least;
+        let next = match (step, anderson.last()) {
+            (Step::Accelerated, Some((before, _))) if worse => {
+                step = Step::Halved;
+                before.iter().zip(&y).map(|(a, b)| 0.5 * (a + b)).collect()
+            }
+            (Step::Halved, Some((before, wrong))) if worse => {
+                step = Step::Plain;
+                let plain = before.iter().zip(wrong).map(|(y, f)| y + f).collect();
+                anderson.begin_again();
+                plain
+            }
+            _ => {
+                let counts = trial.flowing_entries(&places);
+                least = mismatch;
+                step = if anderson.last().is_some() { Step::Accelerated } else { Step::Plain };
+                anderson.next(y, f, &counts)
+            }
+        };
+        trial.predict(&places, &next);
+        trial.flow(Start::Before);
+    }
+}
+
+/// How the present predictor was come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Step {
+    Plain,
+    Accelerated,
+    Halved,
+}
+
+/// Bodies within an increment.
+struct Trial<'a, 'b> {
+    bodies: &'a mut [&'b mut PlasticBody],
+    products: usize,
+    actions: Vec<Action>,
+    residual: Vec<Field>,
+}
+
+impl Trial<'_, '_> {
+    fn begin_elastic(&mut self, loading: &mut dyn Loading) -> Result<()> {
+        self.residual = self.bodies.iter().map(|body| body.displacement_before()).collect();
+        self.actions = loading.act(&self.residual)?;
+        let mut product = false;
+        for (body, action) in self.bodies.iter_mut().zip(&self.actions) {
+            product |= body.predict_elastic(action);
+        }
+        self.products += usize::from(product);
+        Ok(())
+    }
+
+    /// Whether a body has flowed in the last increment.
+    fn remembers(&self) -> bool {
+        self.bodies.iter().any(|body| body.remembers())
+    }
+
+    /// The predictor of the strain that grows once more as it did last. Whether there was any.
+    fn guess(&mut self, shift: [isize; 2], loading: &mut dyn Loading) -> Result<bool> {
+        let any = self.bodies.iter_mut().fold(false, |any, body| body.guess(shift) | any);
+        if any {
+            self.respond(loading)?;
+            self.bodies.iter_mut().for_each(|body| body.predict());
+        }
+        Ok(any)
+    }
+
+    /// The stress of the trial strain, under what then acts.
+    fn respond(&mut self, loading: &mut dyn Loading) -> Result<()> {
+        self.residual = self.bodies.iter_mut().map(|body| body.take_trial()).collect();
+        self.actions = loading.act(&self.residual)?;
+        self.bodies.iter_mut().zip(&self.actions).for_each(|(body, action)| body.respond(action));
+        self.products += 1;
+        Ok(())
+    }
+
+    fn flow(&mut self, start: Start) -> f64 {
+        self.bodies.iter_mut().map(|body| body.flow(start)).fold(0.0, f64::max)
+    }
+
+    fn gather(&self, places: &[Vec<usize>]) -> [Vec<f64>; 2] {
+        let mut all = [Vec::new(), Vec::new()];
+        for (body, places) in self.bodies.iter().zip(places) {
+            let part = body.gather(places);
+            all.iter_mut().zip(part).for_each(|(all, part)| all.extend(part));
+        }
+        all
+    }
+
+    fn flowing_entries(&self, places: &[Vec<usize>]) -> Vec<usize> {
+        let mut first = 0;
+        let mut entries = Vec::new();
+        for (body, places) in self.bodies.iter().zip(places) {
+            entries.extend(body.flowing_entries(places).map(|entry| first + entry));
+            first += super::COMPONENTS * places.len();
+        }
+        entries
+    }
+
+    /// The next predictor: `values` where cells may flow, elsewhere what the trial stress makes of it.
+    fn predict(&mut self, places: &[Vec<usize>], values: &[f64]) {
+        let mut rest = values;
+        for (body, places) in self.bodies.iter_mut().zip(places) {
+            let (own, others) = rest.split_at(super::COMPONENTS * places.len());
+            body.predict();
+            body.scatter(places, own);
+            rest = others;
+        }
+    }
+
+    fn end(self, mismatch: f64) -> Increment {
+        let Self { bodies, products, actions, residual } = self;
+        let ends = bodies.iter_mut().zip(actions).zip(residual);
+        let bodies = ends.map(|((body, action), residual)| body.commit(action, residual)).collect();
+        Increment { products, mismatch, bodies }
+    }
+}

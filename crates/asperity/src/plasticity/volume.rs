@@ -1,0 +1,253 @@
+//! The volume under a surface that may flow, and what acts in it.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+use realfft::num_complex::Complex64;
+
+use super::images::{Coarsening, Images};
+use super::influence::Influence;
+use super::waves::{Waves, WavesScratch};
+use super::{COMPONENTS, Layers, TensorField};
+use crate::error::{Error, Result, check, check_in};
+use crate::grid::{Field, Grid};
+use crate::kernel::Traction;
+use crate::material::Material;
+use crate::math::together;
+use crate::operator::Boundary;
+use crate::subsurface::Tractions;
+use crate::units::Dimension;
+
+/// The elastic half-space under a grid, in layers that may take plastic strain: what stress tractions and plastic strain make
+/// in it, and what plastic strain does to its surface.
+///
+/// ```text
+/// σ = S p + K ε      Volume::elastic, Volume::residual
+/// r = Sᵀ ε           Volume::displacement
+/// ```
+///
+/// Plastic strain ε is traceless (εzz is never read, but taken as −εxx − εyy), uniform in each cell of each layer, tensor
+/// strain, zero outside the grid; stress is the mean over each layer, at the middle of each cell. Both are indexed
+/// `[layer, component, ix, iy]`, components in the order of [`crate::stress::Component::ALL`]. z points into the body. The
+/// upper body has its own frame, the mirror image: the same x and y, its own z, its shear tractions reversed.
+///
+/// - [`Boundary::PERIODIC`]: exact for the harmonics of the grid.
+/// - [`Boundary::FREE`]: S and Sᵀ from the closed form of the cell, at two depths a layer; K from a period of twice the size,
+///   of which the images are taken off: to less than 10⁻³ of the largest residual stress.
+pub struct Volume {
+    grid: Grid,
+    layers: Layers,
+    boundary: Boundary,
+    material: Material,
+    period: [usize; 2],
+    influence: [OnceLock<Influence>; 3],
+    waves: Waves,
+    images: Option<Images>,
+    /// Whether the strain that was last taken up is not zero throughout.
+    strained: bool,
+    /// Columns of a field on the surface.
+    surface: Vec<Complex64>,
+}
+
+impl Volume {
+    /// The volume under `grid` of a body of the elastic constants of `material`; its hardness does not count.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a rigid body, [`Error::Unsupported`] for a coated one, or a boundary that is periodic along
+    /// one axis alone.
+    pub fn new(grid: Grid, layers: Layers, boundary: Boundary, material: &Material) -> Result<Self> {
+        if boundary.repeats(0) != boundary.repeats(1) {
+            return Err(Error::Unsupported(
+                "plastic strain under a boundary that is periodic along one axis alone",
+            ));
+        }
+        if material.coating.is_some() {
+            return Err(Error::Unsupported("plastic strain in a coated body"));
+        }
+        let Material { young, poisson, .. } = *material;
+        check_in(
+            Dimension::Pressure,
+            "young",
+            young,
+            young.is_finite(),
+            "a finite modulus: a rigid body does not flow",
+        )?;
+        check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
+        let free = !boundary.leaves_mean_free();
+        let period = if free { grid.shape.map(|n| Coarsening::of(n).period()) } else { grid.shape };
+        let waves = Waves::new(&grid, period, &layers, young, poisson);
+        let images = free.then(|| Images::new(&grid, &layers, young, poisson));
+        let surface = waves.planes.columns(1);
+        Ok(Self {
+            grid,
+            layers,
+            boundary,
+            material: *material,
+            period,
+            influence: Default::default(),
+            waves,
+            images,
+            strained: false,
+            surface,
+        })
+    }
+
+    /// The grid of the surface.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The layers.
+    pub fn layers(&self) -> &Layers {
+        &self.layers
+    }
+
+    /// What lies beyond the edges of the grid.
+    pub fn boundary(&self) -> Boundary {
+        self.boundary
+    }
+
+    /// The elastic constants.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// A tensor field of zeros.
+    pub fn zeros(&self) -> TensorField {
+        TensorField::zeros([self.layers.count(), COMPONENTS, self.grid.shape[0], self.grid.shape[1]])
+    }
+
+    /// ∫ a : b over the volume: with stress and strain an energy, J.
+    ///
+    /// # Panics
+    /// If a field has another shape.
+    pub fn inner_product(&self, a: &TensorField, b: &TensorField) -> f64 {
+        assert!(a.dim() == b.dim() && a.dim() == self.zeros_dim(), "shape of the fields");
+        let layers = a.outer_iter().zip(b.outer_iter()).enumerate();
+        let sum: f64 = layers
+            .map(|(layer, (a, b))| {
+                let products = a.outer_iter().zip(b.outer_iter()).enumerate().map(|(component, (a, b))| {
+                    let sum: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+                    if component < 3 { sum } else { 2.0 * sum }
+                });
+                self.layers.thickness(layer) * products.sum::<f64>()
+            })
+            .sum();
+        self.grid.cell_area() * sum
+    }
+
+    /// S: the elastic stress under `tractions`, Pa.
+    ///
+    /// # Panics
+    /// If a traction is not on the grid.
+    pub fn elastic(&mut self, tractions: &Tractions) -> TensorField {
+        let mut stress = self.zeros();
+        self.strained = false;
+        self.stress(Some(tractions), &mut stress);
+        stress
+    }
+
+    /// Sᵀ: the displacement of the surface along `traction` (inward along the pressure, along +x and +y along the shears) by
+    /// plastic strain, m. With the mean of the period under a periodic boundary.
+    ///
+    /// # Panics
+    /// If the strain has another shape than [`Volume::zeros`].
+    pub fn displacement(&mut self, strain: &TensorField, traction: Traction) -> Field {
+        self.take(strain);
+        self.surface(traction)
+    }
+
+    /// K: the residual stress of plastic strain, Pa.
+    ///
+    /// # Panics
+    /// If the strain has another shape than [`Volume::zeros`].
+    pub fn residual(&mut self, strain: &TensorField) -> TensorField {
+        self.take(strain);
+        let mut stress = self.zeros();
+        self.stress(None, &mut stress);
+        stress
+    }
+
+    /// Takes up a plastic strain, for [`Volume::surface`] and then, once, [`Volume::stress`].
+    pub(super) fn take(&mut self, strain: &TensorField) {
+        assert_eq!(strain.dim(), self.zeros_dim(), "shape of the strain");
+        self.strained = self.waves.take(strain.as_slice().expect("standard layout"));
+        if let (true, Some(images)) = (self.strained, &mut self.images) {
+            images.take(strain.view());
+        }
+    }
+
+    /// Forgets the strain: the body is elastic.
+    pub(super) fn forget(&mut self) {
+        self.strained = false;
+    }
+
+    /// The displacement of the surface along `traction` by the strain that was taken up.
+    pub(super) fn surface(&mut self, traction: Traction) -> Field {
+        let mut displacement = self.grid.zeros();
+        if !self.strained {
+            return displacement;
+        }
+        self.make_influence(traction);
+        let influence = self.influence[traction as usize].get().expect("made before");
+        let (planes, chunk, stride) =
+            (&self.waves.planes, self.waves.at_frequency(), self.waves.planes.stride());
+        let columns = self.waves.columns.par_chunks_exact(chunk);
+        let work = self.surface.par_chunks_exact_mut(stride).zip(columns).with_min_len(together(chunk));
+        work.enumerate().for_each_init(
+            || planes.scratch(),
+            |scratch, (ky, (column, strain))| {
+                influence.transpose(planes, ky, strain, column);
+                planes.column_back(column, scratch);
+            },
+        );
+        planes.rows_back(&self.surface, displacement.as_slice_mut().expect("standard layout"));
+        displacement
+    }
+
+    /// The stress under `tractions` and the strain that was taken up.
+    pub(super) fn stress(&mut self, tractions: Option<&Tractions>, stress: &mut TensorField) {
+        let present: Vec<(Traction, &Field)> = tractions.map(|t| t.present().collect()).unwrap_or_default();
+        present.iter().for_each(|(traction, _)| self.make_influence(*traction));
+        let planes = &self.waves.planes;
+        let rows: Vec<_> = present
+            .iter()
+            .map(|(_, field)| {
+                assert_eq!(field.shape(), self.grid.shape, "shape of the tractions");
+                let mut rows = planes.rows(1);
+                let field = field.as_standard_layout();
+                planes.rows_forward(&[field.as_slice().expect("standard layout")], &mut rows);
+                rows
+            })
+            .collect();
+        let influence = &self.influence;
+        self.waves.back(
+            self.strained,
+            |planes, ky, columns, WavesScratch { fft, column, .. }| {
+                for ((traction, _), rows) in present.iter().zip(&rows) {
+                    planes.column_forward(rows, [0, ky], column, fft);
+                    let influence = influence[*traction as usize].get().expect("made before");
+                    influence.add(planes, ky, column, columns);
+                }
+            },
+            stress.as_slice_mut().expect("standard layout"),
+        );
+        if let (true, Some(images)) = (self.strained, &mut self.images) {
+            images.remove(stress);
+        }
+    }
+
+    fn make_influence(&self, traction: Traction) {
+        self.influence[traction as usize].get_or_init(|| {
+            let Self { grid, layers, boundary, period, .. } = self;
+            Influence::new(grid, *period, *boundary, layers, self.material.poisson, traction)
+        });
+    }
+
+    fn zeros_dim(&self) -> (usize, usize, usize, usize) {
+        (self.layers.count(), COMPONENTS, self.grid.shape[0], self.grid.shape[1])
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Plastic strain in Fourier space, and the residual stress that comes back from there.
+
+use rayon::prelude::*;
+use realfft::num_complex::Complex64;
+
+use super::sweep::{Sweep, SweepScratch};
+use super::{COMPONENTS, Layers};
+use crate::grid::Grid;
+use crate::math::{Planes, together};
+use crate::units::Pascal;
+
+/// The components of which plastic strain is known; zz follows, since it keeps its volume.
+pub(super) const INDEPENDENT: [usize; 5] = [0, 1, 3, 4, 5];
+
+/// The waves of a volume whose surface repeats itself, and of a smaller one that is continued by zeros.
+pub(super) struct Waves {
+    pub(super) planes: Planes,
+    sweep: Sweep,
+    layers: usize,
+    /// Transforms of the rows of the independent components, layer by layer.
+    rows: Vec<Complex64>,
+    /// Columns of all components, layer by layer: of the strain, then of the stress.
+    pub(super) columns: Vec<Complex64>,
+}
+
+/// Scratch of a thread.
+pub(super) struct WavesScratch {
+    pub(super) fft: Vec<Complex64>,
+    /// A column.
+    pub(super) column: Vec<Complex64>,
+    sweep: SweepScratch,
+}
+
+impl Waves {
+    /// The waves of a body on `grid`, of a surface that repeats itself after so many cells as `period` says.
+    pub(super) fn new(grid: &Grid, period: [usize; 2], layers: &Layers, young: Pascal, poisson: f64) -> Self {
+        let planes = Planes::new(period, grid.shape);
+        let sweep = Sweep::new(layers, young, poisson, period, grid.pitch);
+        let layers = layers.count();
+        let rows = planes.rows(INDEPENDENT.len() * layers);
+        let columns = planes.columns(COMPONENTS * layers);
+        Self { planes, sweep, layers, rows, columns }
+    }
+
+    /// Numbers at one frequency along y.
+    pub(super) fn at_frequency(&self) -> usize {
+        COMPONENTS * self.layers * self.planes.stride()
+    }
+
+    /// Takes up a plastic strain, `[layer, component, ix, iy]`. Whether there is any.
+    pub(super) fn take(&mut self, strain: &[f64]) -> bool {
+        let cells = self.planes.cells();
+        let planes: Vec<&[f64]> = strain.chunks_exact(cells[0] * cells[1]).collect();
+        let known: Vec<&[f64]> = planes
+            .chunks_exact(COMPONENTS)
+            .flat_map(|layer| INDEPENDENT.map(|component| layer[component]))
+            .collect();
+        let present = self.planes.rows_forward(&known, &mut self.rows);
+        if !present.contains(&true) {
+            return false;
+        }
+        let (chunk, stride) = (self.at_frequency(), self.planes.stride());
+        let Self { planes, rows, columns, .. } = self;
+        columns.par_chunks_exact_mut(chunk).with_min_len(together(chunk)).enumerate().for_each_init(
+            || planes.scratch(),
+            |scratch, (ky, columns)| {
+                for (layer, columns) in columns.chunks_exact_mut(COMPONENTS * stride).enumerate() {
+                    for (n, component) in INDEPENDENT.into_iter().enumerate() {
+                        let plane = layer * INDEPENDENT.len() + n;
+                        let column = &mut columns[component * stride..][..stride];
+                        match present[plane] {
+                            true => planes.column_forward(rows, [plane, ky], column, scratch),
+                            false => column.fill(Complex64::default()),
+                        }
+                    }
+                }
+            },
+        );
+        true
+    }
+
+    /// Puts the residual stress in place of the strain that was taken up, if there was `any`, lets `change` add to the columns
+    /// of each frequency along y, and transforms it back into `stress`.
+    pub(super) fn back(
+        &mut self,
+        any: bool,
+        change: impl Fn(&Planes, usize, &mut [Complex64], &mut WavesScratch) + Sync,
+        stress: &mut [f64],
+    ) {
+        let (chunk, stride) = (self.at_frequency(), self.planes.stride());
+        let Self { planes, sweep, columns, .. } = self;
+        let make = || WavesScratch {
+            fft: planes.scratch(),
+            column: vec![Complex64::default(); stride],
+            sweep: sweep.scratch(),
+        };
+        columns.par_chunks_exact_mut(chunk).with_min_len(together(chunk)).enumerate().for_each_init(
+            make,
+            |scratch, (ky, columns)| {
+                match any {
+                    true => sweep.residual(planes, ky, columns, &mut scratch.sweep),
+                    false => columns.fill(Complex64::default()),
+                }
+                change(planes, ky, columns, scratch);
+                for column in columns.chunks_exact_mut(stride) {
+                    planes.column_back(column, &mut scratch.fft);
+                }
+            },
+        );
+        self.planes.rows_back(&self.columns, stress);
+    }
+}
