@@ -78,7 +78,7 @@ impl Increment {
 ///
 /// For every plastic strain the loading acts anew, so that there is no alternation of contact and flow. What is iterated is the
 /// predictor y of the flow law: y → ε → the loading → σ → y, by Anderson's acceleration on the cells that may flow. A step that
-/// does not lower the mismatch is halved, then taken without acceleration. Flow is a step of backward Euler: its error is of
+/// goes astray is halved, then taken without acceleration. Flow is a step of backward Euler: its error is of
 /// the first order in the increments.
 ///
 /// It starts where the bodies are; or, where the load has moved over them by `shift` whole cells since the last increment (by
@@ -132,7 +132,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
             });
         }
         let [y, f] = trial.gather(&places);
-        let worse = mismatch >= least;
+        let worse = mismatch >= FAR_WORSE * least;
         let next = match (step, anderson.last()) {
             (Step::Accelerated, Some((before, _))) if worse => {
                 step = Step::Halved;
@@ -146,7 +146,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
             }
             _ => {
                 let counts = trial.flowing_entries(&places);
-                least = mismatch;
+                least = least.min(mismatch);
                 step = if anderson.last().is_some() { Step::Accelerated } else { Step::Plain };
                 anderson.next(y, f, &counts)
             }
@@ -155,6 +155,10 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
         trial.flow(Start::Before);
     }
 }
+
+/// A step that leaves so many times the least mismatch so far has gone astray. Steps that leave little more are needed: without them
+/// a fully plastic contact takes half as many products again.
+const FAR_WORSE: f64 = 10.0;
 
 /// How the present predictor was come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

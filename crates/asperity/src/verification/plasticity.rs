@@ -71,7 +71,15 @@ pub(super) const ENERGY: Case = Case {
 
 fn energy(cells: usize, boundary: Boundary) -> Result<f64> {
     let layers = Layers::new(0.35, 10, 1.1)?;
-    let sphere = Sphere { cells, middle: 0.5 * (cells as f64 - 1.0), pitch: 1.0 / cells as f64, radius: 14.0, boundary, layers, young: 1.0 };
+    let sphere = Sphere {
+        cells,
+        middle: 0.5 * (cells as f64 - 1.0),
+        pitch: 1.0 / cells as f64,
+        radius: 14.0,
+        boundary,
+        layers,
+        young: 1.0,
+    };
     let yield_stress = 0.003;
     let law = J2::new(Hardening::linear(yield_stress, 0.05)?).with_back_stress(0.03, 0.0)?;
     let mut contact = sphere.contact(law, FlowParams::new())?;
@@ -103,7 +111,15 @@ pub(super) const ONSET: Case = Case {
         study("a/Δx", &[12], checks, |n| {
             let layers = Layers::new(1.0, 48, 1.0)?;
             let (cells, pitch) = (3 * n, 1.0 / n as f64);
-            let sphere = Sphere { cells, middle: 0.5 * (cells as f64 - 1.0), pitch, radius: 100.0, boundary: Boundary::FREE, layers, young: 1.0 };
+            let sphere = Sphere {
+                cells,
+                middle: 0.5 * (cells as f64 - 1.0),
+                pitch,
+                radius: 100.0,
+                boundary: Boundary::FREE,
+                layers,
+                young: 1.0,
+            };
             let modulus = 1.0 / (1.0 - POISSON * POISSON);
             // a = 1: W = 4E*a³/3R, p₀ = 2E*a/πR.
             let (load, peak) = (4.0 * modulus / (3.0 * sphere.radius), 2.0 * modulus / (PI * sphere.radius));
@@ -225,7 +241,15 @@ pub(super) fn fully_plastic(cells: usize, growth: f64) -> Result<f64> {
     let radius = modulus * end / (ratio * yield_stress);
     let layers = Layers::new(0.5, 24, 1.07)?;
     let pitch = 1.0 / cells as f64;
-    let sphere = Sphere { cells, middle: 0.5 * (cells as f64 - 1.0), pitch, radius, boundary: Boundary::PERIODIC, layers, young: 1.0 };
+    let sphere = Sphere {
+        cells,
+        middle: 0.5 * (cells as f64 - 1.0),
+        pitch,
+        radius,
+        boundary: Boundary::PERIODIC,
+        layers,
+        young: 1.0,
+    };
     let mut contact = sphere.contact(J2::new(Hardening::perfect(yield_stress)?), FlowParams::new())?;
     let largest = 3.0 * yield_stress * PI * end * end;
     let mut load = (largest / 60.0).max(2.0 * first_yield(radius, yield_stress));
