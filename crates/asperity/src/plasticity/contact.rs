@@ -9,13 +9,19 @@ use crate::solver::{Bounds, Control, Params, Solution, solve_normal};
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
 
-/// A contact that is loaded and unloaded increment by increment, of one body that may flow, or of two.
+/// A contact that is loaded and unloaded increment by increment, of one body that may flow, or of two, which may move over each
+/// other in between.
 ///
-/// The gap is that of the undeformed bodies; their plastic strain opens it by r: g = h − δ + C p + r_lower + r_upper.
+/// The gap is that of the undeformed bodies; their plastic strain opens it by r: g = h − δ + C p + r_lower + r_upper. A contact
+/// lies on a part of each body, or on all of it; plastic strain stays with the material.
 pub struct PlasticContact {
     operator: Box<dyn Operator>,
     initial_gap: Field,
     bodies: Vec<PlasticBody>,
+    /// Where the contact begins on each body.
+    places: Vec<[usize; 2]>,
+    /// By how many cells the load has moved over each body since the last increment.
+    shifts: Vec<[isize; 2]>,
     flow: FlowParams,
     contact: Params,
     increments: usize,
@@ -26,7 +32,8 @@ pub struct PlasticContact {
 }
 
 impl PlasticContact {
-    /// Bodies that do not touch yet. The operator is that of the pair; the `bodies` are those of the pair that may flow.
+    /// Bodies that do not touch yet, and face each other with all of their cells. The operator is that of the pair; the `bodies`
+    /// are those of the pair that may flow.
     ///
     /// # Panics
     /// If the gap, the operator and the bodies are not on one grid.
@@ -44,6 +51,8 @@ impl PlasticContact {
         Self {
             operator,
             initial_gap,
+            places: vec![[0; 2]; bodies.len()],
+            shifts: vec![[0; 2]; bodies.len()],
             bodies,
             flow,
             contact,
@@ -54,13 +63,52 @@ impl PlasticContact {
         }
     }
 
+    /// Brings the bodies to another position, which the next increment will meet: its undeformed gap, on cells that the `operator`
+    /// is for, of which the first is `places` of each body (counted cyclically under a periodic boundary), and by how many whole
+    /// cells the load moves over each of them.
+    ///
+    /// # Panics
+    /// If the gap is not on the operator's grid, a contact reaches beyond a body, or there are not as many places and shifts
+    /// as bodies.
+    pub fn move_to(
+        &mut self,
+        operator: Box<dyn Operator>,
+        initial_gap: Field,
+        places: &[[usize; 2]],
+        shifts: &[[isize; 2]],
+    ) {
+        let shape = operator.grid().shape;
+        assert_eq!(initial_gap.shape(), shape, "shape of the initial gap");
+        assert!(places.len() == self.bodies.len() && shifts.len() == places.len(), "a place for each body");
+        for (body, place) in self.bodies.iter_mut().zip(places) {
+            let volume = body.volume();
+            let fits = (0..2).all(|axis| place[axis] + shape[axis] <= volume.grid().shape[axis]);
+            assert!(fits || volume.boundary().leaves_mean_free(), "a contact on the body");
+        }
+        // The pressure goes with the load over the first body.
+        let (body, [dx, dy]) = (self.bodies[0].displacement(), shifts[0]);
+        let [nx, ny] = [body.nrows(), body.ncols()];
+        let before = on_body(&self.pressure, self.places[0], [nx, ny]);
+        let moved = Field::from_shape_fn([nx, ny], |(i, j)| {
+            let back =
+                |index: usize, by: isize, n: usize| (index as isize - by).rem_euclid(n as isize) as usize;
+            before[[back(i, dx, nx), back(j, dy, ny)]]
+        });
+        self.pressure = on_contact(&moved, places[0], shape);
+        self.operator = operator;
+        self.initial_gap = initial_gap;
+        self.places = places.to_vec();
+        self.shifts = shifts.to_vec();
+    }
+
     /// Goes on to a load (0: the bodies are taken apart) or an approach in one increment.
     ///
     /// # Errors
     /// [`Error::AtIncrement`] with what is wrong there: [`Error::FlowNotConverged`], or what [`solve_normal`] finds.
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
         self.increments += 1;
-        let Self { operator, initial_gap, bodies, flow, contact, pressure, .. } = self;
+        let Self { operator, initial_gap, bodies, flow, contact, pressure, places, .. } = self;
+        let shapes = bodies.iter().map(|body| [body.displacement().nrows(), body.displacement().ncols()]);
         let mut pressing = Pressing {
             operator: operator.as_mut(),
             initial_gap,
@@ -68,16 +116,17 @@ impl PlasticContact {
             params: contact,
             pressure: pressure.clone(),
             solution: None,
-            bodies: bodies.len(),
+            facing: places.iter().copied().zip(shapes).collect(),
         };
         let mut flowing: Vec<&mut PlasticBody> = bodies.iter_mut().collect();
         let at = |source| Error::AtIncrement { increment: self.increments, source: Box::new(source) };
-        let increment = advance(&mut flowing, &mut pressing, Some([0, 0]), flow).map_err(at)?;
+        let increment = advance(&mut flowing, &mut pressing, Some(&self.shifts), flow).map_err(at)?;
         let Pressing { pressure, solution, .. } = pressing;
         self.approach = solution.as_ref().map(|solution| solution.approach);
         self.elastic =
             solution.map_or_else(|| Field::zeros(pressure.raw_dim()), |solution| solution.displacement);
         self.pressure = pressure;
+        self.shifts.fill([0; 2]);
         Ok(increment)
     }
 
@@ -114,7 +163,11 @@ impl PlasticContact {
 
     /// What the surfaces have moved apart by, C p + r, m; under a periodic boundary the mean of C p is zero.
     pub fn displacement(&self) -> Field {
-        self.bodies.iter().fold(self.elastic.clone(), |sum, body| sum + body.displacement())
+        let shape = self.operator.grid().shape;
+        let bodies = self.bodies.iter().zip(&self.places);
+        bodies.fold(self.elastic.clone(), |sum, (body, place)| {
+            sum + on_contact(body.displacement(), *place, shape)
+        })
     }
 
     /// Elastic energy ½ ΔA Σ p C p under the pressure, J: without that of the residual stress.
@@ -132,7 +185,8 @@ struct Pressing<'a> {
     /// The last pressure: a start for the next.
     pressure: Field,
     solution: Option<Solution>,
-    bodies: usize,
+    /// Where the contact begins on each body, and the body's shape.
+    facing: Vec<([usize; 2], [usize; 2])>,
 }
 
 impl Loading for Pressing<'_> {
@@ -141,17 +195,34 @@ impl Loading for Pressing<'_> {
             self.pressure.fill(0.0);
             self.solution = None;
         } else {
-            let gap = residual.iter().fold(self.initial_gap.clone(), |gap, r| gap + r);
+            let shape = self.operator.grid().shape;
+            let facing = residual.iter().zip(&self.facing);
+            let gap = facing
+                .fold(self.initial_gap.clone(), |gap, (r, (place, _))| gap + on_contact(r, *place, shape));
             let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
             let solution =
                 solve_normal(self.operator, &gap, &Bounds::ELASTIC, self.control, start, self.params)?;
             self.pressure.assign(&solution.pressure);
             self.solution = Some(solution);
         }
-        Ok((0..self.bodies)
-            .map(|_| Action::Tractions(Tractions::frictionless(self.pressure.clone())))
-            .collect())
+        let on = |(place, shape): &([usize; 2], [usize; 2])| on_body(&self.pressure, *place, *shape);
+        Ok(self.facing.iter().map(|facing| Action::Tractions(Tractions::frictionless(on(facing)))).collect())
     }
+}
+
+/// Of a field on a body the part on a contact that begins at `place`, counted cyclically.
+fn on_contact(field: &Field, place: [usize; 2], shape: [usize; 2]) -> Field {
+    let [nx, ny] = [field.nrows(), field.ncols()];
+    Field::from_shape_fn(shape, |(i, j)| field[[(place[0] + i) % nx, (place[1] + j) % ny]])
+}
+
+/// A field on a contact that begins at `place` of a body of this `shape`, counted cyclically; 0 elsewhere.
+fn on_body(field: &Field, place: [usize; 2], shape: [usize; 2]) -> Field {
+    let mut on = Field::zeros(shape);
+    for ((i, j), value) in field.indexed_iter() {
+        on[[(place[0] + i) % shape[0], (place[1] + j) % shape[1]]] = *value;
+    }
+    on
 }
 
 #[cfg(test)]

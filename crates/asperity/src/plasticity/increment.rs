@@ -81,8 +81,9 @@ impl Increment {
 /// goes astray is halved, then taken without acceleration. Flow is a step of backward Euler: its error is of
 /// the first order in the increments.
 ///
-/// It starts where the bodies are; or, where the load has moved over them by `shift` whole cells since the last increment (by
-/// none where it has grown), with the strain of that increment added once more: whichever is nearer to the answer.
+/// It starts where the bodies are; or, where the load has moved over each of them by so many whole cells as `shifts` says since the
+/// last increment (by none where it has grown), with the strain of that increment added once more: whichever is nearer to the
+/// answer.
 ///
 /// # Errors
 /// [`Error::FlowNotConverged`]; [`Error::OutOfRange`] for a tolerance without meaning; those of the loading. The bodies are
@@ -90,7 +91,7 @@ impl Increment {
 pub fn advance(
     bodies: &mut [&mut PlasticBody],
     loading: &mut dyn Loading,
-    shift: Option<[isize; 2]>,
+    shifts: Option<&[[isize; 2]]>,
     params: &FlowParams,
 ) -> Result<Increment> {
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a mismatch above 0")?;
@@ -100,10 +101,10 @@ pub fn advance(
     if start == 0.0 {
         return Ok(trial.end(0.0));
     }
-    if let Some(shift) = shift
+    if let Some(shifts) = shifts
         && trial.remembers()
     {
-        let nearer = trial.guess(shift, loading)? && trial.flow(Start::Trial) < start;
+        let nearer = trial.guess(shifts, loading)? && trial.flow(Start::Trial) < start;
         if !nearer {
             trial.begin_elastic(loading)?;
             trial.flow(Start::Before);
@@ -194,8 +195,8 @@ impl Trial<'_, '_> {
     }
 
     /// The predictor of the strain that grows once more as it did last. Whether there was any.
-    fn guess(&mut self, shift: [isize; 2], loading: &mut dyn Loading) -> Result<bool> {
-        let any = self.bodies.iter_mut().fold(false, |any, body| body.guess(shift) | any);
+    fn guess(&mut self, shifts: &[[isize; 2]], loading: &mut dyn Loading) -> Result<bool> {
+        let any = self.bodies.iter_mut().zip(shifts).fold(false, |any, (body, by)| body.guess(*by) | any);
         if any {
             self.respond(loading)?;
             self.bodies.iter_mut().for_each(|body| body.predict());

@@ -309,7 +309,7 @@ fn roll(body: &mut PlasticBody, load: &mut Travelling) -> Result<Pass> {
     let cells = body.displacement().nrows();
     for position in 0..cells {
         load.at = position;
-        advance(&mut [body], load, Some([1, 0]), &FlowParams::new())?;
+        advance(&mut [body], load, Some(&[[1, 0]]), &FlowParams::new())?;
     }
     let material = *body.volume().material();
     let shear_modulus = 0.5 * material.young / (1.0 + material.poisson);

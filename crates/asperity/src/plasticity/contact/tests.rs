@@ -199,3 +199,114 @@ fn threads_do_not_change_a_bit() {
     assert_eq!(one, answer(2));
     assert_eq!(one, answer(7));
 }
+
+/// A ball whose axis stands at `x`, in cells, over 64 × 32 of them.
+struct Ball {
+    radius: f64,
+    grid: Grid,
+    load: f64,
+}
+
+impl Ball {
+    /// Of a contact radius of 6 cells at p₀ = 4.5 k, k = σY/√3.
+    fn new() -> Self {
+        let (a, peak) = (6.0, 4.5 * YIELD / 3f64.sqrt());
+        let radius = 2.0 * a * steel().plane_strain_modulus() / (std::f64::consts::PI * peak);
+        let load = 2.0 / 3.0 * std::f64::consts::PI * a * a * peak;
+        Self { radius, grid: Grid::new([64, 32], [1.0; 2]).unwrap(), load }
+    }
+
+    fn gap(&self, x: f64) -> Field {
+        Field::from_shape_fn(self.grid.shape, |(i, j)| {
+            let [x, y] = [i as f64 - x, j as f64 - 15.5];
+            (x * x + y * y) / (2.0 * self.radius)
+        })
+    }
+
+    fn operator(&self) -> Box<PeriodicFft> {
+        Box::new(PeriodicFft::new(self.grid, steel().plane_strain_modulus()))
+    }
+
+    fn body(&self, layers: usize) -> PlasticBody {
+        let mut faces = vec![0.0];
+        (0..layers).for_each(|layer| faces.push(faces[layer] + 1.1f64.powi(layer as i32)));
+        let layers = Layers::between(&faces).unwrap();
+        let volume = Volume::new(self.grid, layers, Boundary::PERIODIC, &steel()).unwrap();
+        PlasticBody::new(volume, Arc::new(perfect()))
+    }
+
+    /// Presses it in at `from` and rolls it to `to`; the products of each position after the first.
+    fn pass(&self, contact: &mut PlasticContact, from: usize, to: usize) -> Vec<usize> {
+        contact.move_to(self.operator(), self.gap(from as f64), &[[0; 2]], &[[0; 2]]);
+        for share in [0.5, 0.7, 0.85, 1.0] {
+            contact.go_to(Control::Load(share * self.load)).unwrap();
+        }
+        let mut at = |x: usize| {
+            contact.move_to(self.operator(), self.gap(x as f64), &[[0; 2]], &[[1, 0]]);
+            contact.go_to(Control::Load(self.load)).unwrap().products
+        };
+        (from + 1..to).map(&mut at).collect()
+    }
+}
+
+#[test]
+#[ignore = "a minute"]
+fn a_ball_that_rolls_again_deepens_its_groove_as_an_independent_program_has_it() {
+    let ball = Ball::new();
+    let params = Params::default().with_tolerance(1e-8);
+    let flow = FlowParams::new();
+    let mut contact = PlasticContact::new(ball.operator(), ball.gap(16.0), vec![ball.body(12)], flow, params);
+    let grooves: Vec<f64> = (0..4)
+        .map(|_| {
+            let products = ball.pass(&mut contact, 16, 48);
+            let mean = products.iter().sum::<usize>() as f64 / products.len() as f64;
+            assert!(mean <= 5.0, "{mean} products a position");
+            let r = contact.bodies()[0].displacement();
+            let along = |iy: usize| (24..40).map(|ix| r[[ix, iy]]).sum::<f64>() / 16.0;
+            along(16) - along(0)
+        })
+        .collect();
+    for (n, expected) in [(1, 1.035), (2, 1.040), (3, 1.041)] {
+        assert!((grooves[n] / grooves[0] - expected).abs() < 0.005, "{grooves:?}");
+    }
+}
+
+#[test]
+fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
+    // A bump on one of two bodies that both flow, and moves over the other by a cell at a time; and the other way round.
+    let n = 24;
+    let bump = |x: f64| {
+        Field::from_shape_fn([n, n], |(i, j)| {
+            let [x, y] = [i as f64 - x, j as f64 - 11.5].map(|x| x / n as f64);
+            (x * x + y * y) / (2.0 * RADIUS)
+        })
+    };
+    let roll = |forth: bool| {
+        let pair = vec![body(n, 6, perfect()), body(n, 6, perfect())];
+        let mut contact = contact(n, pair, FlowParams::new().with_tolerance(1e-8));
+        contact.contact = Params::default().with_tolerance(1e-11);
+        for step in 0..3 {
+            // The contact is looked at from the body without the bump, whose cells stand still; the other's go round.
+            let by = if forth { step } else { n - step };
+            let at = if forth { 10.0 + step as f64 } else { 13.0 - step as f64 };
+            let operator = PeriodicFft::new(*contact.operator.grid(), steel().plane_strain_modulus() / 2.0);
+            let places = [[0, 0], [(n - by) % n, 0]];
+            let moves = [[if forth { 1 } else { -1 }, 0], [0, 0]];
+            let (places, moves) =
+                if forth { (places, moves) } else { ([places[1], places[0]], [moves[1], moves[0]]) };
+            contact.move_to(Box::new(operator), bump(at), &places, &moves);
+            contact.go_to(Control::Load(10.0 * first_yield())).unwrap();
+        }
+        let [lower, upper] = contact.bodies() else { panic!("two bodies") };
+        let (lower, upper) = (lower.displacement().clone(), upper.displacement().clone());
+        if forth { [lower, upper] } else { [upper, lower] }
+    };
+    let (forth, back) = (roll(true), roll(false));
+    for (one, other) in forth.iter().zip(&back) {
+        let mirrored = other.slice(ndarray::s![..;-1, ..]);
+        let apart = one.iter().zip(&mirrored).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+        assert!(range(one) > 1e-6 && apart < 1e-7 * range(one), "{apart:e} of {:e}", range(one));
+    }
+    // What rolls over leaves a groove along its way, what is rolled on one spot none.
+    assert!(forth[0] != forth[1]);
+}
