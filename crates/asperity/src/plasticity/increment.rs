@@ -121,7 +121,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
     let (mut least, mut step) = (f64::INFINITY, Step::Plain);
     loop {
         trial.respond(loading)?;
-        let mismatch = trial.bodies.iter().map(|body| body.mismatch()).fold(0.0, f64::max);
+        let mismatch = trial.mismatch();
         if mismatch < params.tolerance {
             return Ok(mismatch);
         }
@@ -215,6 +215,12 @@ impl Trial<'_, '_> {
 
     fn flow(&mut self, start: Start) -> f64 {
         self.bodies.iter_mut().map(|body| body.flow(start)).fold(0.0, f64::max)
+    }
+
+    /// The largest mismatch; NaN if there is one, which `f64::max` would pass over.
+    fn mismatch(&self) -> f64 {
+        let bodies = self.bodies.iter().map(|body| body.mismatch());
+        bodies.fold(0.0, |most, m| if m > most || m.is_nan() { m } else { most })
     }
 
     fn gather(&self, places: &[Vec<usize>]) -> [Vec<f64>; 2] {

@@ -141,7 +141,7 @@ pub(super) const ONSET: Case = Case {
 };
 
 /// A sphere on a periodic body, pressed in by several loads in turn: largest pressure, plastic strain and range of r, the worst of
-/// four loads. What the layers leave out falls with their number.
+/// four loads. What the layers leave out falls with their number; at 64 the layers are those of the other program.
 pub(super) const SPHERE: Case = Case {
     name: "plastic flow: sphere, load by load",
     source: "an independent program at 64 layers",
@@ -149,8 +149,8 @@ pub(super) const SPHERE: Case = Case {
         let checks = [
             ("cells in contact", Expected::RoundOff(0.0)),
             ("largest pressure", Expected::Order { order: 0.5..=3.0, finest: 1e-3 }),
-            ("plastic strain", Expected::Order { order: 0.5..=4.0, finest: 1e-2 }),
-            ("range of r", Expected::Order { order: 0.5..=4.0, finest: 5e-3 }),
+            ("plastic strain", Expected::Order { order: 0.5..=9.0, finest: 1e-2 }),
+            ("range of r", Expected::Order { order: 0.5..=9.0, finest: 5e-3 }),
         ];
         let found = [
             (1.2, 1.684_371_61, 37, 3.2417e-4, 2.6840e-6),
