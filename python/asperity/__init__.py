@@ -12,7 +12,7 @@ laws of one's own, :func:`run` computes a case file, :func:`open` opens results.
 
 from . import errors, form, generate, reference
 from ._core import __version__
-from ._contact import Contact, contact
+from ._contact import Contact, Flow, contact
 from ._progress import Progress
 from ._run import Run, open, run, simulate
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -33,7 +33,7 @@ from .describe import (
     Summits,
 )
 from .fields import Field, Fields
-from .material import Coating, Compliances, Material, composite_modulus, dundurs, tangential_modulus
+from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, tangential_modulus
 from .simulation import Contacts, Pass, Simulation
 from .surface import Surface, channels, read
 from .verification import Check, Verification, verification_cases, verify
@@ -52,11 +52,13 @@ __all__ = [
     "Extreme",
     "Field",
     "Fields",
+    "Flow",
     "GreenwoodWilliamson",
     "Material",
     "Parameter",
     "Parameters",
     "Pass",
+    "Plasticity",
     "Profile",
     "Progress",
     "Run",

@@ -23,6 +23,7 @@ def tables(
     motion: dict[str, Any] | None = None,
     acceleration: Mapping[str, Any] | None = None,
     temperature: Mapping[str, Any] | None = None,
+    plasticity: Mapping[str, Any] | None = None,
     subsurface: Mapping[str, Any] | None = None,
     output: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
@@ -38,6 +39,8 @@ def tables(
         case["acceleration"] = dict(acceleration)
     if temperature is not None:
         case["temperature"] = dict(temperature)
+    if plasticity is not None:
+        case["plasticity"] = dict(plasticity)
     if subsurface is not None:
         case["subsurface"] = dict(subsurface)
     if output:

@@ -23,6 +23,52 @@ Friction = float | Mapping[str, Any]
 """The coefficient of friction, or the keys of the table `[friction]` of a case."""
 
 
+class Flow(Comparable):
+    """What has flowed below the surface of a body.
+
+    Attributes
+    ----------
+    depths : ndarray
+        Depths of the faces of the layers, from 0 at the surface, m.
+    strain : ndarray
+        Plastic strain under the last load, ``[component, ix, iy, iz]``, components as in `COMPONENTS`.
+    accumulated : ndarray
+        Accumulated plastic strain, ``[ix, iy, iz]``.
+    back_stress : ndarray or None
+        Pa, of a body that hardens kinematically.
+    displacement : ndarray
+        Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``.
+    residual_stress : ndarray
+        Stress that the plastic strain leaves once the load is taken off, where it is, Pa, ``[component, ix, iy, iz]``.
+    residual_displacement : ndarray
+        The displacement then, m.
+    """
+
+    COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+
+    def __init__(
+        self,
+        depths: Sequence[float],
+        strain: NDArray[np.float64],
+        accumulated: NDArray[np.float64],
+        displacement: NDArray[np.float64],
+        residual_stress: NDArray[np.float64],
+        residual_displacement: NDArray[np.float64],
+        back_stress: NDArray[np.float64] | None = None,
+    ) -> None:
+        self.depths: NDArray[np.float64] = np.asarray(depths, dtype=np.float64)
+        self.strain = strain
+        self.accumulated = accumulated
+        self.back_stress = back_stress
+        self.displacement = displacement
+        self.residual_stress = residual_stress
+        self.residual_displacement = residual_displacement
+
+    def __repr__(self) -> str:
+        nx, ny, nz = self.accumulated.shape
+        return f"<Flow: {nx} × {ny} × {nz} cells, largest plastic strain {self.accumulated.max():.3g}>"
+
+
 class Contact(Comparable):
     """A static contact, computed.
 
@@ -80,6 +126,8 @@ class Contact(Comparable):
         What to be wary of.
     case : dict
         The case as it was resolved, SI.
+    flow : dict
+        Of bodies that flow below their surfaces, by ``"lower"`` and ``"upper"``, a :class:`Flow` each.
     """
 
     load: float
@@ -109,6 +157,7 @@ class Contact(Comparable):
     sweep: NDArray[np.void]
     warnings: list[str]
     case: dict[str, Any]
+    flow: dict[str, Flow]
 
     def __init__(
         self,
@@ -118,7 +167,9 @@ class Contact(Comparable):
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
+        flow: dict[str, Flow],
     ) -> None:
+        self.flow = flow
         self.fields = found
         self.increments = fields.table(increments, _core.INCREMENT_COLUMNS)
         self.sweep = fields.table(sweep, _core.SWEEP_COLUMNS)
@@ -210,6 +261,7 @@ def contact(
     tolerance: float | None = None,
     friction: Friction | None = None,
     history: Sequence[Mapping[str, Any]] | None = None,
+    plasticity: Mapping[str, Any] | None = None,
     subsurface: Mapping[str, Any] | None = None,
     pressure_every: int | None = None,
     paraview: bool | None = None,
@@ -247,6 +299,9 @@ def contact(
         `displacement` or `sliding`; of a rolling contact `creepage`, `creepages` or `rolling_force`, and `spin`; `increments`.
     history : sequence of mappings, optional
         Stages of the loading after the first; what a stage does not name stays.
+    plasticity : mapping, optional
+        Of bodies that flow, see :class:`Plasticity`, the keys of `[plasticity]`: `depth`, `layers`, `growth`, `increments`,
+        `tolerance`, `unload`.
     subsurface : mapping, optional
         The stress under the surface that is written to the results: `to`, `layers`, `planes` … It needs `out`;
         :func:`asperity.stress` computes stresses without.
@@ -299,6 +354,7 @@ def contact(
         },
         friction=friction,
         history=history,
+        plasticity=plasticity,
         subsurface=subsurface,
         output={"pressure_every": pressure_every, "paraview": paraview},
     )  # fmt: skip
@@ -315,7 +371,8 @@ def contact(
         arrays = fields.of_cells(found["fields"], pitch)
         warn(found["warnings"])
         return Contact(
-            found.get("record"), found.get("sweep", []), found["increments"], arrays, found["warnings"], found["case"]
+            found.get("record"), found.get("sweep", []), found["increments"], arrays, found["warnings"], found["case"],
+            {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
         )
     with Teller(progress) as tell:
         _core.run(case, handed.given, _case.directory(out), existing, count, tell)
@@ -333,5 +390,34 @@ def stored(core: Any) -> Contact:
         # What has not converged leaves no summary.
         del record["converged"]
     return Contact(
-        record, core.sweep(), core.increments(), found, summary["warnings"], core.case()
+        record, core.sweep(), core.increments(), found, summary["warnings"], core.case(), _flow(core)
     )
+
+
+def _flow(core: Any) -> dict[str, Flow]:
+    """What has flowed, of a results directory."""
+    if "plasticity" not in core.case():
+        return {}
+    names = set(core.names("plasticity", None))
+    attributes = core.attributes("plasticity", None)
+
+    def read(name: str) -> NDArray[np.float64]:
+        values: NDArray[np.float64] = core.read("plasticity", None, name)[0]
+        return values
+
+    def tensor(name: str, body: str) -> NDArray[np.float64]:
+        return np.stack([read(f"{name}_{component}_{body}") for component in Flow.COMPONENTS])
+
+    return {
+        body: Flow(
+            depths=attributes[f"depths_{body}"],
+            strain=tensor("strain", body),
+            accumulated=read(f"accumulated_{body}"),
+            back_stress=tensor("back_stress", body) if f"back_stress_xx_{body}" in names else None,
+            displacement=read(f"displacement_{body}"),
+            residual_stress=tensor("residual_stress", body),
+            residual_displacement=read(f"residual_displacement_{body}"),
+        )
+        for body in ("lower", "upper")
+        if f"accumulated_{body}" in names
+    }

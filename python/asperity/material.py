@@ -49,8 +49,63 @@ class Coating(Comparable):
         return {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
 
 
+class Plasticity(Comparable):
+    """How a body flows below its surface: von Mises' plasticity with hardening.
+
+    Parameters
+    ----------
+    yield_stress : float or str, optional
+        Yield stress of the virgin body in tension, above 0, Pa; or `curve`.
+    hardening : float or str, optional
+        Its growth with the plastic strain, from 0, Pa; 0 by default.
+    curve : array_like, optional
+        In place of both: points of plastic strain and yield stress, Pa, from strain 0 on, rising.
+    kinematic : float or str
+        Prager's modulus of the back stress, from 0, Pa.
+    recovery : float
+        Armstrong's and Frederick's recovery of the back stress, from 0; with `kinematic`.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> asp.Plasticity(yield_stress="1.5 GPa", hardening="10 GPa").yield_stress
+    1500000000.0
+    """
+
+    def __init__(
+        self,
+        yield_stress: Quantity | None = None,
+        hardening: Quantity | None = None,
+        curve: ArrayLike | None = None,
+        kinematic: Quantity = 0.0,
+        recovery: float = 0.0,
+    ) -> None:
+        def pressure(key: str, value: Quantity | None) -> float | None:
+            return None if value is None else quantity(key, value, "pressure")
+
+        self.yield_stress = pressure("yield_stress", yield_stress)
+        self.hardening = pressure("hardening", hardening)
+        self.curve = None if curve is None else np.array(curve, dtype=np.float64)
+        self.kinematic = pressure("kinematic", kinematic)
+        self.recovery = float(recovery)
+
+    def __repr__(self) -> str:
+        parts = [f"{key}={value!r}" for key, value in self._table().items()]
+        return f"Plasticity({', '.join(parts)})"
+
+    def _table(self) -> dict[str, Any]:
+        table: dict[str, Any] = {"yield_stress": self.yield_stress, "hardening": self.hardening}
+        if self.curve is not None:
+            table["curve"] = self.curve.tolist()
+        if self.kinematic:
+            table["kinematic"] = self.kinematic
+        if self.recovery:
+            table["recovery"] = self.recovery
+        return {key: value for key, value in table.items() if value is not None}
+
+
 class Material(Comparable):
-    """Elastic constants and hardness of a body.
+    """Elastic constants of a body, and its hardness or plasticity.
 
     Parameters
     ----------
@@ -63,6 +118,8 @@ class Material(Comparable):
         as it is prepared. Without it the body is elastic.
     coating : Coating, optional
         An elastic layer on the body.
+    plasticity : Plasticity, optional
+        In place of a hardness: how the body flows below its surface. It needs the argument `plasticity` of :func:`contact`.
 
     Raises
     ------
@@ -83,6 +140,7 @@ class Material(Comparable):
         poisson: float,
         hardness: Quantity | ArrayLike | None = None,
         coating: Coating | None = None,
+        plasticity: Plasticity | None = None,
     ) -> None:
         self.young = quantity("young", young, "pressure", infinite=True)
         self.poisson = _poisson(poisson)
@@ -93,6 +151,7 @@ class Material(Comparable):
             else:
                 self.hardness = np.array(hardness, dtype=np.float64)
         self.coating = coating
+        self.plasticity = plasticity
 
     def __repr__(self) -> str:
         parts = [f"young={self.young!r}", f"poisson={self.poisson!r}"]
@@ -102,6 +161,8 @@ class Material(Comparable):
             parts.append(f"hardness={self.hardness!r}")
         if self.coating is not None:
             parts.append(f"coating={self.coating!r}")
+        if self.plasticity is not None:
+            parts.append(f"plasticity={self.plasticity!r}")
         return f"Material({', '.join(parts)})"
 
     def _table(self) -> dict[str, Any]:
@@ -111,6 +172,8 @@ class Material(Comparable):
             table["hardness"] = self.hardness
         if self.coating is not None:
             table["coating"] = self.coating._table()
+        if self.plasticity is not None:
+            table["plasticity"] = self.plasticity._table()
         return table
 
     def _constants(self) -> tuple[float, float, list[float] | None]:

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use asperity::Choice;
 use asperity::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
+use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
 use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
@@ -91,6 +91,16 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
     let pressure = |value| units::format(value, Dimension::Pressure);
     let coated = if case.is_coated() { " without the coating" } else { "" };
     let modulus = format!("E* {}{coated}", pressure(estimate.modulus));
+    if let Some(volume) = case.plasticity {
+        let of_body = |(name, body): (&str, &Body)| {
+            let flow = body.plasticity.as_ref()?;
+            Some(format!("the {name} body flows from {} on", pressure(flow.yield_stress())))
+        };
+        let bodies: Vec<_> =
+            [("lower", &case.lower), ("upper", &case.upper)].into_iter().filter_map(of_body).collect();
+        let depth = units::format(volume.depth, Dimension::Length);
+        return format!("{modulus}; {}, in {} layers down to {depth}", bodies.join(", "), volume.layers);
+    }
     if estimate.hardness.is_infinite() {
         return format!("{modulus}, elastic");
     }

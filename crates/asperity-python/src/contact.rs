@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use asperity::motion::Flowed;
 use asperity::study::case::Case;
 use asperity::study::{self, Given, NamedField, Outcome, Rest};
-use numpy::PyReadonlyArray2;
+use numpy::ndarray::{Array4, ArrayD};
+use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -79,7 +81,7 @@ pub(crate) fn rest<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (case, given) = asked(py, &source, &handed, threads)?;
-    let Rest { outcome, increments, fields, warnings, .. } =
+    let Rest { outcome, increments, fields, flowed, warnings, .. } =
         work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
     let contact = PyDict::new(py);
     match outcome {
@@ -97,5 +99,34 @@ pub(crate) fn rest<'py>(
         arrays.set_item(name, (array(py, values), unit))?;
     }
     contact.set_item("fields", arrays)?;
+    if let Some(flowed) = flowed {
+        contact.set_item("flow", flow(py, flowed)?)?;
+    }
     Ok(contact)
+}
+
+/// What has flowed below the surfaces: the arrays of each body, by the names that files have.
+fn flow<'py>(py: Python<'py>, flowed: Flowed) -> PyResult<Bound<'py, PyDict>> {
+    let bodies = PyDict::new(py);
+    let layers_last = |values: ArrayD<f64>, axes: &[usize]| {
+        values.permuted_axes(axes).as_standard_layout().into_owned().into_pyarray(py)
+    };
+    // [layer, component, ix, iy] and [layer, ix, iy].
+    let tensor = |values: Array4<f64>| layers_last(values.into_dyn(), &[1, 2, 3, 0]);
+    let left = flowed.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
+    for (volume, left) in flowed.volumes.into_iter().zip(left) {
+        let body = PyDict::new(py);
+        let left = left.unwrap_or_else(|| volume.clone());
+        body.set_item("depths", volume.faces)?;
+        body.set_item("strain", tensor(volume.strain))?;
+        body.set_item("accumulated", layers_last(volume.accumulated.into_dyn(), &[1, 2, 0]))?;
+        if let Some(back) = volume.back_stress {
+            body.set_item("back_stress", tensor(back))?;
+        }
+        body.set_item("displacement", array(py, volume.displacement))?;
+        body.set_item("residual_stress", tensor(left.residual_stress))?;
+        body.set_item("residual_displacement", array(py, left.displacement))?;
+        bodies.set_item(["lower", "upper"][volume.body], body)?;
+    }
+    Ok(bodies)
 }

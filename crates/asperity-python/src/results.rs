@@ -54,7 +54,7 @@ impl CoreResults {
         record(py, &ok(self.results.sweep(), py)?)
     }
 
-    /// Names of the fields of a kind: "contact", "pass", "point", "subsurface".
+    /// Names of the fields of a kind: "contact", "pass", "point", "subsurface", "plasticity".
     fn names(&self, py: Python<'_>, kind: &str, number: Option<usize>) -> PyResult<Vec<String>> {
         ok(self.fields(kind, number).and_then(|fields| fields.names()), py)
     }
@@ -97,6 +97,7 @@ impl CoreResults {
             "pass" => self.results.fields_after(number.unwrap_or(0)),
             "point" => self.results.point_fields(number.unwrap_or(1)),
             "subsurface" => self.results.subsurface_fields(number),
+            "plasticity" => self.results.flow_fields(number),
             _ => self.results.static_fields(),
         }
     }

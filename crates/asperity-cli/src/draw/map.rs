@@ -68,10 +68,11 @@ impl<'a> Map<'a> {
         field: &'a Field,
         ends: [[f64; 2]; 2],
         quantity: Quantity,
+        colours: Colours,
     ) -> Self {
         let mut cells = field.view();
         cells.invert_axis(Axis(1));
-        let map = Self::of(title, cells, ends, ["x", "depth"], Unit::Length, quantity, Colours::Pressure);
+        let map = Self::of(title, cells, ends, ["x", "depth"], Unit::Length, quantity, colours);
         Self { down: true, ..map }
     }
 

@@ -284,7 +284,8 @@ fn a_section_has_the_surface_at_the_top_and_a_cross_at_its_mark() {
     let mut field = Field::zeros([20, 10]);
     field[[15, 2]] = 2e9;
     let ends = [[1e-6, 21e-6], [0.0, 10e-6]];
-    let map = Map::section("", &field, ends, Quantity::new("von Mises stress", Unit::Pressure));
+    let map =
+        Map::section("", &field, ends, Quantity::new("von Mises stress", Unit::Pressure), Colours::Pressure);
     let picture = drawn(&Maps::new(vec![map.clone()]));
     let end = picture.size[0] * 3 / 4;
     let [left, top, right, bottom] = picture.bounds(viridis(1.0), end);

@@ -1,5 +1,6 @@
 //! The figures of a results directory, drawn from what it holds and from nothing else.
 
+mod flow;
 mod friction;
 mod loading;
 mod motion;

@@ -7,7 +7,7 @@ use asperity::units::{Dimension, format};
 use super::profile::{Facing, Profile};
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
-use super::{friction, loading, pressure};
+use super::{flow, friction, loading, pressure};
 use crate::draw::{Colours, Maps, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -67,6 +67,9 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     }
     if fields.names()?.iter().any(|name| name == "stick") {
         friction::draw(&fields, &p, &of, sheet)?;
+    }
+    if results.case()?.get("plasticity").is_some() {
+        flow::draw(&results.flow_fields(None)?, &of, sheet)?;
     }
     let increments = results.increments()?;
     if increments.len() > 1 {

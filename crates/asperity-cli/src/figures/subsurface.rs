@@ -5,7 +5,7 @@ use asperity::io::fields::{Attribute, Fields};
 use asperity::units::{Dimension, format};
 
 use super::sheet::Sheet;
-use crate::draw::{Map, Maps, Quantity, Unit};
+use crate::draw::{Colours, Map, Maps, Quantity, Unit};
 use crate::report::{Failure, Outcome};
 
 /// Von Mises' stress on the section; the most stressed point is marked if it lies there.
@@ -38,7 +38,13 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
     };
     let of = format!("{of}{step}, section at y = {}", format(y, Dimension::Length));
     sheet.add("subsurface", &title, &of, || {
-        let map = Map::section("", &field, ends, Quantity::new("von Mises stress", Unit::Pressure));
+        let map = Map::section(
+            "",
+            &field,
+            ends,
+            Quantity::new("von Mises stress", Unit::Pressure),
+            Colours::Pressure,
+        );
         let on_it = at[1] == y;
         let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
         Ok(Maps::new(vec![map]))

@@ -119,6 +119,24 @@ impl FieldFile {
         self.add(name, unit, "x,z", values.shape(), &pitch, &[x, 0.0], &flat)
     }
 
+    /// Adds values in layers below the cells of `grid`, `[ix, iy, iz]`.
+    ///
+    /// # Panics
+    /// If `values` are not on `grid`, or there is an array `name` already.
+    #[cfg(feature = "study")]
+    pub(crate) fn add_layers(
+        &mut self,
+        name: &str,
+        unit: &str,
+        grid: &Grid,
+        values: &ndarray::Array3<f64>,
+    ) -> &mut Self {
+        assert_eq!(values.shape()[..2], grid.shape, "{name} is not on the grid");
+        let origin = [grid.centre(0, 0), grid.centre(1, 0)];
+        let flat: Vec<f64> = values.iter().copied().collect();
+        self.add(name, unit, "x,y,layer", values.shape(), &grid.pitch, &origin, &flat)
+    }
+
     /// Adds values at `origin`, `origin + pitch`, … along one axis.
     ///
     /// # Panics
@@ -237,6 +255,12 @@ fn chunk(shape: &[u64]) -> Vec<u64> {
     const MAX_CHUNK_SIDE: u64 = 1 << 15;
     match *shape {
         [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(MAX_CHUNK_SIDE)), ny.min(MAX_CHUNK_SIDE)],
+        [nx, ny, nz] => {
+            let nz = nz.min(MAX_CHUNK_SIDE);
+            let [nx, ny] =
+                [(VALUES / (ny * nz)).clamp(1, nx.min(MAX_CHUNK_SIDE)), (VALUES / nz).clamp(1, ny)];
+            vec![nx, ny.min(MAX_CHUNK_SIDE), nz]
+        }
         _ => vec![shape[0].min(MAX_CHUNK_SIDE)],
     }
 }
@@ -460,7 +484,17 @@ mod tests {
 
     #[test]
     fn chunks_fit_their_arrays_and_the_encoding() {
-        for shape in [&[3, 2][..], &[1024, 1024], &[2, 200_000], &[200_000, 2], &[1, 70_000], &[300_000]] {
+        for shape in [
+            &[3, 2][..],
+            &[1024, 1024],
+            &[2, 200_000],
+            &[200_000, 2],
+            &[1, 70_000],
+            &[300_000],
+            &[512, 512, 64],
+            &[3, 2, 512],
+            &[100_000, 3, 4],
+        ] {
             let chunk = chunk(shape);
             assert_eq!(chunk.len(), shape.len());
             assert!(

@@ -261,6 +261,7 @@ impl StaticRecord {
             convolutions: solution.stats.convolutions,
             residual: solution.residual,
             shear: None,
+            flow: None,
         }
     }
 }

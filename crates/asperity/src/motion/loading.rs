@@ -363,6 +363,7 @@ impl<'a> Bodies<'a> {
             iterations: stats.iterations,
             convolutions: stats.convolutions,
             residual: normal.residual,
+            flow: None,
         });
         let dissipation_error = error + more_error;
         Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error })

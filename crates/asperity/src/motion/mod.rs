@@ -4,6 +4,7 @@ mod approach;
 mod body;
 mod contact;
 mod film;
+mod flowing;
 mod heat;
 mod implicit;
 mod jump;
@@ -29,6 +30,7 @@ mod wear;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
+pub use flowing::{FlowPath, Flowed, FlowedContact, FlowedVolume, press_flowing};
 pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
@@ -42,8 +44,8 @@ use path::shift_positions_after;
 pub use path::{OffsetY, Path, Position, Way, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{
-    HeatRecord, IncrementRecord, LostVolume, PassRecord, RunningRecord, ShearRecord, StaticRecord,
-    StepRecord, SweepRecord, UpdateRecord,
+    FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassRecord, ResidualRecord,
+    RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::{Output, PassReport};
 pub use rim::Interior;

@@ -37,6 +37,76 @@ pub struct StaticRecord {
     /// The tangential quantities; none without friction.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub shear: Option<ShearRecord>,
+    /// What has flowed below the surfaces; none of bodies that do not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<FlowRecord>,
+}
+
+/// A static contact of bodies that flow below their surfaces: what its loading has left in both of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FlowRecord {
+    /// Largest accumulated plastic strain.
+    pub max_plastic_strain: f64,
+    /// Where it is: x and y from the corner of the body, z from its surface.
+    pub max_plastic_strain_position: [Metre; 3],
+    /// Volume that has flowed.
+    pub yielded_volume: CubicMetre,
+    /// Plastic work ∫ σ : dε.
+    pub plastic_work: Joule,
+    /// Energy stored in the residual stress, −½ ∫ ε : K ε.
+    pub stored_energy: Joule,
+    /// Volume that the surfaces have been displaced inward by, ΔA Σ max(r, 0).
+    pub displaced_volume: CubicMetre,
+    /// Largest principal stress of the residual stress, in tension.
+    pub max_residual_tension: Pascal,
+    /// Range of the inward displacement r of a surface by the plastic strain: its largest less its least value.
+    pub residual_displacement: Metre,
+    /// Products: applications of the operator of the residual stress.
+    pub products: usize,
+    /// Largest mismatch of the stress over the yield stress that an increment has ended with.
+    pub mismatch: f64,
+    /// `elastic` where nothing has flowed, else `yields`.
+    pub regime: String,
+    /// What is left once the load is taken off; none where it is not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub residual: Option<ResidualRecord>,
+}
+
+/// What a contact of bodies that flow leaves in them once its load is taken off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ResidualRecord {
+    /// As [`FlowRecord::max_plastic_strain`].
+    pub residual_max_plastic_strain: f64,
+    /// As [`FlowRecord::yielded_volume`].
+    pub residual_yielded_volume: CubicMetre,
+    /// As [`FlowRecord::plastic_work`].
+    pub residual_plastic_work: Joule,
+    /// As [`FlowRecord::stored_energy`].
+    pub residual_stored_energy: Joule,
+    /// As [`FlowRecord::displaced_volume`].
+    pub residual_displaced_volume: CubicMetre,
+    /// As [`FlowRecord::max_residual_tension`].
+    pub residual_max_residual_tension: Pascal,
+    /// As [`FlowRecord::residual_displacement`].
+    pub residual_residual_displacement: Metre,
+}
+
+/// What has flowed below the surfaces in a step: further columns of its row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FlowStepRecord {
+    /// Cells of all layers of both bodies that have flowed in it.
+    pub yielded_cells: usize,
+    /// Largest accumulated plastic strain at its end.
+    pub max_plastic_strain: f64,
+    /// Plastic work in it.
+    pub plastic_work: Joule,
+    /// Products: applications of the operator of the residual stress.
+    pub products: usize,
+    /// Mismatch of the stress over the yield stress.
+    pub mismatch: f64,
 }
 
 /// A static contact with friction: its tangential quantities.
@@ -109,6 +179,9 @@ pub struct IncrementRecord {
     pub convolutions: f64,
     /// Scale-free residual η, normal and tangential.
     pub residual: f64,
+    /// What has flowed below the surfaces; none of bodies that do not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<FlowStepRecord>,
 }
 
 /// One update of a contact that slides in place: a row of `updates.csv`, the first of which is the contact before it slides.

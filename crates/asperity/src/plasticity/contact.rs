@@ -3,7 +3,7 @@
 use super::body::{Action, PlasticBody};
 use super::increment::{FlowParams, Increment, Loading, advance};
 use crate::error::{Error, Result};
-use crate::grid::Field;
+use crate::grid::{Field, Grid};
 use crate::operator::Operator;
 use crate::solver::{Bounds, Control, Params, Solution, solve_normal};
 use crate::subsurface::Tractions;
@@ -25,10 +25,9 @@ pub struct PlasticContact {
     flow: FlowParams,
     contact: Params,
     increments: usize,
-    /// Pressure, C p and approach of the last increment.
+    /// Pressure of the last increment, and what it was found with; no solution before the first, and where the bodies are apart.
     pressure: Field,
-    elastic: Field,
-    approach: Option<Metre>,
+    solution: Option<Solution>,
 }
 
 impl PlasticContact {
@@ -57,9 +56,8 @@ impl PlasticContact {
             flow,
             contact,
             increments: 0,
-            pressure: zeros.clone(),
-            elastic: zeros,
-            approach: None,
+            pressure: zeros,
+            solution: None,
         }
     }
 
@@ -122,9 +120,7 @@ impl PlasticContact {
         let at = |source| Error::AtIncrement { increment: self.increments, source: Box::new(source) };
         let increment = advance(&mut flowing, &mut pressing, Some(&self.shifts), flow).map_err(at)?;
         let Pressing { pressure, solution, .. } = pressing;
-        self.approach = solution.as_ref().map(|solution| solution.approach);
-        self.elastic =
-            solution.map_or_else(|| Field::zeros(pressure.raw_dim()), |solution| solution.displacement);
+        self.solution = solution;
         self.pressure = pressure;
         self.shifts.fill([0; 2]);
         Ok(increment)
@@ -153,7 +149,23 @@ impl PlasticContact {
 
     /// The approach δ of the undeformed bodies, m; none before the first contact, and where they have been taken apart.
     pub fn approach(&self) -> Option<Metre> {
-        self.approach
+        self.solution.as_ref().map(|solution| solution.approach)
+    }
+
+    /// The elastic contact of the bodies as they are, with what has flowed; none before the first, and where they have been taken
+    /// apart.
+    pub fn solution(&self) -> Option<&Solution> {
+        self.solution.as_ref()
+    }
+
+    /// The grid of the contact.
+    pub fn grid(&self) -> &Grid {
+        self.operator.grid()
+    }
+
+    /// The approach at which the bodies as they are now first touch, m.
+    pub fn first_touch(&self) -> Metre {
+        self.with_residual(self.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// The bodies that may flow.
@@ -163,16 +175,21 @@ impl PlasticContact {
 
     /// What the surfaces have moved apart by, C p + r, m; under a periodic boundary the mean of C p is zero.
     pub fn displacement(&self) -> Field {
+        let zeros = || Field::zeros(self.pressure.raw_dim());
+        let elastic = self.solution.as_ref().map_or_else(zeros, |solution| solution.displacement.clone());
+        self.with_residual(elastic)
+    }
+
+    /// A field on the cells of the contact with the displacements of both surfaces by their plastic strain.
+    fn with_residual(&self, field: Field) -> Field {
         let shape = self.operator.grid().shape;
         let bodies = self.bodies.iter().zip(&self.places);
-        bodies.fold(self.elastic.clone(), |sum, (body, place)| {
-            sum + on_contact(body.displacement(), *place, shape)
-        })
+        bodies.fold(field, |sum, (body, place)| sum + on_contact(body.displacement(), *place, shape))
     }
 
     /// Elastic energy ½ ΔA Σ p C p under the pressure, J: without that of the residual stress.
     pub fn elastic_energy(&self) -> Joule {
-        0.5 * self.operator.grid().cell_area() * (&self.pressure * &self.elastic).sum()
+        self.solution.as_ref().map_or(0.0, Solution::elastic_energy)
     }
 }
 

@@ -70,6 +70,7 @@ pub struct Estimate {
 pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let [lower_grid, upper_grid] = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
+    deep_enough(case, &lower_grid)?;
     let positions = positions(case, [lower_grid, upper_grid]);
     let overlaps: Vec<usize> = positions.iter().map(|position| position.columns).collect();
     let facing = lower_grid.shape[0].min(upper_grid.shape[0]);
@@ -314,6 +315,24 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         frictional(case, &friction.law, estimate, &mut warnings);
     }
     warnings
+}
+
+/// An error if the volume that may flow is shallower than a cell, or deeper than the grid is wide.
+fn deep_enough(case: &Case, grid: &Grid) -> Result<()> {
+    let Some(plasticity) = case.plasticity else { return Ok(()) };
+    let [dx, dy] = grid.pitch;
+    let [least, most] = [dx.max(dy), grid.extent()[0].min(grid.extent()[1])];
+    if (least..=most).contains(&plasticity.depth) {
+        return Ok(());
+    }
+    let length = |value| units::format(value, Dimension::Length);
+    let message = format!(
+        "'depth' is {}, expected from a cell, {}, to the smaller side of the grid, {}",
+        length(plasticity.depth),
+        length(least),
+        length(most)
+    );
+    Err(case.error_at("plasticity.depth", message, None))
 }
 
 /// Heat that does not leave its cell while the bodies slide over one.

@@ -4,8 +4,9 @@
 //! what is to be expected, [`run()`] does all of it and leaves a [`Results`] directory with a [`Summary`].
 
 pub mod case; // case.toml, checked to the key
-mod given; // surfaces in memory that a case names
 mod estimate; // what a case will take, and what to be wary of
+mod flow; // bodies that flow below their surfaces, as a case has them
+mod given; // surfaces in memory that a case names
 mod identity; // what a run is known by, to resume it
 mod loading; // increments of a loading, kept one by one
 mod passes; // a motion, pass after pass

@@ -3,12 +3,14 @@
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::motion::{
-    Equilibrium, FILM, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState, State, StaticContact,
-    UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, roll, sweep,
+    Equilibrium, FILM, Flowed, FlowedContact, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState,
+    State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press,
+    press_flowing, roll, sweep,
 };
 use crate::solver::{Friction, Params, Solution};
 use crate::study::case::{Case, LoadingPath};
 use crate::study::estimate::estimate;
+use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::loading::LoadingWriter;
 use crate::study::prepare::bodies;
@@ -32,6 +34,8 @@ pub struct Rest {
     pub updates: Vec<UpdateRecord>,
     /// The fields of the contact, at the last point of a sweep.
     pub fields: RestFields,
+    /// What has flowed below the surfaces; none of bodies that do not.
+    pub flowed: Option<Flowed>,
     /// What the user should know about the result.
     pub warnings: Vec<String>,
 }
@@ -75,14 +79,25 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     let bodies = bodies(case, given)?;
     let estimate = estimate(case, &bodies)?;
     let pair = pair(case, bodies)?;
-    let (solved, warnings) = solve(case, &pair, estimate.apparent_area, None, watch)?;
+    let (mut solved, warnings) = solve(case, &pair, estimate.apparent_area, None, watch)?;
+    let increments = solved.increments().to_vec();
+    let flowed = solved.take_flowed();
     Ok(Rest {
         outcome: solved.outcome(),
-        increments: solved.increments().to_vec(),
+        increments,
         updates: solved.updates().to_vec(),
-        fields: solved.into_fields(pair),
+        fields: solved.into_fields(displaced(pair, flowed.as_ref())),
+        flowed,
         warnings: [estimate.warnings, warnings].concat(),
     })
+}
+
+/// The `pair` with its surfaces where plastic strain below them has brought them.
+pub(super) fn displaced(pair: Pair, flowed: Option<&Flowed>) -> Pair {
+    match flowed {
+        Some(flowed) => flowed.displaced(pair),
+        None => pair,
+    }
 }
 
 /// A static contact with all that is known of it.
@@ -95,6 +110,8 @@ pub(super) enum Solved {
     Swept(Outcome, Box<LoadedContact>),
     /// Worn in place.
     Slid(Box<WornContact>, Option<Friction>, Option<Box<SlidingWriter>>),
+    /// Of bodies that flow below their surfaces: the contact, and what has flowed until that is taken.
+    Flowed(Box<StaticRecord>, Box<Solution>, Option<Box<Flowed>>),
 }
 
 /// What has kept the course of a contact.
@@ -141,6 +158,20 @@ pub(super) fn solve(
         };
         let warnings = at_rest(&worn.state.pair, case, &worn.solution);
         return Ok((Solved::Slid(Box::new(worn), friction, kept), warnings));
+    }
+    if let Some(spec) = &case.plasticity {
+        let FlowedContact { record, solution, flowed } = press_flowing(
+            pair,
+            boundary,
+            flow::bodies(case, spec, pair)?,
+            &flow::path(case, spec, apparent_area),
+            params,
+            watch,
+        )?;
+        begin()?;
+        let warnings =
+            [review::flowed(case, pair, &record, &flowed), at_rest(pair, case, &solution)].concat();
+        return Ok((Solved::Flowed(Box::new(record), Box::new(solution), Some(Box::new(flowed))), warnings));
     }
     Ok(match (case.loading_path(apparent_area), law) {
         (Some(LoadingPath::Sweep(points)), law) => {
@@ -199,6 +230,7 @@ impl Solved {
             Self::Loaded(contact, _) => Outcome::Static(Box::new(contact.record.clone())),
             Self::Swept(outcome, _) => outcome.clone(),
             Self::Slid(contact, ..) => Outcome::Static(Box::new(contact.record.clone())),
+            Self::Flowed(record, ..) => Outcome::Static(record.clone()),
         }
     }
 
@@ -210,14 +242,23 @@ impl Solved {
     fn updates(&self) -> &[UpdateRecord] {
         match self {
             Self::Slid(contact, ..) => &contact.state.updates,
-            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) => &[],
+            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) | Self::Flowed(..) => &[],
         }
     }
 
     fn increments(&self) -> &[IncrementRecord] {
         match self {
             Self::Loaded(contact, _) => &contact.increments,
-            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) => &[],
+            Self::Flowed(_, _, Some(flowed)) => &flowed.increments,
+            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) | Self::Flowed(_, _, None) => &[],
+        }
+    }
+
+    /// What has flowed below the surfaces.
+    pub(super) fn take_flowed(&mut self) -> Option<Flowed> {
+        match self {
+            Self::Flowed(_, _, flowed) => flowed.take().map(|flowed| *flowed),
+            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) | Self::Slid(..) => None,
         }
     }
 
@@ -226,7 +267,7 @@ impl Solved {
         match self {
             Self::Loaded(_, loading) => loading.take().map(UnderWay::Loading),
             Self::Slid(_, _, sliding) => sliding.take().map(UnderWay::Sliding),
-            Self::Pressed(_) | Self::Swept(..) => None,
+            Self::Pressed(_) | Self::Swept(..) | Self::Flowed(..) => None,
         }
     }
 
@@ -239,6 +280,10 @@ impl Solved {
                 let StaticContact { solution, .. } = *contact;
                 let plastic = solution.plastic_interference();
                 (Equilibrium::Frictionless(Box::new(solution)), plastic, None)
+            }
+            Self::Flowed(_, solution, _) => {
+                let plastic = Field::zeros(solution.pressure.raw_dim());
+                (Equilibrium::Frictionless(solution), plastic, None)
             }
             Self::Loaded(contact, _) | Self::Swept(_, contact) => {
                 let LoadedContact { solution, plastic, slip, .. } = *contact;

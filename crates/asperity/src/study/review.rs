@@ -1,11 +1,13 @@
 //! What to be wary of in a result, told once it is there.
 
+use ndarray::Axis;
+
 use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Interior, LoadedContact, Pair, PassRecord, SweepRecord};
+use crate::motion::{Flowed, Interior, LoadedContact, Pair, PassRecord, StaticRecord, SweepRecord};
 use crate::operator::Boundary;
-use crate::units::{self, Dimension};
+use crate::units::{self, Dimension, Metre, SquareMetre};
 
 /// The warnings of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
@@ -45,6 +47,88 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
         warnings.push(format!("{plastic} cells yield {NOT_FLATTENED}"));
     }
     warnings
+}
+
+/// What to be wary of in a static contact of bodies that flow below their surfaces.
+pub(super) fn flowed(case: &Case, pair: &Pair, record: &StaticRecord, flowed: &Flowed) -> Vec<String> {
+    /// Plastic strain beyond which strains are not small, and slope of the surface that it leaves.
+    const SMALL: [f64; 2] = [0.1, 0.3];
+    /// Step of the load, of the load reached, beyond which the path of a flowing contact is followed roughly.
+    const STEP: f64 = 0.15;
+    let mut warnings = Vec::new();
+    let Some(flow) = &record.flow else { return warnings };
+    let grid = pair.lower_grid();
+    for volume in &flowed.volumes {
+        let name = if volume.body == 0 { "lower" } else { "upper" };
+        let flows = |layer: ndarray::ArrayView2<f64>| layer.iter().any(|strain| *strain > 0.0);
+        let strain = &volume.accumulated;
+        if strain.outer_iter().next_back().is_some_and(flows) {
+            warnings.push(format!(
+                "the {name} body flows in the deepest layer, below which it is elastic: give a larger `depth`"
+            ));
+        }
+        let at_edge = |axis: usize| {
+            let last = strain.shape()[axis] - 1;
+            [0, last].iter().any(|at| strain.index_axis(Axis(axis), *at).iter().any(|strain| *strain > 0.0))
+        };
+        if [0, 1].iter().any(|axis| !case.contact.boundary.repeats(*axis) && at_edge(axis + 1)) {
+            warnings.push(format!(
+                "the {name} body flows at the edge of the grid, beyond which it is elastic: take a larger grid"
+            ));
+        }
+        let steepest = slope(&volume.displacement, grid.pitch);
+        if steepest > SMALL[1] {
+            warnings.push(format!(
+                "flow leaves a slope of {} on the {name} body: strains and slopes are taken to be small",
+                units::format_number(steepest)
+            ));
+        }
+    }
+    if flow.max_plastic_strain > SMALL[0] {
+        warnings.push(format!(
+            "the largest plastic strain is {}: strains are taken to be small, up to {}",
+            units::format_number(flow.max_plastic_strain),
+            SMALL[0]
+        ));
+    }
+    let spot = spot_width(record, grid.cell_area());
+    let first = flowed.volumes.first().map_or(0.0, |volume| volume.faces[1]);
+    if flow.max_plastic_strain > 0.0 && first > 0.25 * spot {
+        warnings.push(format!(
+            "the first layer, {} thick, is more than a quarter of the contact across: give more `layers`, or let them grow",
+            units::format(first, Dimension::Length)
+        ));
+    }
+    let mut before = 0.0;
+    let coarse = flowed.increments.iter().any(|increment| {
+        let step = increment.load - std::mem::replace(&mut before, increment.load);
+        let flows = increment.flow.is_some_and(|flow| flow.yielded_cells > 0);
+        flows && increment.increment > 1 && step.abs() > STEP * record.load.max(increment.load)
+    });
+    if coarse {
+        let hint = "a step of the load above 15 % of it while the bodies flow follows their path roughly: give more `increments`";
+        warnings.push(hint.to_owned());
+    }
+    warnings
+}
+
+/// Side of a square of the area in contact.
+fn spot_width(record: &StaticRecord, cell: SquareMetre) -> Metre {
+    record.contact_area.max(cell).sqrt()
+}
+
+/// Steepest slope of a surface between neighbouring cells.
+fn slope(heights: &Field, pitch: [Metre; 2]) -> f64 {
+    let along = |axis: usize| {
+        let rows = heights.axis_windows(Axis(axis), 2);
+        let steps = rows.into_iter().map(move |pair| {
+            let step = &pair.index_axis(Axis(axis), 1) - &pair.index_axis(Axis(axis), 0);
+            step.iter().fold(0.0, |most: f64, step| most.max(step.abs())) / pitch[axis]
+        });
+        steps.fold(0.0, f64::max)
+    };
+    let sides = [heights.nrows(), heights.ncols()];
+    [0, 1].into_iter().filter(|axis| sides[*axis] > 1).map(along).fold(0.0, f64::max)
 }
 
 /// The warnings of a motion of bodies of these `shapes`, by its passes.

@@ -52,8 +52,12 @@ pub fn run(
     warnings.extend(of_answer);
     let (outcome, sliding) = (solved.outcome(), solved.last_update());
     let under_way = solved.take_under_way();
-    let fields = solved.into_fields(pair);
+    let flowed = solved.take_flowed();
+    let fields = solved.into_fields(rest::displaced(pair, flowed.as_ref()));
     writer.write_rest(&fields)?;
+    if let Some(flowed) = flowed {
+        writer.write_flow(&fields.grid, &flowed)?;
+    }
     let stress =
         subsurface.map(|plan| writer.write_subsurface(&plan, fields.into_tractions())).transpose()?;
     let summary =

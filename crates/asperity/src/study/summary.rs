@@ -144,6 +144,7 @@ mod tests {
             convolutions: 15.5,
             residual: 3e-7,
             shear: None,
+            flow: None,
         };
         let summary = Summary {
             version: "0.1.0".into(),

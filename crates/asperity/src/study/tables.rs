@@ -135,7 +135,15 @@ pub(super) fn read_sweep(path: &Path) -> Result<Vec<SweepRecord>> {
 /// # Errors
 /// [`Error::File`].
 pub(super) fn write_increments(path: &Path, increments: &[IncrementRecord]) -> Result<()> {
-    write(path, &INCREMENT_COLUMNS, increments)
+    let rows: Vec<Row> = increments.iter().map(Row::of).collect();
+    let columns = match rows.first() {
+        Some(row) => row.columns(),
+        None => INCREMENT_COLUMNS.map(str::to_owned).to_vec(),
+    };
+    atomic::write_with(path, |file| {
+        writeln!(file, "{}", columns.join(","))?;
+        file.write_all(lines(&columns, &rows).as_bytes())
+    })
 }
 
 /// Reads `increments.csv`.

@@ -6,6 +6,7 @@ mod closed_forms;
 mod convergence;
 mod documents;
 mod extremes;
+mod flowing;
 mod friction;
 mod good_inputs;
 mod hardness;

@@ -323,16 +323,19 @@ impl<'a> Entry<'a> {
 
     /// An array of any number of entries; `expected` says what they are.
     pub(super) fn list<T>(&self, expected: &str, read: impl Fn(&Entry<'a>) -> Result<T>) -> Result<Vec<T>> {
+        self.items(expected)?.iter().map(read).collect()
+    }
+
+    /// The entries of an array; `expected` says what they are.
+    pub(super) fn items(&self, expected: &str) -> Result<Vec<Entry<'a>>> {
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(expected)) };
-        let items = items.iter().map(|item| {
-            read(&Entry {
-                document: self.document,
-                path: self.path.clone(),
-                span: item.span(),
-                value: item.get_ref(),
-            })
-        });
-        items.collect()
+        let entry = |item: &'a toml::Spanned<DeValue<'a>>| Entry {
+            document: self.document,
+            path: self.path.clone(),
+            span: item.span(),
+            value: item.get_ref(),
+        };
+        Ok(items.iter().map(entry).collect())
     }
 
     /// One value for x and y, or an array of the two.

@@ -5,7 +5,7 @@ use super::document::join;
 use crate::error::Result;
 
 /// The keys of each table, to tell where a misplaced one belongs.
-const TABLES: [(&str, &[&str]); 16] = [
+const TABLES: [(&str, &[&str]); 19] = [
     (
         "lower",
         &[
@@ -16,6 +16,7 @@ const TABLES: [(&str, &[&str]); 16] = [
             "topography",
             "wear",
             "film",
+            "plasticity",
             "conductivity",
             "heat_capacity",
             "density",
@@ -32,6 +33,7 @@ const TABLES: [(&str, &[&str]); 16] = [
             "mount",
             "wear",
             "film",
+            "plasticity",
             "conductivity",
             "heat_capacity",
             "density",
@@ -97,10 +99,16 @@ const TABLES: [(&str, &[&str]); 16] = [
     ("upper.wear", WEAR),
     ("lower.film", FILM),
     ("upper.film", FILM),
+    ("lower.plasticity", FLOW),
+    ("upper.plasticity", FLOW),
+    ("plasticity", &["depth", "layers", "growth", "increments", "tolerance", "unload"]),
 ];
 
 /// The keys of a body's wear.
 const WEAR: &[&str] = &["coefficient", "dimensionless", "energy", "under_film"];
+
+/// The keys of a body's plasticity.
+const FLOW: &[&str] = &["yield_stress", "hardening", "curve", "kinematic", "recovery"];
 
 /// The keys of a body's film.
 const FILM: &[&str] = &[

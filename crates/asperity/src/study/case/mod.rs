@@ -9,6 +9,7 @@ mod friction;
 mod hardness;
 mod keys;
 mod parse;
+mod plasticity;
 mod prescribed;
 mod running;
 mod sliding;
@@ -24,6 +25,7 @@ use serde::{Serialize, Serializer};
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{GivenMap, Hardness, HardnessMap};
+pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
 pub use self::sliding::SlidingSpec;
@@ -74,6 +76,9 @@ pub struct Case {
     /// Temperatures of the bodies; not known if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureSpec>,
+    /// The volumes of bodies that flow; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<PlasticitySpec>,
     /// What is looked at under the surface; nothing if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
@@ -92,6 +97,9 @@ pub struct Body {
     pub material: Material,
     /// The most pressure that the body's cells bear; infinite where the file gives none.
     pub hardness: Hardness,
+    /// How it flows below its surface; elastic if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<FlowSpec>,
     /// What it conducts and stores of heat; not known if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,

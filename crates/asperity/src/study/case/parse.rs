@@ -7,6 +7,7 @@ use super::document::Document;
 use super::friction::friction;
 use super::hardness::hardness;
 use super::keys::{belongs, known_in, known_of_topographies, suits};
+use super::plasticity;
 use super::prescribed::prescribed;
 use super::running;
 use super::sliding::{alone, sliding};
@@ -49,7 +50,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
     /// The tables and keys of the root of a case file.
-    const ROOT: [&str; 12] = [
+    const ROOT: [&str; 13] = [
         "title",
         "lower",
         "upper",
@@ -60,6 +61,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         "sliding",
         "acceleration",
         "temperature",
+        "plasticity",
         "subsurface",
         "output",
     ];
@@ -103,13 +105,9 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let acceleration =
         root.table("acceleration")?.map(|table| accelerated(&table, [&lower, &upper], motion.as_ref()));
     let acceleration = acceleration.transpose()?;
-    let temperature = running::temperature(
-        &root,
-        [&lower, &upper],
-        motion.as_ref(),
-        sliding.as_ref(),
-        contact.boundary,
-    )?;
+    let temperature =
+        running::temperature(&root, [&lower, &upper], motion.as_ref(), sliding.as_ref(), contact.boundary)?;
+    let plasticity = plasticity::plasticity(&root, [&lower, &upper])?;
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
@@ -142,6 +140,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
         sliding,
         acceleration,
         temperature,
+        plasticity,
         subsurface,
         output,
         document,
@@ -290,6 +289,10 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     let poisson = poisson(table)?;
     let hardness = hardness(table, folder)?;
     let coating = table.table("coating")?.map(|table| coating(&table)).transpose()?;
+    let plasticity = table
+        .table("plasticity")?
+        .map(|flow| plasticity::flow(&flow, table, young, &hardness, coating.as_ref()))
+        .transpose()?;
     let film = table.table("film")?.map(|table| running::film(&table, &hardness)).transpose()?;
     let wear =
         table.table("wear")?.map(|table| running::wear(&table, &hardness, film.as_ref())).transpose()?;
@@ -303,7 +306,7 @@ fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     // Checked above, entry by entry: this can find nothing new.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
     let thermal = running::thermal(table)?;
-    Ok(Body { material, hardness, thermal, wear, film, topography, mount })
+    Ok(Body { material, hardness, plasticity, thermal, wear, film, topography, mount })
 }
 
 fn poisson(table: &Table<'_>) -> Result<f64> {

@@ -159,6 +159,8 @@ impl Sizes<'_> {
         if let Ok(Some(plan)) = Plan::new(case, &self.lower, &positions) {
             solver += plan.memory();
         }
+        solver +=
+            self.volumes().map(|(cells, periodic)| cells * if periodic { 350.0 } else { 500.0 }).sum::<f64>();
         let motion = case.motion(nx * ny * self.lower.cell_area());
         let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
         let together = motion
@@ -186,6 +188,29 @@ impl Sizes<'_> {
         let yields = self.case.lower.hardness.yields() || self.case.upper.hardness.yields();
         let all = self.overlaps.len();
         &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
+    }
+
+    /// Cells of all layers of each body that flows below its surface, and whether its boundary is periodic.
+    fn volumes(&self) -> impl Iterator<Item = (f64, bool)> {
+        let layers = self.case.plasticity.map_or(0, |plasticity| plasticity.layers) as f64;
+        let periodic = self.case.contact.boundary.repeats(0) && self.case.contact.boundary.repeats(1);
+        let bodies = [(&self.case.lower, &self.lower), (&self.case.upper, &self.upper)].into_iter();
+        bodies
+            .filter(|(body, _)| body.plasticity.is_some())
+            .map(move |(_, grid)| (grid.shape[0] as f64 * grid.shape[1] as f64 * layers, periodic))
+    }
+
+    /// The work of the products of bodies that flow below their surfaces.
+    fn flow(&self, threads: usize) -> f64 {
+        /// Products of an increment that flows, and those of one that is taken off.
+        const PRODUCTS: [f64; 2] = [8.0, 1.0];
+        let Some(plasticity) = self.case.plasticity else { return 0.0 };
+        let stages = 1.0 + self.case.history.len() as f64;
+        let [flowing, unloading] = PRODUCTS;
+        let unloading = if plasticity.unload { unloading } else { 0.0 };
+        let products = plasticity.increments as f64 * (stages * flowing + unloading);
+        let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };
+        products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
     }
 
     /// Whether tractions along all directions are computed.
@@ -295,7 +320,9 @@ impl Sizes<'_> {
             _ => [1.0; 2],
         };
         let made = self.making().into_iter().zip(times);
-        effort + MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>()
+        effort
+            + self.flow(threads)
+            + MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>()
     }
 }
 

@@ -249,7 +249,7 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
 }
 
 /// The fields of a static contact.
-const AT_REST: [&str; 4] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti"];
+const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti", "plasticity.h5"];
 
 /// The fields of passes that were not finished, and the warm starts of all but the last that was.
 fn clear_later(results: &Results, passes: usize) -> Result<()> {

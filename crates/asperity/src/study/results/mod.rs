@@ -289,6 +289,21 @@ impl Results {
         }
     }
 
+    /// What has flowed below the surfaces: of a static contact, or after the pass, from 1, of a motion.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn flow_fields(&self, pass: Option<usize>) -> Result<Fields> {
+        Fields::open(&self.flow_path(pass))
+    }
+
+    fn flow_path(&self, pass: Option<usize>) -> PathBuf {
+        match pass {
+            None => self.directory.join("plasticity.h5"),
+            Some(pass) => self.fields_folder().join(format!("plasticity-{pass:04}.h5")),
+        }
+    }
+
     fn subsurface_path(&self, pass: Option<usize>) -> PathBuf {
         match pass {
             None => self.directory.join("subsurface.h5"),

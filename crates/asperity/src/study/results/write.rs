@@ -9,11 +9,13 @@ use super::{
     BODIES, Results, cap_name, pressure_name, state_name, states_attribute, temperature_name, traction_name,
 };
 use crate::error::Result;
-use crate::grid::{CellValues, Field};
+use crate::grid::{CellValues, Field, Grid};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{Output, Pair, PassReport, State};
+use crate::motion::{Flowed, Output, Pair, PassReport, State};
+use crate::plasticity::TensorField;
 use crate::solver::Friction;
+use crate::stress::Component;
 use crate::study::loading::LoadingWriter;
 use crate::study::rest::{NamedField, RestFields};
 use crate::study::sliding::SlidingWriter;
@@ -21,7 +23,7 @@ use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
 use crate::study::sweep::SweepWriter;
 use crate::study::tables::GrowingTable;
-use crate::study::{identity, summary, warm_start};
+use crate::study::{identity, summary, tables, warm_start};
 use crate::subsurface::Tractions;
 
 /// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
@@ -96,6 +98,46 @@ impl Writer {
             file.add_field(name, unit, &contact.grid, [0.0, 0.0], values);
         }
         file.write(&self.results.static_path())
+    }
+
+    /// Writes what has flowed below the surfaces of a static contact on a grid.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub(in crate::study) fn write_flow(&self, grid: &Grid, contact: &Flowed) -> Result<()> {
+        let mut file = self.field_file();
+        for volume in &contact.volumes {
+            let body = BODIES[volume.body];
+            file.set(&format!("depths_{body}"), volume.faces.clone());
+            add_tensor(&mut file, "strain", "1", body, grid, &volume.strain);
+            file.add_layers(
+                &state_name("accumulated", body),
+                "1",
+                grid,
+                &layers_last(volume.accumulated.view()),
+            );
+            if let Some(back) = &volume.back_stress {
+                add_tensor(&mut file, "back_stress", "Pa", body, grid, back);
+            }
+            file.add_field(&state_name("displacement", body), "m", grid, [0.0, 0.0], &volume.displacement);
+        }
+        let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
+        for volume in left {
+            let body = BODIES[volume.body];
+            add_tensor(&mut file, "residual_stress", "Pa", body, grid, &volume.residual_stress);
+            file.add_field(
+                &state_name("residual_displacement", body),
+                "m",
+                grid,
+                [0.0, 0.0],
+                &volume.displacement,
+            );
+        }
+        file.write(&self.results.flow_path(None))?;
+        if !contact.increments.is_empty() {
+            tables::write_increments(&self.results.increments_path(), &contact.increments)?;
+        }
+        Ok(())
     }
 
     /// What keeps each increment of a loading of so many `increments` here.
@@ -244,6 +286,20 @@ impl Output for PassWriter {
         self.passes.add(std::slice::from_ref(report.record))?;
         results.remove(&results.warm_start_path(passes - 1))
     }
+}
+
+/// A tensor in the layers of a body: an array for each of its components.
+fn add_tensor(file: &mut FieldFile, name: &str, unit: &str, body: &str, grid: &Grid, tensor: &TensorField) {
+    for component in Component::ALL {
+        let layers = tensor.index_axis(ndarray::Axis(1), component as usize);
+        let name = state_name(&format!("{name}_{}", component.name()), body);
+        file.add_layers(&name, unit, grid, &layers_last(layers));
+    }
+}
+
+/// `[layer, ix, iy]` as `[ix, iy, layer]`.
+fn layers_last(values: ndarray::ArrayView3<f64>) -> ndarray::Array3<f64> {
+    values.permuted_axes([1, 2, 0]).as_standard_layout().into_owned()
 }
 
 /// The hardness, and what the shear of bodies that slide leaves of it to the pressure.

@@ -1,0 +1,288 @@
+//! `[lower.plasticity]`, `[upper.plasticity]` and `[plasticity]`: bodies that flow below their surfaces.
+
+use serde::Serialize;
+
+use super::cursor::{Entry, Table};
+use super::keys::known_in;
+use super::{Body, Hardness};
+use crate::error::Result;
+use crate::material::Coating;
+use crate::plasticity::{FlowParams, Hardening, J2, Layers};
+use crate::units::{Dimension, Metre, Pascal};
+
+/// How a body flows: von Mises' yield criterion, with hardening of both kinds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FlowSpec {
+    /// The yield stress over the plastic strain.
+    #[serde(flatten)]
+    pub hardening: HardeningKey,
+    /// Prager's modulus of the back stress, ≥ 0.
+    pub kinematic: Pascal,
+    /// Armstrong's and Frederick's recovery of the back stress, ≥ 0.
+    pub recovery: f64,
+}
+
+/// The yield stress over the plastic strain: by two keys, or by a measured curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum HardeningKey {
+    /// A line.
+    Linear {
+        /// Yield stress of the virgin body in tension, > 0.
+        yield_stress: Pascal,
+        /// Its growth with the plastic strain, ≥ 0.
+        hardening: Pascal,
+    },
+    /// Straight lines between measured points, level beyond the last.
+    Curve {
+        /// Plastic strains, from 0 on, rising, and the stresses there, not falling.
+        curve: Vec<(f64, Pascal)>,
+    },
+}
+
+/// The volumes that may flow, and how far the plastic strain is to be found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PlasticitySpec {
+    /// Depth of the volume that may flow.
+    pub depth: Metre,
+    /// Number of its layers, 1 to 512.
+    pub layers: usize,
+    /// Thickness of a layer over that of the one above, 1 to 2.
+    pub growth: f64,
+    /// Equal steps of the load of a static contact, ≥ 1.
+    pub increments: usize,
+    /// Largest mismatch of the stress over the yield stress, 0 < tolerance < 1.
+    pub tolerance: f64,
+    /// Whether the load of a static contact is taken off at the end.
+    pub unload: bool,
+}
+
+/// `[lower.plasticity]` in the table of a body that is as stiff as `young`.
+pub(super) fn flow(
+    table: &Table<'_>,
+    body: &Table<'_>,
+    young: Pascal,
+    hardness: &Hardness,
+    coating: Option<&Coating>,
+) -> Result<FlowSpec> {
+    known_in(table)?;
+    if !young.is_finite() {
+        let hint = Some("give it a finite 'young', or leave its plasticity out".to_owned());
+        return Err(table.error("a rigid body does not flow".to_owned(), hint));
+    }
+    if let Some(entry) = body.get("hardness").filter(|_| hardness.yields()) {
+        let hint = Some("leave 'hardness' out, or the plasticity".to_owned());
+        return Err(entry.error("a body that flows below its surface has no 'hardness'".to_owned(), hint));
+    }
+    if coating.is_some() {
+        let hint = Some("leave the coating or the plasticity out".to_owned());
+        return Err(table.error("flow under a coating is not known yet".to_owned(), hint));
+    }
+    let hardening =
+        match table.exactly_one(&["yield_stress", "curve"], "for example `yield_stress = \"1.5 GPa\"`")? {
+            "curve" => {
+                if let Some(entry) = table.get("hardening") {
+                    let hint = Some("the curve has the hardening: leave this key out".to_owned());
+                    return Err(entry.error("'hardening' has no meaning beside a 'curve'".to_owned(), hint));
+                }
+                HardeningKey::Curve { curve: curve(&table.required("curve", "[[0, \"1.5 GPa\"]]")?)? }
+            }
+            _ => HardeningKey::Linear {
+                yield_stress: table.required("yield_stress", "\"1.5 GPa\"")?.positive(Dimension::Pressure)?,
+                hardening: modulus(table, "hardening")?,
+            },
+        };
+    let kinematic = modulus(table, "kinematic")?;
+    let recovery = match table.get("recovery") {
+        None => 0.0,
+        Some(entry) => {
+            let recovery = entry.number(|value| value >= 0.0, "a number of at least 0")?;
+            if recovery > 0.0 && kinematic == 0.0 {
+                let hint = Some("give a modulus `kinematic`, or leave 'recovery' out".to_owned());
+                let message = "'recovery' is that of a back stress, of which there is none".to_owned();
+                return Err(entry.error(message, hint));
+            }
+            recovery
+        }
+    };
+    Ok(FlowSpec { hardening, kinematic, recovery })
+}
+
+/// A modulus of at least 0, 0 where it is not given.
+fn modulus(table: &Table<'_>, key: &str) -> Result<Pascal> {
+    let Some(entry) = table.get(key) else { return Ok(0.0) };
+    match entry.quantity(Dimension::Pressure)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err(entry.unexpected("a modulus of at least 0", None)),
+    }
+}
+
+/// A measured curve of the yield stress.
+fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pascal)>> {
+    const EXPECTED: &str =
+        "points of plastic strain and stress such as [[0, \"1.5 GPa\"], [0.01, \"1.7 GPa\"]]";
+    let point = |item: &Entry<'_>| -> Result<(f64, Pascal)> {
+        let values = item.items(EXPECTED)?;
+        match values.as_slice() {
+            [strain, stress] => Ok((
+                strain.number(|strain| strain >= 0.0, "a plastic strain of at least 0")?,
+                stress.positive(Dimension::Pressure)?,
+            )),
+            _ => Err(item.unexpected(EXPECTED, None)),
+        }
+    };
+    let points = entry.list(EXPECTED, point)?;
+    let first = points.first().ok_or_else(|| entry.unexpected(EXPECTED, None))?;
+    let hint = |text: &str| Some(text.to_owned());
+    if first.0 != 0.0 {
+        return Err(entry.error(
+            "the first point of 'curve' has a plastic strain above 0".to_owned(),
+            hint("it begins with the yield stress of the virgin body, `[0, \"1.5 GPa\"]`"),
+        ));
+    }
+    if points.windows(2).any(|pair| pair[1].0 <= pair[0].0) {
+        return Err(entry.error("the strains of 'curve' do not rise from point to point".to_owned(), None));
+    }
+    if points.windows(2).any(|pair| pair[1].1 < pair[0].1) {
+        let softens = hint("a body that softens flows in bands, which depend on the cells: level the curve");
+        return Err(entry.error("the stresses of 'curve' fall".to_owned(), softens));
+    }
+    Ok(points)
+}
+
+/// `[plasticity]`, of bodies of which one flows.
+pub(super) fn plasticity(root: &Table<'_>, bodies: [&Body; 2]) -> Result<Option<PlasticitySpec>> {
+    let flows = ["lower", "upper"].into_iter().zip(bodies).find(|(_, body)| body.plasticity.is_some());
+    let table = root.table("plasticity")?;
+    let (name, table) = match (flows, table) {
+        (None, None) => return Ok(None),
+        (None, Some(table)) => {
+            let hint = "give a body `[lower.plasticity]` with its `yield_stress`, or leave [plasticity] out";
+            return Err(
+                table.error("no body flows: neither has a plasticity".to_owned(), Some(hint.to_owned()))
+            );
+        }
+        (Some((name, _)), None) => {
+            let hint = "for example `[plasticity]` with `depth = \"20 um\"` and `layers = 16`";
+            let message = format!("missing table [plasticity]: [{name}.plasticity] has no volume to flow in");
+            return Err(flow_table(root, name)?.error(message, Some(hint.to_owned())));
+        }
+        (Some((name, _)), Some(table)) => (name, table),
+    };
+    known_in(&table)?;
+    suits(root, name, bodies)?;
+    let depth = table.required("depth", "\"20 um\"")?.positive(Dimension::Length)?;
+    let entry = table.required("layers", "16")?;
+    let layers = entry.count(1)?;
+    if layers > MAX_LAYERS {
+        return Err(entry.unexpected(&format!("a whole number from 1 to {MAX_LAYERS}"), None));
+    }
+    let growth = table
+        .get("growth")
+        .map(|entry| entry.number(|value| (1.0..=2.0).contains(&value), "a number from 1 to 2"));
+    let increments = table.get("increments").map_or(Ok(DEFAULT_INCREMENTS), |entry| entry.count(1))?;
+    let tolerance = table
+        .get("tolerance")
+        .map(|entry| entry.number(|value| value > 0.0 && value < 1.0, "a number above 0, below 1"));
+    Ok(Some(PlasticitySpec {
+        depth,
+        layers,
+        growth: growth.transpose()?.unwrap_or(1.0),
+        increments,
+        tolerance: tolerance.transpose()?.unwrap_or(1e-4),
+        unload: table.get("unload").map_or(Ok(true), |entry| entry.flag())?,
+    }))
+}
+
+/// The most layers of a volume.
+const MAX_LAYERS: usize = 512;
+/// Equal steps of a load where none are asked for.
+const DEFAULT_INCREMENTS: usize = 16;
+
+/// An error where bodies that flow have what goes with a hardness alone.
+fn suits(root: &Table<'_>, name: &str, bodies: [&Body; 2]) -> Result<()> {
+    let contact = root.required_table("contact")?;
+    for (other, body) in ["lower", "upper"].into_iter().zip(bodies) {
+        let table = root.required_table(other)?;
+        if let Some(entry) = table.get("hardness").filter(|_| body.hardness.yields()) {
+            let hint = Some("give this body a plasticity, or neither of them".to_owned());
+            let message =
+                format!("[{name}] flows below its surface: 'hardness' has no meaning on either body");
+            return Err(entry.error(message, hint));
+        }
+        if body.material.coating.is_some() {
+            let hint = Some("leave the coating or the plasticity out".to_owned());
+            return Err(table
+                .required("coating", "")?
+                .error("flow beside a coating is not known yet".to_owned(), hint));
+        }
+        for key in ["wear", "film"] {
+            if let Some(table) = table.table(key)? {
+                let hint = Some("leave the plasticity out, and give the bodies a `hardness`".to_owned());
+                return Err(
+                    table.error(format!("bodies that flow below their surfaces have no {key} yet"), hint)
+                );
+            }
+        }
+    }
+    if let Some(table) = root.table("friction")? {
+        let hint = Some("leave [friction] or the plasticity out".to_owned());
+        return Err(
+            table.error("shear of bodies that flow below their surfaces is not known yet".to_owned(), hint)
+        );
+    }
+    if let Some(table) = root.table("subsurface")? {
+        let hint = Some("leave [subsurface] out: `plasticity.h5` has the residual stress".to_owned());
+        return Err(table.error("bodies that flow have no [subsurface] yet".to_owned(), hint));
+    }
+    if let Some(entry) = ["loads", "mean_pressures", "approaches"].iter().find_map(|key| contact.get(key)) {
+        let hint = Some("give stages in a [[history]]".to_owned());
+        return Err(entry.error("bodies that flow keep what has flowed: they have no sweep".to_owned(), hint));
+    }
+    if let Some(table) = root.table("motion")? {
+        let hint = Some("give the bodies a `hardness` in place of the plasticity".to_owned());
+        return Err(table.error("bodies that flow below their surfaces do not move yet".to_owned(), hint));
+    }
+    Ok(())
+}
+
+/// The table of a body's plasticity.
+fn flow_table<'a>(root: &Table<'a>, name: &str) -> Result<Table<'a>> {
+    root.required_table(name)?.required_table("plasticity")
+}
+
+impl FlowSpec {
+    /// The flow law.
+    pub(in crate::study) fn law(&self) -> Result<J2> {
+        let hardening = match &self.hardening {
+            HardeningKey::Linear { yield_stress, hardening } => Hardening::linear(*yield_stress, *hardening)?,
+            HardeningKey::Curve { curve } => Hardening::curve(curve)?,
+        };
+        match self.kinematic {
+            0.0 => Ok(J2::new(hardening)),
+            modulus => J2::new(hardening).with_back_stress(modulus, self.recovery),
+        }
+    }
+
+    /// Yield stress of the virgin body in tension.
+    pub fn yield_stress(&self) -> Pascal {
+        match &self.hardening {
+            HardeningKey::Linear { yield_stress, .. } => *yield_stress,
+            HardeningKey::Curve { curve } => curve[0].1,
+        }
+    }
+}
+
+impl PlasticitySpec {
+    /// The layers of the volume that may flow.
+    pub(in crate::study) fn layers(&self) -> Result<Layers> {
+        Layers::new(self.depth, self.layers, self.growth)
+    }
+
+    /// When an increment is done.
+    pub(in crate::study) fn params(&self) -> FlowParams {
+        FlowParams::new().with_tolerance(self.tolerance)
+    }
+}

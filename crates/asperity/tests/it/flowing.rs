@@ -1,0 +1,122 @@
+//! Bodies that flow below their surfaces, from the case to the results.
+
+use std::path::Path;
+
+use asperity::motion::StaticRecord;
+use asperity::study::case::Case;
+use asperity::study::{self, Existing, Given, Outcome, Results};
+use ndarray::Array3;
+
+/// A ball of 1 mm on a flat body that flows from 1.5 GPa on, or does not; yield begins at 5.5 N, at the depth of half the radius
+/// of the contact, 33 µm.
+fn case(load: &str, plasticity: &str, rest: &str) -> Case {
+    let text = format!(
+        "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n{plasticity}[lower.topography]\nform = \"flat\"\nshape = [24, 24]\n\
+         pitch = \"6 um\"\n[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\n[upper.topography]\nform = \"sphere\"\nradius = \"1 mm\"\n\
+         [contact]\nload = \"{load}\"\n{rest}"
+    );
+    Case::parse(&text, Path::new("ball.toml"), Path::new("")).unwrap()
+}
+
+const FLOWS: &str = "[lower.plasticity]\nyield_stress = \"1.5 GPa\"\nhardening = \"5 GPa\"\n";
+const VOLUME: &str = "[plasticity]\ndepth = \"72 um\"\nlayers = 10\nincrements = 4\n";
+
+fn record(outcome: &Outcome) -> &StaticRecord {
+    match outcome {
+        Outcome::Static(record) => record,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_does_not_yield_presses_as_an_elastic_body_to_the_last_bit() {
+    let light = study::rest(
+        &case("5 N", FLOWS, VOLUME.replace("increments = 4", "increments = 1").as_str()),
+        Given::default(),
+        &(),
+    )
+    .unwrap();
+    let elastic = study::rest(&case("5 N", "", ""), Given::default(), &()).unwrap();
+    let pressure = |rest: &study::Rest| {
+        rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap().values.clone()
+    };
+    assert_eq!(pressure(&light), pressure(&elastic));
+    let flow = record(&light.outcome).flow.as_ref().unwrap();
+    assert_eq!((flow.max_plastic_strain, flow.regime.as_str(), flow.plastic_work), (0.0, "elastic", 0.0));
+}
+
+#[test]
+fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let heavy = case("20 N", FLOWS, VOLUME);
+    let (summary, _) = study::run(&heavy, Given::default(), &out, Existing::Keep, &()).unwrap();
+    let record = record(&summary.outcome);
+    let flow = record.flow.as_ref().unwrap();
+    let left = flow.residual.as_ref().unwrap();
+    assert_eq!(flow.regime, "yields");
+    // Below the middle of the contact, at about half its radius.
+    let [x, y, z] = flow.max_plastic_strain_position;
+    assert!(
+        (x - 72e-6).abs() < 5e-6 && (y - 72e-6).abs() < 5e-6 && (8e-6..40e-6).contains(&z),
+        "{x} {y} {z}"
+    );
+    assert!(flow.plastic_work > flow.stored_energy && flow.stored_energy > 0.0, "{flow:?}");
+    // Unloading is elastic: what has flowed stays.
+    assert!((left.residual_max_plastic_strain / flow.max_plastic_strain - 1.0).abs() < 0.05);
+    assert!(left.residual_displaced_volume > 0.0 && left.residual_max_residual_tension > 1e8, "{left:?}");
+    let results = Results::open(&out).unwrap();
+    let increments = results.increments().unwrap();
+    assert_eq!(increments.len(), 8);
+    let loads: Vec<f64> = increments.iter().map(|increment| increment.load).collect();
+    for (found, expected) in loads.iter().zip([5.0, 10.0, 15.0, 20.0, 15.0, 10.0, 5.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-6, "{loads:?}");
+    }
+    let work: f64 =
+        increments.iter().filter_map(|increment| increment.flow).map(|flow| flow.plastic_work).sum();
+    assert!((work / left.residual_plastic_work - 1.0).abs() < 1e-12, "{work:e} {left:?}");
+
+    let volumes = results.flow_fields(None).unwrap();
+    let read =
+        |name: &str| -> Array3<f64> { volumes.read(name).unwrap().values.into_dimensionality().unwrap() };
+    let strain = ["xx", "yy", "zz"].map(|component| read(&format!("strain_{component}_lower")));
+    let trace = &strain[0] + &strain[1] + &strain[2];
+    assert!(trace.iter().all(|trace| trace.abs() < 1e-12), "flow keeps the volume");
+    let accumulated = read("accumulated_lower");
+    assert_eq!(accumulated.shape(), [24, 24, 10]);
+    let largest = accumulated.iter().fold(0.0, |most: f64, strain| most.max(*strain));
+    assert_eq!(largest, flow.max_plastic_strain);
+    // The dent is deepest in the middle, and the surfaces have it.
+    let dent = volumes.read("displacement_lower").unwrap().into_field().unwrap();
+    let deepest = dent.indexed_iter().max_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
+    assert!((10..14).contains(&deepest.0) && (10..14).contains(&deepest.1), "{deepest:?}");
+    let lower = results.static_fields().unwrap().read("lower").unwrap().into_field().unwrap();
+    assert!((&lower + &dent).iter().all(|z| z.abs() < 1e-15));
+    // The gap is that of the bodies as they are: closed where they touch.
+    let fields = results.static_fields().unwrap();
+    let read = |name: &str| fields.read(name).unwrap().into_field().unwrap();
+    let (gap, pressure) = (read("gap"), read("pressure"));
+    let open =
+        gap.iter().zip(&pressure).filter(|(_, p)| **p > 0.0).fold(0.0, |most: f64, (g, _)| most.max(g.abs()));
+    assert!(open < 1e-5 * record.approach, "{open:e}");
+}
+
+#[test]
+fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
+    let depth = |depth: &str| VOLUME.replace("72 um", depth);
+    for (shallow, told) in
+        [("5 um", "'depth' is 5 µm, expected from a cell, 6 µm"), ("1 mm", "'depth' is 1 mm")]
+    {
+        let error = study::rest(&case("20 N", FLOWS, &depth(shallow)), Given::default(), &()).unwrap_err();
+        assert!(error.to_string().contains(told), "{error}");
+    }
+    let thin = study::rest(&case("20 N", FLOWS, &depth("18 um")), Given::default(), &()).unwrap();
+    assert!(
+        thin.warnings.iter().any(|warning| warning.contains("flows in the deepest layer")),
+        "{:?}",
+        thin.warnings
+    );
+    let whole = study::rest(&case("20 N", FLOWS, VOLUME), Given::default(), &()).unwrap();
+    assert!(!whole.warnings.iter().any(|warning| warning.contains("deepest layer")), "{:?}", whole.warnings);
+    assert!(whole.warnings.iter().any(|warning| warning.contains("above 15 %")), "{:?}", whole.warnings);
+}

@@ -1,0 +1,48 @@
+"""Bodies that flow below their surfaces."""
+
+from __future__ import annotations
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import asperity as asp
+
+STEEL = asp.Material(young="210 GPa", poisson=0.3)
+SOFT = asp.Material(
+    young="210 GPa", poisson=0.3, plasticity=asp.Plasticity(yield_stress="1.5 GPa", hardening="5 GPa", kinematic="1 GPa")
+)
+VOLUME = {"depth": "72 um", "layers": 8, "increments": 3}
+
+
+def pressed(**more: object) -> asp.Contact:
+    plane, ball = asp.form.flat((24, 24), pitch="6 um"), asp.form.sphere("1 mm")
+    return asp.contact(plane, ball, SOFT, STEEL, load="20 N", plasticity=VOLUME, progress=False, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_ball_leaves_a_dent_and_what_flows_keeps_its_volume(tmp_path: pathlib.Path) -> None:
+    contact = pressed()
+    assert list(contact.flow) == ["lower"]
+    flow = contact.flow["lower"]
+    assert flow.strain.shape == flow.residual_stress.shape == (6, 24, 24, 8) and flow.accumulated.shape == (24, 24, 8)
+    assert np.abs(flow.strain[:3].sum(axis=0)).max() < 1e-12
+    assert flow.accumulated.max() == contact.numbers["max_plastic_strain"]
+    assert flow.back_stress is not None and flow.back_stress.shape == (6, 24, 24, 8)
+    assert np.allclose(contact.lower.heights, -flow.displacement, atol=1e-18)
+    assert contact.numbers["residual_stored_energy"] > 0.0
+    assert contact.increments["plastic_work"].sum() == pytest.approx(contact.numbers["residual_plastic_work"])
+    # The same from the results, and as a case file has it.
+    kept = pressed(out=tmp_path / "out")
+    assert kept == contact
+    assert asp.open(tmp_path / "out").flow["lower"] == flow
+
+
+def test_what_a_plasticity_takes_is_told() -> None:
+    assert asp.Plasticity(curve=[[0, 1.5e9], [0.01, 1.7e9]])._table() == {"curve": [[0.0, 1.5e9], [0.01, 1.7e9]]}
+    with pytest.raises(asp.errors.CaseError, match="recovery"):
+        recovers = asp.Material(210e9, 0.3, plasticity=asp.Plasticity(yield_stress=1e9, recovery=2.0))
+        asp.contact(asp.form.flat((8, 8), pitch=1e-6), asp.form.sphere(1e-3), recovers, STEEL, load=1.0, plasticity=VOLUME)
+    with pytest.raises(asp.errors.CaseError, match="missing table"):
+        asp.contact(asp.form.flat((8, 8), pitch=1e-6), asp.form.sphere(1e-3), SOFT, STEEL, load=1.0)
