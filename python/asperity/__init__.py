@@ -12,7 +12,7 @@ laws of one's own, :func:`run` computes a case file, :func:`open` opens results.
 
 from . import errors, form, generate, reference
 from ._core import __version__
-from ._contact import Contact, Flow, contact
+from ._contact import Contact, Flow, contact, slide
 from ._progress import Progress
 from ._run import Run, open, run, simulate
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -85,6 +85,7 @@ __all__ = [
     "reference",
     "run",
     "simulate",
+    "slide",
     "stress",
     "tangential_modulus",
     "verification_cases",

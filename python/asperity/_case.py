@@ -21,6 +21,7 @@ def tables(
     friction: Any = None,
     history: Sequence[Mapping[str, Any]] | None = None,
     motion: dict[str, Any] | None = None,
+    sliding: dict[str, Any] | None = None,
     acceleration: Mapping[str, Any] | None = None,
     temperature: Mapping[str, Any] | None = None,
     plasticity: Mapping[str, Any] | None = None,
@@ -35,6 +36,8 @@ def tables(
         case["history"] = [dict(stage) for stage in history]
     if motion is not None:
         case["motion"] = given(motion)
+    if sliding is not None:
+        case["sliding"] = given(sliding)
     if acceleration is not None:
         case["acceleration"] = dict(acceleration)
     if temperature is not None:

@@ -120,6 +120,8 @@ class Contact(Comparable):
         `traction_y`, `displacement_x` and `_y`, `slip_x` and `_y`, `stick`; `cap` where cells differ in what they bear.
     increments : ndarray
         A record for each increment of a loading in stages; else empty.
+    updates : ndarray
+        Of a contact that slides in place, see :func:`slide`, a record for each update, the first before it slides; else empty.
     sweep : ndarray
         A record for each point of a sweep; else empty. Numbers and fields are those of the last one.
     warnings : list of str
@@ -154,6 +156,7 @@ class Contact(Comparable):
     moment: float
     fields: Fields
     increments: NDArray[np.void]
+    updates: NDArray[np.void]
     sweep: NDArray[np.void]
     warnings: list[str]
     case: dict[str, Any]
@@ -164,6 +167,7 @@ class Contact(Comparable):
         record: dict[str, Any] | None,
         sweep: list[dict[str, Any]],
         increments: list[dict[str, Any]],
+        updates: list[dict[str, Any]],
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
@@ -172,6 +176,7 @@ class Contact(Comparable):
         self.flow = flow
         self.fields = found
         self.increments = fields.table(increments, _core.INCREMENT_COLUMNS)
+        self.updates = fields.table(updates, ["update", "distance"])
         self.sweep = fields.table(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
@@ -358,10 +363,105 @@ def contact(
         subsurface=subsurface,
         output={"pressure_every": pressure_every, "paraview": paraview},
     )  # fmt: skip
+    needs_out = {"subsurface": subsurface, "paraview": paraview}
+    return _solved(handed, case, needs_out, out, resume, overwrite, threads, progress)
+
+
+def slide(
+    lower: Surface | Body,
+    upper: Surface | Body,
+    lower_material: Material | None = None,
+    upper_material: Material | None = None,
+    *,
+    distance: Quantity,
+    load: Quantity | None = None,
+    mean_pressure: Quantity | None = None,
+    approach: Quantity | None = None,
+    speed: Quantity | None = None,
+    updates: int | None = None,
+    temperature: Mapping[str, Any] | None = None,
+    boundary: str | Sequence[str] | None = None,
+    method: str | None = None,
+    tolerance: float | None = None,
+    friction: Friction | None = None,
+    paraview: bool | None = None,
+    title: str | None = None,
+    out: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    threads: int | None = None,
+    progress: Told = True,
+) -> Contact:
+    """Slide two bodies in place: the same cells face each other all the way, as a ball on a disc or a punch, and wear.
+
+    Parameters
+    ----------
+    lower, upper, lower_material, upper_material
+        The bodies, as of :func:`contact`; one of them at least wears or grows a film, see :class:`Body`.
+    distance : float or str
+        The distance slid, above 0, m.
+    load, mean_pressure, approach : float or str
+        What is prescribed all the way, one of them.
+    speed : float or str, optional
+        Of the upper body, above 0, m/s; where films grow or bodies are heated.
+    updates : int, optional
+        Implicit updates, each a contact solved on the bodies as it leaves them; 40 by default.
+    temperature : mapping, optional
+        `bulk`, and `every`: 1 where friction heats the bodies, 0 where not.
+    boundary, method, tolerance, friction, paraview, title, out, resume, overwrite, threads, progress
+        As of :func:`contact`.
+
+    Returns
+    -------
+    Contact
+        On the bodies as they are in the end; `updates` has a record for each update, fields `wear_upper`, … the depth of wear.
+
+    Raises
+    ------
+    asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
+        As of :func:`contact`.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+    >>> ball = asp.Body(asp.form.sphere("50 mm"), steel, wear={"coefficient": 1.33e-13})
+    >>> disc = asp.Body(asp.form.flat((32, 32), pitch="40 um"), steel)
+    >>> worn = asp.slide(disc, ball, load="10 N", distance="160 mm", updates=10, progress=False)
+    >>> f"{worn.updates['wear_volume_upper'][-1]:.4g}"
+    '2.128e-13'
+    """
+    handed = Handed(*bodies(lower, upper, lower_material, upper_material))
+    case = _case.tables(
+        handed,
+        title=title,
+        contact={
+            "load": load, "mean_pressure": mean_pressure, "approach": approach, "boundary": boundary,
+            "method": method, "tolerance": tolerance,
+        },
+        friction=friction,
+        sliding={"distance": distance, "speed": speed, "updates": updates},
+        temperature=temperature,
+        output={"paraview": paraview},
+    )  # fmt: skip
+    return _solved(handed, case, {"paraview": paraview}, out, resume, overwrite, threads, progress)
+
+
+def _solved(
+    handed: Handed,
+    case: dict[str, Any],
+    needs_out: dict[str, Any],
+    out: str | os.PathLike[str] | None,
+    resume: bool,
+    overwrite: bool,
+    threads: int | None,
+    progress: Told,
+) -> Contact:
+    """The contact at rest of a case, in memory, or of the results that it leaves."""
     count = _case.threads(threads)
     existing = _case.existing(resume, overwrite)
     if out is None:
-        for key, value in (("subsurface", subsurface), ("paraview", paraview), ("resume", resume or None)):
+        for key, value in {**needs_out, "resume": resume or None}.items():
             if value is not None:
                 message = f"'{key}' is given without 'out', the directory for what it writes"
                 raise bad_input(key, message)
@@ -371,7 +471,13 @@ def contact(
         arrays = fields.of_cells(found["fields"], pitch)
         warn(found["warnings"])
         return Contact(
-            found.get("record"), found.get("sweep", []), found["increments"], arrays, found["warnings"], found["case"],
+            found.get("record"),
+            found.get("sweep", []),
+            found["increments"],
+            found["updates"],
+            arrays,
+            found["warnings"],
+            found["case"],
             {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
         )
     with Teller(progress) as tell:
@@ -390,7 +496,7 @@ def stored(core: Any) -> Contact:
         # What has not converged leaves no summary.
         del record["converged"]
     return Contact(
-        record, core.sweep(), core.increments(), found, summary["warnings"], core.case(), _flow(core)
+        record, core.sweep(), core.increments(), core.updates(), found, summary["warnings"], core.case(), _flow(core)
     )
 
 

@@ -60,9 +60,9 @@ class Plasticity(Comparable):
         Its growth with the plastic strain, from 0, Pa; 0 by default.
     curve : array_like, optional
         In place of both: points of plastic strain and yield stress, Pa, from strain 0 on, rising.
-    kinematic : float or str
-        Prager's modulus of the back stress, from 0, Pa.
-    recovery : float
+    kinematic : float or str, optional
+        Prager's modulus of the back stress, from 0, Pa; 0 by default.
+    recovery : float, optional
         Armstrong's and Frederick's recovery of the back stress, from 0; with `kinematic`.
 
     Examples
@@ -77,11 +77,11 @@ class Plasticity(Comparable):
         yield_stress: Quantity | None = None,
         hardening: Quantity | None = None,
         curve: ArrayLike | None = None,
-        kinematic: Quantity = 0.0,
+        kinematic: Quantity | None = None,
         recovery: float = 0.0,
     ) -> None:
         def pressure(key: str, value: Quantity | None) -> float | None:
-            return None if value is None else quantity(key, value, "pressure")
+            return None if value is None or value == 0 else quantity(key, value, "pressure")
 
         self.yield_stress = pressure("yield_stress", yield_stress)
         self.hardening = pressure("hardening", hardening)
@@ -97,7 +97,7 @@ class Plasticity(Comparable):
         table: dict[str, Any] = {"yield_stress": self.yield_stress, "hardening": self.hardening}
         if self.curve is not None:
             table["curve"] = self.curve.tolist()
-        if self.kinematic:
+        if self.kinematic is not None:
             table["kinematic"] = self.kinematic
         if self.recovery:
             table["recovery"] = self.recovery

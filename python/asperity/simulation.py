@@ -58,7 +58,7 @@ class Contacts(NamedTuple):
         starts = np.flatnonzero(np.diff(self.position, prepend=-1))
         ends = [*starts[1:], len(self.position)]
         for start, end in zip(starts, ends, strict=True):
-            yield Contacts(*(array[start:end] for array in self))
+            yield Contacts._make(array[start:end] for array in self)
 
 
 class _Moving:

@@ -35,7 +35,8 @@ def test_a_ball_leaves_a_dent_and_what_flows_keeps_its_volume(tmp_path: pathlib.
     assert contact.increments["plastic_work"].sum() == pytest.approx(contact.numbers["residual_plastic_work"])
     # The same from the results, and as a case file has it.
     kept = pressed(out=tmp_path / "out")
-    assert kept == contact
+    assert (kept.flow, kept.numbers, kept.fields) == (contact.flow, contact.numbers, contact.fields)
+    assert kept.increments["plastic_work"].tolist() == contact.increments["plastic_work"].tolist()
     assert asp.open(tmp_path / "out").flow["lower"] == flow
 
 

@@ -120,9 +120,10 @@ def test_what_is_done_between_two_cells_comes_to_both(pair: Pair) -> None:
     for found in (lower, upper):
         assert found.sum() == pytest.approx(c.pressure.sum(), rel=1e-12)
     # The mean pressure of the pass, as the results have it.
+    positions = len(p.steps)
     expected = simulation.results().fields(1)
     for found, name in ((lower, "mean_pressure_lower"), (upper, "mean_pressure_upper")):
-        assert found / len(p.steps) == pytest.approx(np.asarray(expected[name].values), rel=1e-12)
+        assert found / positions == pytest.approx(np.asarray(expected[name].values), rel=1e-12)
 
 
 def test_a_pass_there_and_back_and_across_has_its_steps(pair: Pair) -> None:
@@ -310,3 +311,17 @@ def test_bodies_that_wear_and_grow_films(pair: Pair, tmp_path: pathlib.Path) -> 
     assert run.fields()["film_lower"].values.mean() == pytest.approx(run.passes["mean_film_lower"][-1])
     with pytest.raises(errors.CaseError, match="missing key 'speed'"):
         asp.simulate(asp.Body(pair[0].surface, pair[0].material, wear={"coefficient": "1e-7 mm3/(N m)"}), upper, load=0.02)
+
+
+def test_laws_see_shear_temperature_and_time(pair: Pair) -> None:
+    heat = {"conductivity": 46.0, "heat_capacity": 460.0, "density": 7850.0}
+    bodies = [asp.Body(body.surface, body.material, thermal=heat) for body in pair]
+    simulation = asp.Simulation(
+        *bodies, load=0.02, passes=2, stride=4, speed=0.5, friction=0.1, temperature={"bulk": 373.15}, progress=False
+    )
+    for p in simulation:
+        c = p.contacts
+        assert c.shear == pytest.approx(0.1 * c.pressure) and p.time == pytest.approx(p.sliding_distance / 0.5)
+        assert c.temperature.min() >= 373.15 - 1e-9 and c.temperature.max() > 373.5
+    cold = next(iter(asp.Simulation(*pair, load=0.02, passes=1, stride=4, progress=False))).contacts
+    assert (cold.shear == 0.0).all() and np.isnan(cold.temperature).all()

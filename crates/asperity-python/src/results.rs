@@ -50,6 +50,10 @@ impl CoreResults {
         record(py, &ok(self.results.increments(), py)?)
     }
 
+    fn updates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.updates(), py)?)
+    }
+
     fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         record(py, &ok(self.results.sweep(), py)?)
     }

@@ -169,6 +169,7 @@ mod tests {
             ("coated", "c0bedc7a"),
             ("driven", "deeb49fa"),
             ("ellipsoid", "f5ac373b"),
+            ("flowing", "44c871dd"),
             ("forms", "45aafccc"),
             ("grooves", "21dc62a2"),
             ("line", "8fb19859"),
