@@ -320,7 +320,9 @@ struct Moments {
 impl Moments {
     const SAMPLES: usize = 4;
 
+    /// Of values of which those that are not known count as 0: JSON has no NaN.
     fn of(values: &[f64]) -> Self {
+        let values: Vec<f64> = values.iter().map(|value| if value.is_nan() { 0.0 } else { *value }).collect();
         let mean = |of: &dyn Fn(usize, f64) -> f64| {
             values.iter().enumerate().map(|(k, value)| of(k, *value)).sum::<f64>() / values.len() as f64
         };

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::keys::known_in;
-use super::{Body, Boundary, Case, Hardness, MotionSpec, SlidingSpec};
+use super::{Body, Boundary, Case, CounterBody, Hardness, MotionSpec, SlidingSpec};
 use crate::choice::{Choice, choice};
 use crate::error::Result;
 use crate::motion::{
@@ -246,6 +246,10 @@ pub(super) fn temperature(
     let every = table.get("every").map_or(Ok(usize::from(given[0])), |entry| entry.count(0))?;
     if let (Some(entry), Some(_), 2..) = (table.get("every"), sliding, every) {
         return Err(entry.unexpected("1, the flash temperature of each update, or 0, none", None));
+    }
+    let is_fresh = motion.is_some_and(|motion| motion.counter == CounterBody::Fresh);
+    if let (Some(entry), true, 2..) = (table.get("every"), is_fresh, every) {
+        return Err(entry.unexpected("1 or 0: a fresh counter-body has not been warm before", None));
     }
     if every > 0 {
         let place = table.get("every");
