@@ -6,6 +6,7 @@ mod draw;
 mod example;
 mod figures;
 mod machine;
+mod page;
 mod paper;
 mod plot;
 mod report;
@@ -56,6 +57,7 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
         Command::Example(arguments) => example::example(&arguments),
         Command::Surface(arguments) => surface::surface(arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Report(arguments) => page::report(&arguments),
         Command::Verify => verify::verify(),
         Command::Paper(arguments) => paper::paper(&arguments),
     }

@@ -149,7 +149,8 @@ fn render(failure: &Failure, renderer: &Renderer) -> String {
     }
 }
 
-fn message(failure: &Failure) -> String {
+/// What is wrong.
+pub(crate) fn message(failure: &Failure) -> String {
     match failure {
         Failure::Library(Error::Case(case)) => case.message.clone(),
         Failure::Library(other) => other.to_string(),

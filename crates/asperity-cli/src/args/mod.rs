@@ -67,6 +67,7 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Surface(Surface),
     Plot(Plot),
+    Report(Report),
     /// Compare the solvers with closed forms
     ///
     /// Prints for each case the errors on finer and finer grids and the order of convergence. Exit code 1 if one fails.
@@ -77,7 +78,7 @@ pub(crate) enum Command {
 /// Compute a case: a static contact, or a motion
 ///
 /// Progress goes to stderr, a short table to stdout, all else into the results directory: summary.json, steps.csv,
-/// passes.csv, fields (HDF5) and figures. Ctrl-C leaves the finished passes; --resume goes on from them.
+/// passes.csv, fields (HDF5), figures and a page to look at, report.html. Ctrl-C leaves the finished passes; --resume goes on from them.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity run --example quickstart\n  asperity run surfaces/disc.toml --out disc"
@@ -123,6 +124,20 @@ pub(crate) struct Plot {
     pub(crate) only: Vec<String>,
     #[command(flatten)]
     pub(crate) drawing: Drawing,
+}
+
+/// Write the page of a results directory: maps, curves and tables in one HTML file
+///
+/// It opens in any browser, needs no network and holds all that it shows. `asperity run` writes it too, and while it runs.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity report results --out disc.html")]
+pub(crate) struct Report {
+    /// Results directory
+    #[arg(value_name = "DIR")]
+    pub(crate) directory: PathBuf,
+    /// Where the page goes; by default DIR/report.html
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 /// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost

@@ -65,8 +65,13 @@ impl Unit {
         }
     }
 
+    /// Whether there are multiples of the unit.
+    pub(crate) fn has_multiples(self) -> bool {
+        self.multiples().0.len() > 1
+    }
+
     /// The SI unit itself.
-    fn base(self) -> &'static str {
+    pub(crate) fn base(self) -> &'static str {
         match self {
             Self::Of(unit) => unit,
             _ => {
@@ -76,7 +81,7 @@ impl Unit {
     }
 
     /// The multiple for numbers up to `magnitude`: its size in SI, its symbol.
-    pub(super) fn shown(self, magnitude: f64) -> (f64, String) {
+    pub(crate) fn shown(self, magnitude: f64) -> (f64, String) {
         if !(magnitude > 0.0 && magnitude.is_finite()) {
             return (1.0, self.base().to_owned());
         }

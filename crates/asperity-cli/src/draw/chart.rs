@@ -75,6 +75,11 @@ impl Series {
         Self { name: name.into(), points, mark, side: Side::Left }
     }
 
+    /// Whether it is read on the right axis.
+    pub(crate) fn is_on_the_right(&self) -> bool {
+        self.side == Side::Right
+    }
+
     /// The same series, on the right axis.
     pub(crate) fn on_the_right(self) -> Self {
         Self { side: Side::Right, ..self }

@@ -166,6 +166,14 @@ impl Shading {
     }
 }
 
+/// The colours of a gradient, from its low to its high end, as hexadecimal digits.
+pub(crate) fn palette(colours: Colours) -> String {
+    const STEPS: u16 = 256;
+    let shading = Shading { range: [0.0, 1.0], colours };
+    let colour = |step| shading.colour(f64::from(step) / f64::from(STEPS - 1));
+    (0..STEPS).flat_map(colour).map(|part| format!("{part:02x}")).collect()
+}
+
 /// `a` and `b` in the proportions `1 − t` and `t`.
 pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
     std::array::from_fn(|c| (f64::from(a[c]) + t * (f64::from(b[c]) - f64::from(a[c]))).round() as u8)

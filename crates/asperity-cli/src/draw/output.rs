@@ -96,11 +96,16 @@ pub(crate) fn save(path: &Path, figure: &dyn Figure, caption: &Caption, paper: &
 /// Writes a scene into the file `path`.
 pub(crate) fn write(path: &Path, scene: &Scene, paper: &Paper) -> Result<()> {
     let bytes = match paper.format {
-        Format::Png => pixels(scene, paper.dpi).map(|image| image.png(Some(paper.dpi))),
+        Format::Png => picture(scene, paper.dpi),
         Format::Svg => svg::document(scene),
         Format::Pdf => pdf::document(scene),
     };
     bytes.map_err(at(path)).and_then(|bytes| super::write(path, &bytes))
+}
+
+/// The scene as a PNG file.
+pub(crate) fn picture(scene: &Scene, dpi: f64) -> std::io::Result<Vec<u8>> {
+    Ok(pixels(scene, dpi)?.png(Some(dpi)))
 }
 
 /// The scene in pixels.

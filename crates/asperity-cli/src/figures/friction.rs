@@ -8,12 +8,17 @@ use super::stored::Stored;
 use crate::draw::{Colours, Maps, Unit};
 use crate::report::Outcome;
 
+/// Where cells under the pressure stick (1) and slip (2).
+pub(crate) fn stick(p: &Stored, mut stick: Stored) -> Stored {
+    stick.field.zip_mut_with(&p.field, |stick, p| *stick = if *p > 0.0 { 2.0 - *stick } else { 0.0 });
+    stick
+}
+
 pub(super) fn draw(fields: &Fields, p: &Stored, of: &str, sheet: &mut Sheet) -> Outcome {
     let read = |name| Stored::read(fields, name);
     let shear = [read("traction_x")?, read("traction_y")?];
     let slip = [read("slip_x")?, read("slip_y")?];
-    let mut stick = read("stick")?;
-    stick.field.zip_mut_with(&p.field, |stick, p| *stick = if *p > 0.0 { 2.0 - *stick } else { 0.0 });
+    let stick = stick(p, read("stick")?);
     let magnitude = |vector: &[Stored; 2]| {
         let mut size: Field = vector[0].field.clone();
         size.zip_mut_with(&vector[1].field, |x, y| *x = x.hypot(*y));

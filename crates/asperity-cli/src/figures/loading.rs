@@ -2,10 +2,16 @@
 
 use asperity::motion::IncrementRecord;
 
+use super::Curves;
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 
+/// The curves of a loading of several increments.
+pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
+    vec![Curves::new("loading", "force over displacement", chart(increments))]
+}
+
 /// Force over displacement in the plane, or where nothing acts there, load over approach.
-pub(super) fn chart(increments: &[IncrementRecord]) -> Charts {
+fn chart(increments: &[IncrementRecord]) -> Charts {
     // What rounding leaves of a force that is not there does not count.
     let acts = |i: &IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y) > 1e-8 * i.load;
     if increments.iter().any(acts) { pushing(increments) } else { pressing(increments) }

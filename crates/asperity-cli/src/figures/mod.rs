@@ -1,5 +1,6 @@
 //! The figures of a results directory, drawn from what it holds and from nothing else.
 
+mod course;
 mod flow;
 mod friction;
 mod loading;
@@ -12,6 +13,7 @@ mod sheet;
 mod sliding;
 mod stored;
 mod subsurface;
+mod surfaces;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -20,10 +22,18 @@ use std::path::PathBuf;
 
 use asperity::study::Results;
 
-use crate::draw::Paper;
+use crate::draw::{Charts, Paper};
 use crate::report::Outcome;
 
-pub(crate) use stored::in_frame_of;
+pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, solution as of_solution};
+pub(crate) use friction::stick;
+pub(crate) use loading::curves as of_loading;
+pub(crate) use pressure::histogram;
+pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
+pub(crate) use sliding::curves as of_sliding;
+pub(crate) use stored::{Cap, Stored, in_frame_of};
+pub(crate) use surfaces::{as_measured, curves as of_surfaces};
+pub(crate) use sweep::curves as of_sweep;
 
 /// Which figures are drawn, and how.
 #[derive(Debug, Clone, Default)]
@@ -34,6 +44,20 @@ pub(crate) struct Wanted {
     pub(crate) only: Vec<String>,
 }
 
+/// Charts under the name that `--only` knows them by.
+#[derive(Debug, Clone)]
+pub(crate) struct Curves {
+    pub(crate) name: &'static str,
+    pub(crate) title: String,
+    pub(crate) charts: Charts,
+}
+
+impl Curves {
+    fn new(name: &'static str, title: impl Into<String>, charts: impl Into<Charts>) -> Self {
+        Self { name, title: title.into(), charts: charts.into() }
+    }
+}
+
 /// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`
 /// once `stop` says so.
 pub(crate) fn draw(
@@ -41,6 +65,19 @@ pub(crate) fn draw(
     wanted: &Wanted,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Outcome<Vec<PathBuf>> {
+    gather(results, wanted, stop)?.finish()
+}
+
+/// The figures of `results` as PNG files in memory, with their titles.
+pub(crate) fn pictures(results: &Results, wanted: &Wanted) -> Outcome<Vec<(String, Vec<u8>)>> {
+    gather(results, wanted, &|| false)?.pictures()
+}
+
+fn gather<'a>(
+    results: &Results,
+    wanted: &'a Wanted,
+    stop: &'a (dyn Fn() -> bool + Sync),
+) -> Outcome<sheet::Sheet<'a>> {
     let mut sheet = sheet::Sheet::new(results, wanted, stop)?;
     let passes = results.passes()?;
     let of = match passes.is_empty() {
@@ -59,5 +96,5 @@ pub(crate) fn draw(
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;
     }
-    sheet.finish()
+    Ok(sheet)
 }

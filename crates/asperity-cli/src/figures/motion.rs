@@ -10,11 +10,12 @@ use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 use serde_json::Value;
 
+use super::course;
 use super::pressure;
 use super::profile::{Facing, Profile, boundary, materials};
-use super::running;
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
+use super::surfaces;
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -29,7 +30,7 @@ const ROUNDING: f64 = 1e-9;
 pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome<String> {
     let steps = results.steps()?;
     let pass = passes.len();
-    let done = done(passes);
+    let done = course::done(passes);
     let [first, last] = [results.fields_after(0)?, results.fields_after(pass)?];
     let before = [Stored::read(&first, "lower")?, Stored::read(&first, "upper")?];
     let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
@@ -56,6 +57,9 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
             sheet.add(name, title, &after_pass, || Ok(body.relief()))?;
         }
     }
+    sheet.add_dear(&surfaces::NAMES, &throughout, || {
+        Ok(surfaces::curves(&surfaces::as_measured(&before)?, Some(&surfaces::as_measured(&after)?)))
+    })?;
     let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
     sheet.add("mean_pressure", "mean pressure over the pass", &of, || {
         let largest = mean.iter().flat_map(|m| m.field.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
@@ -92,42 +96,22 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         }
     }
     pressures(results, &last, &steps, [pass, all], before[0].grid, &cap, &of, sheet)?;
-    for (name, title, unit, value) in [
-        ("load", "load", Unit::Force, (|s| s.load) as fn(&StepRecord) -> f64),
-        ("friction", "friction force", Unit::Force, |s| s.tangential_force.abs()),
-        ("contact_area", "real contact area", Unit::Area, |s| s.contact_area),
-    ] {
-        if name != "friction" || steps.iter().any(|step| step.tangential_force != 0.0) {
-            sheet.add(name, &format!("{title} over the positions"), &throughout, || {
-                Ok(over_positions(&steps, &done, title, unit, value))
-            })?;
-        }
+    let sq = before.each_ref().map(|body| body.field.std(0.0));
+    for curves in course::solution(&steps, &[], &done) {
+        sheet.add_curves(curves, &throughout)?;
     }
-    sheet.add("roughness", "roughness over the passes", &throughout, || {
-        Ok(roughness(passes, &done, &before))
-    })?;
+    for curves in course::curves(passes, &steps, sq) {
+        sheet.add_curves(curves, &throughout)?;
+    }
     sheet.add("parameters", "surface parameters over the passes, material upwards", &throughout, || {
         parameters(results, &done)
     })?;
-    sheet.add("approach", "approach and plastic volume over the passes", &throughout, || {
-        Ok(approach(passes, &done))
-    })?;
-    running::draw(passes, &before, &throughout, sheet)?;
     Ok(of)
 }
 
 /// Whether each pass has an upper body of its own.
 fn is_fresh(case: &Value) -> bool {
     case["motion"]["counter"] == "fresh"
-}
-
-/// Passes of the motion that are done before the first and after each of the computed ones.
-fn done(passes: &[PassRecord]) -> Vec<usize> {
-    let mut done = vec![0];
-    for pass in passes {
-        done.push(done[done.len() - 1] + pass.represents());
-    }
-    done
 }
 
 /// Both bodies before and after, each on one scale, so that its change shows.
@@ -322,37 +306,6 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     Profile::of(&facing, &case)
 }
 
-/// A quantity of the positions in the first, a middle and the last pass.
-fn over_positions(
-    steps: &[StepRecord],
-    done: &[usize],
-    quantity: &str,
-    unit: Unit,
-    value: fn(&StepRecord) -> f64,
-) -> Charts {
-    let passes = done.len() - 1;
-    let mut shown = vec![1, passes.div_ceil(2), passes];
-    shown.dedup();
-    let series = shown.into_iter().map(|pass| {
-        let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
-        Series::new(format!("pass {}", done[pass]), points, Mark::Line)
-    });
-    let x = Axis::linear("offset of the upper body", Unit::Length);
-    Chart::new("", x, Axis::linear(quantity, unit), series.collect()).into()
-}
-
-fn roughness(passes: &[PassRecord], done: &[usize], before: &[Stored; 2]) -> Charts {
-    let points = |body: usize, value: fn(&PassRecord) -> f64| {
-        let first = [0.0, before[body].field.std(0.0)];
-        std::iter::once(first).chain(passes.iter().map(|p| [done[p.pass] as f64, value(p)])).collect()
-    };
-    let series = vec![
-        Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
-        Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
-    ];
-    Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear("Sq", Unit::Length), series).into()
-}
-
 /// Sa, Sq, Ssk, Sk, Spk and Svk of both bodies.
 fn parameters(results: &Results, done: &[usize]) -> Outcome<Charts> {
     let passes = done.len() - 1;
@@ -384,19 +337,4 @@ fn parameters(results: &Results, done: &[usize]) -> Outcome<Charts> {
         Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear(name, unit), series)
     };
     Ok(Charts { charts: NAMES.into_iter().zip(curves).map(chart).collect(), columns: 3, aspect: 0.8 })
-}
-
-fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
-    let points =
-        |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
-    let x = Axis::linear("pass", Unit::Count);
-    let series = vec![
-        Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
-        Series::new("plastic volume, lower body", points(|p| p.lost("plastic")[0]), Mark::LineAndPoints)
-            .on_the_right(),
-        Series::new("plastic volume, upper body", points(|p| p.lost("plastic")[1]), Mark::LineAndPoints)
-            .on_the_right(),
-    ];
-    let chart = Chart::new("", x, Axis::linear("approach", Unit::Length), series);
-    chart.with_right(Axis::linear("plastic volume in the pass", Unit::Volume)).into()
 }

@@ -9,7 +9,7 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 const CLASSES: usize = 40;
 
 /// The shares of the contact area in classes of pressure, with the cap where there is one.
-pub(super) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
+pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
     let pressures: Vec<f64> =
         fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| *p > 0.0)).collect();
     let largest = pressures.iter().copied().fold(0.0, f64::max);

@@ -1,35 +1,39 @@
 //! Figures of a static contact.
 
+use asperity::Field;
 use asperity::io::fields::{Attribute, Fields};
 use asperity::study::Results;
 use asperity::units::{Dimension, format};
+use serde_json::Value;
 
 use super::profile::{Facing, Profile};
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
-use super::{flow, friction, loading, pressure};
-use crate::draw::{Colours, Maps, Unit, range_of_heights};
+use super::{course, flow, friction, loading, pressure, surfaces};
+use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::report::Outcome;
 
 /// Draws them, and says of what load they are.
 pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     let fields = results.static_fields()?;
     let read = |name| Stored::read(&fields, name);
-    let (lower, upper, p) = (read("lower")?, read("upper")?, read("pressure")?);
-    let (gap, plastic, displacement) = (read("gap")?, read("plastic")?, read("displacement")?);
+    let (bodies, p) = ([read("lower")?, read("upper")?], read("pressure")?);
+    let [lower, upper] = &bodies;
+    let (gap, plastic) = (read("gap")?, read("plastic")?);
     let cap = Cap::read(&fields)?;
     let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
     let of = format!("load {}", format(load, Dimension::Force));
 
-    sheet.add("topographies", "topographies", &of, || Ok(topographies(&lower, &upper)))?;
+    sheet.add("topographies", "topographies", &of, || Ok(topographies(lower, upper)))?;
     for (name, title, body) in [
-        ("relief_lower", "lower body in perspective", &lower),
-        ("relief_upper", "upper body in perspective, underside", &upper),
+        ("relief_lower", "lower body in perspective", lower),
+        ("relief_upper", "upper body in perspective, underside", upper),
     ] {
         if !body.relief().is_flat() {
             sheet.add(name, title, &of, || Ok(body.relief()))?;
         }
     }
+    sheet.add_dear(&surfaces::NAMES, &of, || Ok(surfaces::curves(&surfaces::as_measured(&bodies)?, None)))?;
     sheet.add("pressure", "pressure", &of, || Ok(Maps::new(vec![p.pressure("")])))?;
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", &of, || {
         Ok(pressure::histogram([&p.field], &cap))
@@ -38,11 +42,7 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     sheet.add("contact", "contact", &of, || {
         Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
     })?;
-    // Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
-    let mut open = gap.with(&gap.field + &plastic.field);
-    ndarray::Zip::from(&mut open.field).and(&p.field).and(&plastic.field).for_each(|gap, p, w| {
-        *gap = if *p > 0.0 { -w.max(0.0) } else { gap.max(0.0) };
-    });
+    let open = open_gap(&gap, &plastic.field, &p);
     sheet.add("gap", "deformed gap", &of, || {
         let map = open.map("", "gap", Unit::Length, Colours::Gap);
         Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
@@ -52,18 +52,8 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
             Ok(Maps::new(vec![plastic.map("", "interference", Unit::Length, Colours::Pressure)]))
         })?;
     }
-    let facing = Facing {
-        lower: &lower.field,
-        upper: &upper.field,
-        pressure: &p.field,
-        displacement: &displacement.field,
-        plastic: &plastic.field,
-        approach: approach(&fields)?,
-        pitch: p.grid.pitch,
-        column: 0,
-    };
-    if let Some(profile) = Profile::of(&facing, &results.case()?)? {
-        sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile.charts()))?;
+    if let Some(profile) = profile(&fields, &results.case()?)? {
+        sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile))?;
     }
     if fields.names()?.iter().any(|name| name == "stick") {
         friction::draw(&fields, &p, &of, sheet)?;
@@ -72,10 +62,31 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
         flow::draw(&results.flow_fields(None)?, &of, sheet)?;
     }
     let increments = results.increments()?;
+    course::solution(&[], &increments, &[])
+        .into_iter()
+        .try_for_each(|curves| sheet.add_curves(curves, &of))?;
     if increments.len() > 1 {
-        sheet.add("loading", "force over displacement", &of, || Ok(loading::chart(&increments)))?;
+        loading::curves(&increments).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
     }
     Ok(of)
+}
+
+/// The section through the most loaded spot; none without contact.
+pub(crate) fn profile(fields: &Fields, case: &Value) -> Outcome<Option<Charts>> {
+    let read = |name| Stored::read(fields, name);
+    let (lower, upper, pressure) = (read("lower")?, read("upper")?, read("pressure")?);
+    let (displacement, plastic) = (read("displacement")?, read("plastic")?);
+    let facing = Facing {
+        lower: &lower.field,
+        upper: &upper.field,
+        pressure: &pressure.field,
+        displacement: &displacement.field,
+        plastic: &plastic.field,
+        approach: approach(fields)?,
+        pitch: pressure.grid.pitch,
+        column: 0,
+    };
+    Ok(Profile::of(&facing, case)?.map(Profile::charts))
 }
 
 /// Both bodies, between heights that are not the rarest.
@@ -95,7 +106,17 @@ fn topographies<'a>(lower: &'a Stored, upper: &'a Stored) -> Maps<'a> {
     remarks.into_iter().fold(Maps::new(maps.into()), Maps::remark)
 }
 
-fn approach(fields: &Fields) -> Outcome<f64> {
+/// Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
+pub(crate) fn open_gap(gap: &Stored, plastic: &Field, pressure: &Stored) -> Stored {
+    let mut open = gap.with(&gap.field + plastic);
+    ndarray::Zip::from(&mut open.field).and(&pressure.field).and(plastic).for_each(|gap, p, w| {
+        *gap = if *p > 0.0 { -w.max(0.0) } else { gap.max(0.0) };
+    });
+    open
+}
+
+/// The approach at which the fields were found; NaN where it is not said.
+pub(crate) fn approach(fields: &Fields) -> Outcome<f64> {
     match fields.attributes()?.get("approach") {
         Some(Attribute::Number(approach)) => Ok(*approach),
         _ => Ok(f64::NAN),

@@ -3,24 +3,20 @@
 use asperity::motion::PassRecord;
 use asperity::units::CELSIUS;
 
-use super::sheet::Sheet;
-use super::stored::Stored;
+use super::Curves;
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
-use crate::report::Outcome;
 
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
 
 type Curve = Vec<[f64; 2]>;
 
-/// Draws it, if there is what it shows: roughness, contact area, wear, film and temperature, each where there is any.
-pub(super) fn draw(passes: &[PassRecord], before: &[Stored; 2], of: &str, sheet: &mut Sheet) -> Outcome {
+/// Roughness, contact area, wear, film and temperature, each where there is any; none of bodies that do not run in.
+pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
     let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
-    let (Some(least), Some(most)) = (distances.first(), distances.last()) else { return Ok(()) };
-    let log = *most > DECADES * least;
-    sheet.add("running-in", "running in over the sliding distance", of, || {
-        Ok(charts(passes, before.each_ref().map(|body| body.field.std(0.0)), log))
-    })
+    let (least, most) = (distances.first()?, distances.last()?);
+    let charts = charts(passes, sq, *most > DECADES * least);
+    Some(Curves::new("running-in", "running in over the sliding distance", charts))
 }
 
 fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {

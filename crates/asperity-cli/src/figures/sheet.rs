@@ -6,7 +6,7 @@ use asperity::io;
 use asperity::study::Results;
 use rayon::prelude::*;
 
-use super::Wanted;
+use super::{Curves, Wanted};
 use crate::draw::{self, Caption, Colours, Figure, Format, Paper, Scene};
 use crate::report::{Failure, Outcome};
 
@@ -65,7 +65,28 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Adds an animation, if it is wanted, whose frames differ in a map of `colours`; it is a GIF always.
+    /// Adds curves, if they are wanted.
+    pub(super) fn add_curves(&mut self, curves: Curves, of: &str) -> Outcome {
+        let Curves { name, title, charts } = curves;
+        self.add(name, &title, of, || Ok(charts))
+    }
+
+    /// Adds curves that take their time, if any of these names is wanted.
+    pub(super) fn add_dear(
+        &mut self,
+        names: &[&str],
+        of: &str,
+        curves: impl FnOnce() -> Outcome<Vec<Curves>>,
+    ) -> Outcome {
+        let only = &self.wanted.only;
+        if only.is_empty() || only.iter().any(|wanted| names.contains(&wanted.as_str())) {
+            return curves()?.into_iter().try_for_each(|curves| self.add_curves(curves, of));
+        }
+        self.names.extend(names.iter().map(|name| (*name).to_owned()));
+        Ok(())
+    }
+
+    /// Adds an animation, if it is wanted, whose frames differ in a map of `colours`: as a GIF, or as what is named.
     pub(super) fn animate<F: Figure>(
         &mut self,
         name: &str,
@@ -73,15 +94,37 @@ impl<'a> Sheet<'a> {
         colours: Colours,
         frames: impl FnOnce() -> Outcome<Vec<(String, F)>>,
     ) -> Outcome {
-        if self.wants(&format!("{name}.gif")) {
-            self.go_on()?;
-            let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
-            let scene =
-                |(of, figure): (String, F)| draw::captioned(&figure, &self.caption(title, &of), &paper);
-            let frames = frames()?.into_iter().map(scene).collect();
-            self.drawings.push((self.folder.join(format!("{name}.gif")), Drawing::Moving(frames, colours)));
+        let kinds = ["gif", "apng", "mp4"].map(|kind| format!("{name}.{kind}"));
+        let [gif, named @ ..] = kinds;
+        let mut wanted: Vec<String> = if self.wants(&gif) { vec![gif] } else { Vec::new() };
+        let named = named.into_iter().filter(|kind| self.wants(kind) && !self.wanted.only.is_empty());
+        wanted.extend(named.collect::<Vec<_>>());
+        if wanted.is_empty() {
+            return Ok(());
+        }
+        self.go_on()?;
+        let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
+        let scene = |(of, figure): (String, F)| draw::captioned(&figure, &self.caption(title, &of), &paper);
+        let scenes: Vec<Scene> = frames()?.into_iter().map(scene).collect();
+        for name in wanted {
+            self.drawings.push((self.folder.join(name), Drawing::Moving(scenes.clone(), colours)));
         }
         Ok(())
+    }
+
+    /// All that do not move as PNG files, with their names.
+    pub(super) fn pictures(self) -> Outcome<Vec<(String, Vec<u8>)>> {
+        let dpi = self.wanted.paper.dpi;
+        let still = self.drawings.iter().filter_map(|(path, drawing)| match drawing {
+            Drawing::Still(scene) => Some((path, scene)),
+            Drawing::Moving(..) => None,
+        });
+        let picture = |(path, scene): (&PathBuf, &Scene)| {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let failed = |source| draw::Error { path: path.clone(), source };
+            Ok((name, draw::picture(scene, dpi).map_err(failed)?))
+        };
+        still.map(picture).collect()
     }
 
     /// Writes all figures and returns their paths.

@@ -4,6 +4,7 @@ use asperity::io::fields::Fields;
 use asperity::motion::UpdateRecord;
 use asperity::units::CELSIUS;
 
+use super::Curves;
 use super::sheet::Sheet;
 use super::stored::Stored;
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
@@ -12,7 +13,7 @@ use crate::report::Outcome;
 type Number = fn(&UpdateRecord) -> f64;
 
 pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
-    sheet.add("sliding", "wear in place over the sliding distance", of, || Ok(charts(updates)))?;
+    curves(updates).into_iter().try_for_each(|curves| sheet.add_curves(curves, of))?;
     let names = fields.names()?;
     let given = |name: &str| names.iter().any(|given| given == name);
     for (state, title, quantity) in
@@ -44,6 +45,11 @@ pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &
         })?;
     }
     Ok(())
+}
+
+/// The curves of its course.
+pub(crate) fn curves(updates: &[UpdateRecord]) -> Vec<Curves> {
+    vec![Curves::new("sliding", "wear in place over the sliding distance", charts(updates))]
 }
 
 fn charts(updates: &[UpdateRecord]) -> Charts {

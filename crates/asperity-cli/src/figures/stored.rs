@@ -8,17 +8,17 @@ use crate::draw::{Colours, Map, Quantity, Relief, Unit};
 use crate::report::{Failure, Outcome};
 
 /// A field as stored, with the grid that it lies on.
-pub(super) struct Stored {
-    pub(super) field: Field,
-    pub(super) grid: Grid,
+pub(crate) struct Stored {
+    pub(crate) field: Field,
+    pub(crate) grid: Grid,
     /// The lower body's column in which its corner is, or the nearest.
     pub(super) column: usize,
     /// Distance of its corner from the lower body's, in columns.
-    pub(super) place: f64,
+    pub(crate) place: f64,
 }
 
 impl Stored {
-    pub(super) fn read(fields: &Fields, name: &str) -> Outcome<Self> {
+    pub(crate) fn read(fields: &Fields, name: &str) -> Outcome<Self> {
         let stored = fields.read(name)?;
         let pitch = [stored.pitch[0], stored.pitch[1]];
         let place = stored.origin[0] / pitch[0] - 0.5;
@@ -30,12 +30,12 @@ impl Stored {
     }
 
     /// The same place with other values.
-    pub(super) fn with(&self, field: Field) -> Self {
+    pub(crate) fn with(&self, field: Field) -> Self {
         Self { field, ..*self }
     }
 
     /// Temperatures in °C.
-    pub(super) fn celsius(&self) -> Self {
+    pub(crate) fn celsius(&self) -> Self {
         self.with(&self.field - CELSIUS)
     }
 
@@ -63,7 +63,7 @@ impl Stored {
     }
 
     /// Where the cells of a pressure are elastic (1) and plastic (2).
-    pub(super) fn contact(&self, cap: &Cap) -> Self {
+    pub(crate) fn contact(&self, cap: &Cap) -> Self {
         let class = |p: f64, cap: f64| match p {
             p if p >= cap * (1.0 - 1e-6) => 2.0,
             p if p > 0.0 => 1.0,
@@ -90,7 +90,7 @@ pub(crate) fn in_frame_of(field: &Field, first: usize, grid: Grid) -> Field {
 }
 
 /// The largest pressure that a cell bears: below the hardness where shear softens what is plastic.
-pub(super) enum Cap {
+pub(crate) enum Cap {
     /// Of each cell.
     Field(Field),
     /// Of all cells.
@@ -99,7 +99,7 @@ pub(super) enum Cap {
 
 impl Cap {
     /// The field `cap`, else the attribute `cap` of the file, else the hardness.
-    pub(super) fn read(fields: &Fields) -> Outcome<Self> {
+    pub(crate) fn read(fields: &Fields) -> Outcome<Self> {
         if fields.names()?.iter().any(|name| name == "cap") {
             return Ok(Self::Field(Stored::read(fields, "cap")?.field));
         }

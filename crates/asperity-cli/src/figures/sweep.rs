@@ -4,8 +4,9 @@ use asperity::motion::SweepRecord;
 use asperity::units::{Dimension, format};
 use serde_json::Value;
 
+use super::Curves;
 use super::sheet::Sheet;
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use crate::draw::{Axis, Chart, Mark, Series, Unit};
 use crate::report::Outcome;
 
 type Number = fn(&SweepRecord) -> f64;
@@ -27,8 +28,15 @@ const DRAWN: [(&str, &str, Unit, bool, Number); 4] = [
 ];
 
 pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> Outcome {
+    let [from, to] = loads(points).map(|load| format(load, Dimension::Force));
+    let of = if from == to { format!("load {from}") } else { format!("load {from} to {to}") };
+    curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// All curves of a sweep of at least one point.
+pub(crate) fn curves(points: &[SweepRecord], case: &Value) -> Vec<Curves> {
     if case["friction"].get("creepages").is_some() {
-        return traction(points, &case["friction"], sheet);
+        return vec![traction(points, &case["friction"])];
     }
     let given = |(key, ..): &&(&str, &str, Unit, Number)| case["contact"].get(*key).is_some();
     let (_, swept, unit, x) = *SWEPT.iter().find(given).unwrap_or(&SWEPT[0]);
@@ -37,26 +45,26 @@ pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> O
     ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
     let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
     let log = least > 0.0 && most >= DECADE * least;
-    let loads = [f64::min, f64::max].map(|pick| points.iter().map(|p| p.load).fold(f64::NAN, pick));
-    let [from, to] = loads.map(|load| format(load, Dimension::Force));
-    let of = format!("load {from} to {to}");
-    for (name, label, y_unit, may_be_log, y) in DRAWN {
-        sheet.add(name, &format!("{label} over {swept}"), &of, || {
-            let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
-            let axis =
-                |label: &str, unit, log| if log { Axis::log(label, unit) } else { Axis::linear(label, unit) };
-            let series = vec![Series::new("", curve, Mark::LineAndPoints)];
-            let [horizontal, vertical] = [axis(swept, unit, log), axis(label, y_unit, log && may_be_log)];
-            Ok(Charts::from(Chart::new("", horizontal, vertical, series)))
-        })?;
-    }
-    Ok(())
+    let drawn = DRAWN.into_iter().map(|(name, label, y_unit, may_be_log, y)| {
+        let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
+        let axis =
+            |label: &str, unit, log| if log { Axis::log(label, unit) } else { Axis::linear(label, unit) };
+        let series = vec![Series::new("", curve, Mark::LineAndPoints)];
+        let [horizontal, vertical] = [axis(swept, unit, log), axis(label, y_unit, log && may_be_log)];
+        Curves::new(name, format!("{label} over {swept}"), Chart::new("", horizontal, vertical, series))
+    });
+    drawn.collect()
+}
+
+/// The smallest and the largest load.
+fn loads(points: &[SweepRecord]) -> [f64; 2] {
+    [f64::min, f64::max].map(|pick| points.iter().map(|p| p.load).fold(f64::NAN, pick))
 }
 
 /// The force ratio over the creepage, along x and along y, under what all that slides bears.
 ///
 /// Over the creepage with its sign where that has one direction, over its amount elsewhere.
-fn traction(points: &[SweepRecord], friction: &Value, sheet: &mut Sheet) -> Outcome {
+fn traction(points: &[SweepRecord], friction: &Value) -> Curves {
     /// Component, creepage and traction coefficient along each axis.
     const ALONG: [(&str, Number, Number); 2] = [
         ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
@@ -78,37 +86,31 @@ fn traction(points: &[SweepRecord], friction: &Value, sheet: &mut Sheet) -> Outc
         .filter(|(_, most)| *most > NOTHING * strongest[0].max(strongest[1]))
         .map(|(of, _)| of)
         .collect();
-    let of = format!("load {}", format(points[0].load, Dimension::Force));
-    sheet.add("traction", "tangential force over creepage", &of, || {
-        let curve = |ratio: Number| ordered.iter().map(|point| [x(point), ratio(point)]).collect::<Vec<_>>();
-        let mut series: Vec<Series> = shown
-            .iter()
-            .map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints))
-            .collect();
-        // Under a film's shear strength what slides bears less.
-        if let (Some(coefficient), None) =
-            (friction["coefficient"].as_f64(), friction["shear_strength"].as_f64())
-        {
-            let signs = [1.0, -1.0].into_iter().filter(|sign| {
-                points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
-            });
-            let ends = [ordered.first(), ordered.last()].into_iter().flatten();
-            let ends: Vec<f64> = ends.map(|point| x(point)).collect();
-            series.extend(signs.enumerate().map(|(k, sign)| {
-                let name = if k == 0 { "full sliding" } else { "" };
-                let limit = ends.iter().map(|x| [*x, sign * coefficient]).collect();
-                Series::new(name, limit, Mark::Dashed)
-            }));
-        }
-        let across = match one_direction {
-            Some(0) => "creepage along y",
-            Some(_) => "creepage along x",
-            None => "creepage",
-        };
-        let [horizontal, vertical] =
-            [across, "tangential force over load"].map(|l| Axis::linear(l, Unit::Number));
-        Ok(Charts::from(Chart::new("", horizontal, vertical, series)))
-    })
+    let curve = |ratio: Number| ordered.iter().map(|point| [x(point), ratio(point)]).collect::<Vec<_>>();
+    let mut series: Vec<Series> =
+        shown.iter().map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints)).collect();
+    // Under a film's shear strength what slides bears less.
+    if let (Some(coefficient), None) = (friction["coefficient"].as_f64(), friction["shear_strength"].as_f64())
+    {
+        let signs = [1.0, -1.0].into_iter().filter(|sign| {
+            points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
+        });
+        let ends = [ordered.first(), ordered.last()].into_iter().flatten();
+        let ends: Vec<f64> = ends.map(|point| x(point)).collect();
+        series.extend(signs.enumerate().map(|(k, sign)| {
+            let name = if k == 0 { "full sliding" } else { "" };
+            let limit = ends.iter().map(|x| [*x, sign * coefficient]).collect();
+            Series::new(name, limit, Mark::Dashed)
+        }));
+    }
+    let across = match one_direction {
+        Some(0) => "creepage along y",
+        Some(_) => "creepage along x",
+        None => "creepage",
+    };
+    let [horizontal, vertical] =
+        [across, "tangential force over load"].map(|l| Axis::linear(l, Unit::Number));
+    Curves::new("traction", "tangential force over creepage", Chart::new("", horizontal, vertical, series))
 }
 
 /// From such a ratio of the largest to the least on what is swept is drawn by its logarithm.

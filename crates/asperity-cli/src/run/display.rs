@@ -1,14 +1,16 @@
 //! What is told while a case is computed: rows of a table on stdout, progress on stderr.
 
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use asperity::motion::{PassRecord, Progress, SweepRecord, Watch};
-use asperity::study::Case;
+use asperity::study::{Case, Results};
 use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::rows::Rows;
+use crate::page::LivePage;
 use crate::report::{self, print};
 use crate::signals::Stop;
 
@@ -20,6 +22,9 @@ pub(super) struct Display {
     step: &'static str,
     stop: Stop,
     table: Mutex<Table>,
+    /// Of the results.
+    directory: PathBuf,
+    page: Mutex<LivePage>,
 }
 
 struct Table {
@@ -32,7 +37,7 @@ struct Table {
 }
 
 impl Display {
-    pub(super) fn new(quiet: bool, case: &Case, stop: Stop) -> Self {
+    pub(super) fn new(quiet: bool, case: &Case, directory: &Path, stop: Stop) -> Self {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
@@ -43,7 +48,8 @@ impl Display {
             (None, false, None) => "increment",
         };
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
-        Self { bar, quiet, step, stop, table: Mutex::new(table) }
+        let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::new()));
+        Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page }
     }
 
     /// Takes the bar away, and says what became of the table.
@@ -79,6 +85,12 @@ impl Display {
         self.bar.set_position((part * FINE) as u64);
     }
 
+    /// Writes the page of what is there, now and then.
+    fn refresh_page(&self) {
+        let mut page = self.page.lock().unwrap_or_else(PoisonError::into_inner);
+        page.refresh(|| Results::open(&self.directory));
+    }
+
     /// One more of the steps has been finished.
     fn finish(&self) {
         let mut table = self.table();
@@ -100,6 +112,7 @@ impl Watch for Display {
             (format!("pass {pass}/{passes}, {place}"), (pass - 1) as f64 + 0.99 * part, (pass - 1, passes))
         } else {
             self.finish();
+            self.refresh_page();
             (format!("{} {solved}/{positions}", self.step), solved as f64, (solved, positions))
         };
         self.show([part, steps.1 as f64]);
@@ -128,10 +141,12 @@ impl Watch for Display {
             self.finish();
         }
         self.add(|rows| rows.pass(record));
+        self.refresh_page();
     }
 
     fn point(&self, record: &SweepRecord) {
         self.add(|rows| rows.point(record));
+        self.refresh_page();
     }
 
     fn stop(&self) -> bool {

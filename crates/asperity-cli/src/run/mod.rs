@@ -8,15 +8,16 @@ mod rows;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use asperity::Error;
 use asperity::study;
-use asperity::study::Existing;
 use asperity::study::case::{Case, LoadingPath};
+use asperity::study::{Existing, Results};
 
 use crate::args::Run;
 use crate::machine;
 use crate::report::{self, Failure, clipped, note, print};
 use crate::signals::Stop;
-use crate::{example, figures};
+use crate::{example, figures, page};
 use display::Display;
 
 /// Runs the case, prints a table of its outcome, draws its figures.
@@ -38,9 +39,15 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     };
     // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
-    let display = Display::new(arguments.quiet, &case, stop.clone());
+    let display = Display::new(arguments.quiet, &case, &directory, stop.clone());
     let outcome = study::run(&case, study::Given::default(), &directory, existing, &display);
     let printed = display.end();
+    if let Err(Error::Interrupted) = &outcome
+        && let Ok(results) = Results::open(&directory)
+    {
+        // What is done can be looked at; that it was interrupted is what is told.
+        let _ = page::write(&results, &page::of(&results));
+    }
     // The directory stays this run's until the figures are there.
     let (summary, writer) = outcome?;
     for warning in &summary.warnings {
@@ -48,16 +55,19 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     }
     let tell = |text: &str| if arguments.quiet { Ok(()) } else { print(text) };
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
-    figures::draw(writer.results(), &figures::Wanted::default(), &|| stop.asked()).map_err(|failure| {
-        match failure {
+    let results = writer.results();
+    let page = page::write(results, &page::of(results));
+    figures::draw(results, &figures::Wanted::default(), &|| stop.asked()).map_err(
+        |failure| match failure {
             Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
                 Failure::FiguresInterrupted { directory: directory.clone() }
             }
             other => other,
-        }
-    })?;
+        },
+    )?;
+    page?;
     if !arguments.quiet {
-        note(&format!("results and figures in {}", directory.display()));
+        note(&format!("results, figures and report.html in {}", directory.display()));
     }
     printed
 }

@@ -102,4 +102,4 @@ impl Statistics {
 }
 
 /// Rings over which spectra are averaged.
-pub(super) const RINGS: Bins = Bins::Logarithmic { per_decade: 10 };
+pub(crate) const RINGS: Bins = Bins::Logarithmic { per_decade: 10 };

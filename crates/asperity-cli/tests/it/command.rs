@@ -25,6 +25,8 @@ fn every_command_has_help_with_an_exit_code() {
         "surface info",
         "surface plot",
         "surface convert",
+        "plot",
+        "report",
     ] {
         let help = ok(&run(Path::new("."), &format!("{command} --help")));
         assert!(help.contains("Usage: asperity"), "{help}");

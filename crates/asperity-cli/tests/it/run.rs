@@ -44,13 +44,16 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
         warnings.lines().all(|line| line.starts_with("warning: ")) && warnings.contains("a comb"),
         "{said}"
     );
-    assert_eq!(end, "results and figures in case-results");
+    assert_eq!(end, "results, figures and report.html in case-results");
 
     let figures = [
         "approach.png",
         "contact.png",
         "contact_area.png",
         "load.png",
+        "material_ratio.png",
+        "max_pressure.png",
+        "mean_contact_area.png",
         "mean_pressure.png",
         "parameters.png",
         "plastic.png",
@@ -61,6 +64,8 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
         "relief_lower.png",
         "relief_upper.png",
         "roughness.png",
+        "solution.png",
+        "spectrum.png",
         "topographies.png",
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
@@ -68,7 +73,9 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
         ["initial.h5", "pass-0001.h5", "pass-0002.h5", "warm-start-0002.h5"]
             .map(|name| format!("fields/{name}")),
     );
-    expected.extend([".lock", "case.json", "passes.csv", "steps.csv", "summary.json"].map(str::to_owned));
+    expected.extend(
+        [".lock", "case.json", "passes.csv", "report.html", "steps.csv", "summary.json"].map(str::to_owned),
+    );
     assert_eq!(files(&folder.path().join("case-results")), expected);
 }
 
@@ -81,15 +88,17 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
     let figures = [
         "contact",
         "gap",
+        "material_ratio",
         "plastic",
         "pressure",
         "pressure_histogram",
         "profile",
         "relief_upper",
+        "spectrum",
         "topographies",
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
-    expected.extend([".lock", "case.json", "fields.h5", "summary.json"].map(str::to_owned));
+    expected.extend([".lock", "case.json", "fields.h5", "report.html", "summary.json"].map(str::to_owned));
     assert_eq!(files(&folder.path().join("results/of/ball")), expected);
 }
 
@@ -360,16 +369,22 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
         "contact",
         "gap",
         "loading",
+        "material_ratio",
         "pressure",
         "pressure_histogram",
         "profile",
         "relief_upper",
         "shear",
         "slip",
+        "solution",
+        "spectrum",
         "topographies",
     ];
     let mut expected: BTreeSet<String> = names.map(|name| format!("figures/{name}.png")).into();
-    expected.extend([".lock", "case.json", "fields.h5", "increments.csv", "summary.json"].map(str::to_owned));
+    expected.extend(
+        [".lock", "case.json", "fields.h5", "increments.csv", "report.html", "summary.json"]
+            .map(str::to_owned),
+    );
     assert_eq!(files(&out), expected);
 
     let summary = summary(&out);
@@ -446,6 +461,7 @@ fn a_sweep_leaves_a_row_and_figures_of_its_points_and_prints_them() {
         "contact",
         "contact_area",
         "gap",
+        "material_ratio",
         "max_pressure",
         "mean_gap",
         "plastic",
@@ -453,11 +469,12 @@ fn a_sweep_leaves_a_row_and_figures_of_its_points_and_prints_them() {
         "pressure_histogram",
         "profile",
         "relief_upper",
+        "spectrum",
         "stiffness",
         "topographies",
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
-    expected.extend([".lock", "case.json", "summary.json", "sweep.csv"].map(str::to_owned));
+    expected.extend([".lock", "case.json", "report.html", "summary.json", "sweep.csv"].map(str::to_owned));
     for name in ["fields", "fields/point-0001", "fields/point-0004"] {
         expected.extend([format!("{name}.h5"), format!("{name}.vti")]);
     }
@@ -707,6 +724,74 @@ fn a_place_where_nothing_can_be_written_is_named() {
         // Nobody, root neither, makes a directory there.
         let error = refused(&run(&folder, "case.toml --out /proc/asperity"));
         assert!(error.starts_with("error: /proc/asperity: No such file or directory"), "{error}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_page_is_made_again_from_the_results_alone_and_replaced_whole_or_not_at_all() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let page = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let written = page("out/report.html");
+    fs::remove_file(folder.path().join("case.toml")).unwrap();
+    assert_eq!(ok(&asperity(&folder, "report out --out page.html")), "page.html\n");
+    assert!(page("page.html") == written, "it shows something else than the results");
+
+    let script = format!("ulimit -f 16; exec '{}' report out", env!("CARGO_BIN_EXE_asperity"));
+    let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("out/report.html: File too large"), "{}", stderr(&output));
+    assert!(page("out/report.html") == written, "the page that was there is gone");
+
+    assert!(refused(&asperity(&folder, "report nowhere")).contains("no case.json"));
+    assert!(
+        refused(&asperity(&folder, "report out --out no/such.html")).contains("its directory does not exist")
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn the_page_of_an_interrupted_run_shows_what_is_done() {
+    let folder = folder_with("case.toml", &moving(100_000, 4));
+    let out = folder.path().join("out");
+    let page = out.join("report.html");
+    let mut child = spawn(&folder, "run case.toml --out out");
+    wait_for(&mut child, &out.join("passes.csv"));
+    send("INT", &child);
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+    let text = fs::read_to_string(&page).unwrap();
+    assert!(text.contains("of 100000 passes are there") && text.contains("--resume"));
+
+    // What is computed anew has no page of what was there before.
+    let mut child = spawn(&folder, "run case.toml --out out --overwrite");
+    let began = Instant::now();
+    while page.exists() {
+        assert!(began.elapsed() < Duration::from_secs(120) && child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn an_animation_is_an_apng_where_it_is_named_and_an_mp4_where_there_is_ffmpeg() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    assert!(!folder.path().join("out/figures/pressure.apng").exists());
+    assert_eq!(ok(&asperity(&folder, "plot out --only pressure.apng")), "out/figures/pressure.apng\n");
+    let bytes = fs::read(folder.path().join("out/figures/pressure.apng")).unwrap();
+    let count = |chunk: &[u8]| bytes.windows(4).filter(|window| *window == chunk).count();
+    let names = Fields::open(&folder.path().join("out/fields/pass-0001.h5")).unwrap().names().unwrap();
+    let kept = names.iter().filter(|name| name.starts_with("pressure_")).count();
+    assert!(kept > 1 && count(b"acTL") == 1 && count(b"fcTL") == kept, "{} frames of {kept}", count(b"fcTL"));
+    let output = asperity(&folder, "plot out --only pressure.mp4");
+    if Command::new("ffmpeg").arg("-version").output().is_ok() {
+        ok(&output);
+        let bytes = fs::read(folder.path().join("out/figures/pressure.mp4")).unwrap();
+        assert_eq!(&bytes[4..8], b"ftyp");
+    } else {
+        assert!(refused(&output).contains("`apt-get install ffmpeg`"), "{}", stderr(&output));
     }
 }
 

@@ -231,9 +231,10 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
     match kept {
         Kept::Nothing => {
             // First what says that something is done, never the file by which the directory is known as ours.
-            for name in ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv"]
-                .iter()
-                .chain(&AT_REST)
+            for name in
+                ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv", "report.html"]
+                    .iter()
+                    .chain(&AT_REST)
             {
                 results.remove(&at(name))?;
             }

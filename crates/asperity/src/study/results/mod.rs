@@ -17,6 +17,7 @@
 //!     subsurface.h5        the stress under its surface, where it is wanted
 //!     *.vti                beside the fields, for ParaView, where they are wanted
 //!     summary.json         once all is done
+//!     report.html          a page of all of it
 //!     figures/             pictures
 //!     .lock                locked while a run writes here
 //! ```

@@ -1,0 +1,58 @@
+"use strict";
+// The bodies: before, after, difference; relief; profiles through a point that is clicked.
+
+/** What is left of a body, packed as its heights are. */
+function remaining(body) {
+  const { before } = body;
+  const levels = new Uint16Array(before.levels.length);
+  const [low, high] = [before.low - 0.5 * (before.high - before.low), before.high + 0.5 * (before.high - before.low)];
+  const [, ny] = before.shape;
+  for (let n = 0; n < levels.length; n++) {
+    const z = after(body, Math.floor(n / ny), n % ny);
+    levels[n] = Number.isFinite(z) ? Math.max(0, Math.min(65534, Math.round(((z - low) / (high - low || 1)) * 65534))) : 65535;
+  }
+  return { ...before, low, high, levels };
+}
+
+async function showBody(place, body) {
+  await Promise.all([unpack(body.before), body.lost && unpack(body.lost), ...body.kept.map((state) => unpack(state.map))]);
+  const region = [0, 1].map((axis) => [0, body.before.shape[axis] * body.before.pitch[axis]]);
+  const profiles = element("div", { class: "charts" });
+  const shown = new Profiles(profiles, body);
+  let relief = false;
+  let at = region.map(([, end]) => end / 2);
+  const views = [{ title: body.lost ? `${body.title}, before` : body.title, file: `${body.name}-before`, packed: body.before, heights: true }];
+  if (body.lost) {
+    views.push({ title: `${body.title}, after the last pass`, file: `${body.name}-after`, packed: remaining(body), heights: true });
+    views.push({ title: `depth that the ${body.title.split(",")[0]} has lost`, file: `${body.name}-lost`, packed: body.lost, heights: false });
+  }
+  for (const { name, title, quantity, map, unit } of body.kept) {
+    views.push({ title, file: `${body.name}-${name}`, packed: map, quantity, unit });
+  }
+  const pick = (x, y) => { at = [x, y]; draw(); shown.show(x, y); };
+  for (const view of views) view.map = new MapView(place, view.title, view.file, pick);
+  function draw() {
+    const cross = [{ from: [region[0][0], at[1]], to: [region[0][1], at[1]] }, { from: [at[0], region[1][0]], to: [at[0], region[1][1]] }];
+    for (const { map, packed, heights, quantity, unit: own } of views) {
+      const range = heights ? body.range : [0, Math.max(packed.high, 0)];
+      const unit = heights ? body.unit : own || body.lost_unit;
+      const kind = heights ? "heights" : "signed";
+      map.show({
+        region, length: body.length, lines: cross,
+        images: [{ packed, kind, range, corner: [0, 0], relief: relief && heights, told: (v) => written(v, unit) }],
+        bar: { range, unit, label: heights ? "height" : quantity || "depth", kind },
+        classes: heights ? null : [["var(--blank)", "nothing"], ...(packed.low < -1e-3 * packed.high ? [["rgb(213,94,0)", "has grown"]] : [])],
+      });
+    }
+  }
+  const flat = body.before.low === body.before.high;
+  const light = element("input", { type: "checkbox", onchange: () => { relief = light.checked; draw(); } });
+  place.before(element("div", { class: "controls" }, flat ? "flat" : element("label", {}, light, "light from the upper left"),
+    element("span", { class: "remark" }, "click a map for profiles through that point")));
+  place.after(profiles);
+  draw();
+  shown.show(...at);
+}
+
+const bodiesReady = Promise.all([...document.querySelectorAll("[data-body]")].map((place) =>
+  showBody(place, data.bodies[Number(place.dataset.body)])));

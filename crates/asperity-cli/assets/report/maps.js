@@ -1,0 +1,254 @@
+"use strict";
+// A map on a canvas: images of fields in a plane to scale, its axes, its colour bar, the value under the pointer, PNG.
+
+const MARGIN = { left: 58, right: 84, top: 8, bottom: 40 };
+const FONT = "12px system-ui, sans-serif";
+
+class MapView {
+  /** `file` names the picture; `picked(x, y)` hears of clicks. */
+  constructor(place, title, file, picked) {
+    this.canvas = element("canvas", { role: "img", "aria-label": title, ...(picked ? { class: "pick" } : {}) });
+    this.caption = element("figcaption", {}, title);
+    this.readout = element("output", { "aria-live": "off" });
+    this.legend = element("div", { class: "legend" });
+    const png = element("button", { type: "button", "aria-label": `PNG of ${title}`, onclick: () => this.savePng(file) }, "PNG");
+    place.append(element("figure", { class: "map" }, this.caption, this.canvas, this.legend, element("div", { class: "tools" }, this.readout, png)));
+    this.canvas.addEventListener("pointermove", (event) => this.read(event));
+    this.canvas.addEventListener("pointerleave", () => { this.readout.textContent = ""; });
+    if (picked) this.canvas.addEventListener("click", (event) => { const at = this.at(event); if (at) picked(...at); });
+    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
+    redraws.add(() => { this.painted = null; this.draw(); });
+  }
+
+  /**
+   * Shows a scene: `region` [[x0, x1], [y0, y1]] (m); `length` its unit; `images` of packed maps, each with `kind`,
+   * `range`, `corner` (m) and whether it `wraps` in the region; `rects` with `from`, `size`, `colour`, `dashed`;
+   * `lines`; `marks`; `bar` with `range`, `unit`, `label`, `kind`; `classes`; `down` where y is a depth; `relief`.
+   */
+  show(scene) {
+    this.scene = scene;
+    this.painted = null;
+    this.draw();
+  }
+
+  title(text) {
+    this.caption.textContent = text;
+    this.canvas.setAttribute("aria-label", text);
+  }
+
+  draw() {
+    if (!this.scene) return;
+    const width = this.canvas.parentElement.clientWidth;
+    if (width > 0) this.paint(this.canvas, width, window.devicePixelRatio || 1);
+  }
+
+  /** Where the plane is on a canvas of a width: [left, top, width, height]. */
+  frame(width) {
+    const { region } = this.scene;
+    const [dx, dy] = region.map(([a, b]) => b - a);
+    const aspect = Math.min(4, Math.max(0.25, dx / dy));
+    let w = Math.max(60, width - MARGIN.left - (this.scene.bar ? MARGIN.right : 16));
+    const most = Math.max(220, Math.min(520, window.innerHeight * 0.62));
+    if (w / aspect > most) w = most * aspect;
+    return [MARGIN.left, MARGIN.top, w, w / aspect];
+  }
+
+  paint(canvas, width, ratio) {
+    const { region, length, images, rects = [], lines = [], marks = [], bar, classes, down } = this.scene;
+    const [left, top, w, h] = this.frame(width);
+    const height = top + h + MARGIN.bottom;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+    const c = canvas.getContext("2d");
+    c.scale(ratio, ratio);
+    const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    const [ink, faint, line] = [css("--ink"), css("--faint"), css("--line")];
+    c.fillStyle = css("--paper");
+    c.fillRect(0, 0, width, height);
+    const [[x0, x1], [y0, y1]] = region;
+    const px = (x) => left + ((x - x0) / (x1 - x0)) * w;
+    const py = (y) => (down ? top + ((y - y0) / (y1 - y0)) * h : top + h - ((y - y0) / (y1 - y0)) * h);
+    this.px = px;
+    this.py = py;
+    c.save();
+    c.beginPath();
+    c.rect(left, top, w, h);
+    c.clip();
+    if (!this.painted) this.painted = images.map((image) => pixels(image, down));
+    images.forEach((image, n) => {
+      const { packed, corner, wraps } = image;
+      const size = [0, 1].map((axis) => packed.shape[axis] * packed.pitch[axis]);
+      c.imageSmoothingEnabled = packed.shape[0] > w * ratio;
+      for (const shift of wraps ? [0, -(x1 - x0), x1 - x0] : [0]) {
+        const [a, b] = [px(corner[0] + shift), px(corner[0] + shift + size[0])];
+        const [lower, upper] = [py(corner[1]), py(corner[1] + size[1])];
+        c.drawImage(this.painted[n], a, Math.min(lower, upper), b - a, Math.abs(lower - upper));
+      }
+    });
+    for (const { from, size, colour, dashed, fill } of rects) {
+      const [a, b] = [px(from[0]), px(from[0] + size[0])];
+      const [lower, upper] = [py(from[1]), py(from[1] + size[1])];
+      c.setLineDash(dashed ? [6, 4] : []);
+      c.strokeStyle = colour;
+      c.lineWidth = 1.5;
+      if (fill) { c.fillStyle = fill; c.fillRect(a, Math.min(lower, upper), b - a, Math.abs(lower - upper)); }
+      c.strokeRect(a + 0.75, Math.min(lower, upper) + 0.75, b - a - 1.5, Math.abs(lower - upper) - 1.5);
+    }
+    c.setLineDash([]);
+    for (const { from, to, colour } of lines) {
+      c.strokeStyle = colour || "#d55e00";
+      c.lineWidth = 1;
+      c.beginPath();
+      c.moveTo(px(from[0]), py(from[1]));
+      c.lineTo(px(to[0]), py(to[1]));
+      c.stroke();
+    }
+    for (const [x, y] of marks) {
+      for (const [colour, thick] of [["#ffffff", 3.4], ["#d02020", 1.6]]) {
+        c.strokeStyle = colour;
+        c.lineWidth = thick;
+        c.beginPath();
+        for (const [sx, sy] of [[1, 1], [1, -1]]) { c.moveTo(px(x) - 5 * sx, py(y) - 5 * sy); c.lineTo(px(x) + 5 * sx, py(y) + 5 * sy); }
+        c.stroke();
+      }
+    }
+    c.restore();
+    c.strokeStyle = line;
+    c.lineWidth = 1;
+    c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
+    c.fillStyle = ink;
+    c.strokeStyle = faint;
+    c.font = FONT;
+    c.textBaseline = "top";
+    c.textAlign = "center";
+    for (const t of ticks(x0 / length.factor, x1 / length.factor, w / 60)) {
+      const at = px(t * length.factor);
+      c.beginPath(); c.moveTo(at, top + h); c.lineTo(at, top + h + 4); c.stroke();
+      c.fillText(digits(t), at, top + h + 6);
+    }
+    c.fillText(`${this.scene.names ? this.scene.names[0] : "x"} (${length.symbol})`, left + w / 2, top + h + 22);
+    c.textBaseline = "middle";
+    c.textAlign = "right";
+    for (const t of ticks(y0 / length.factor, y1 / length.factor, h / 40)) {
+      const at = py(t * length.factor);
+      c.beginPath(); c.moveTo(left, at); c.lineTo(left - 4, at); c.stroke();
+      c.fillText(digits(t), left - 7, at);
+    }
+    c.save();
+    c.translate(12, top + h / 2);
+    c.rotate(-Math.PI / 2);
+    c.textAlign = "center";
+    c.fillText(`${this.scene.names ? this.scene.names[1] : "y"} (${length.symbol})`, 0, 0);
+    c.restore();
+    if (bar) this.paintBar(c, bar, [left + w + 12, top, 12, h], [ink, line]);
+    this.legend.replaceChildren(...(classes || []).map(([colour, name]) =>
+      element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name)));
+  }
+
+  paintBar(c, { range, unit, label, kind }, [left, top, w, h], [ink, line]) {
+    const palette = palettes[kind === "heights" ? "heights" : "pressure"];
+    const [low, high] = kind === "heights" || kind === "between" ? range : [0, range[1]];
+    for (let k = 0; k < 256; k++) {
+      c.fillStyle = `rgb(${palette[255 - k]})`;
+      c.fillRect(left, top + (k * h) / 256, w, h / 256 + 1);
+    }
+    c.strokeStyle = line;
+    c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
+    c.fillStyle = ink;
+    c.textAlign = "left";
+    c.textBaseline = "middle";
+    if (high > low) {
+      for (const t of ticks(low / unit.factor, high / unit.factor, h / 40)) {
+        const at = top + h - ((t * unit.factor - low) / (high - low)) * h;
+        c.fillText(digits(t), left + w + 5, at);
+      }
+    }
+    c.save();
+    c.translate(left + w + 46, top + h / 2);
+    c.rotate(Math.PI / 2);
+    c.textAlign = "center";
+    c.fillText(unit.symbol ? `${label} (${unit.symbol})` : label, 0, 0);
+    c.restore();
+  }
+
+  /** The place under the pointer, m. */
+  at(event) {
+    if (!this.scene) return null;
+    const box = this.canvas.getBoundingClientRect();
+    const { region, down } = this.scene;
+    const [left, top, w, h] = this.frame(this.canvas.parentElement.clientWidth);
+    const s = (event.clientX - box.left - left) / w;
+    const t = (event.clientY - box.top - top) / h;
+    if (s < 0 || s > 1 || t < 0 || t > 1) return null;
+    return [region[0][0] + s * (region[0][1] - region[0][0]), region[1][0] + (down ? t : 1 - t) * (region[1][1] - region[1][0])];
+  }
+
+  read(event) {
+    const at = this.at(event);
+    if (!at) { this.readout.textContent = ""; return; }
+    const { length, images, region } = this.scene;
+    const names = this.scene.names || ["x", "y"];
+    const where = `${names[0]} ${written(at[0], length)}, ${names[1]} ${written(at[1], length)}`;
+    const texts = images.map((image) => {
+      const { packed, corner, wraps, told } = image;
+      if (!told) return "";
+      let i = Math.floor((at[0] - corner[0]) / packed.pitch[0]);
+      const j = Math.floor((at[1] - corner[1]) / packed.pitch[1]);
+      if (wraps) i = ((i % packed.shape[0]) + packed.shape[0]) % packed.shape[0];
+      return i >= 0 && j >= 0 && i < packed.shape[0] && j < packed.shape[1] ? told(cell(packed, i, j), packed.levels[i * packed.shape[1] + j]) : "";
+    });
+    const told = texts.filter(Boolean).join(", ");
+    this.readout.textContent = told ? `${where}: ${told}` : where;
+  }
+
+  /** The map as a picture of its own, with its title. */
+  savePng(file) {
+    const map = document.createElement("canvas");
+    this.paint(map, Math.max(560, this.canvas.parentElement.clientWidth), 2);
+    const sheet = document.createElement("canvas");
+    [sheet.width, sheet.height] = [map.width, map.height + 56];
+    const c = sheet.getContext("2d");
+    c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper");
+    c.fillRect(0, 0, sheet.width, sheet.height);
+    c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--ink");
+    c.font = "26px system-ui, sans-serif";
+    c.fillText(this.caption.textContent, 20, 38, sheet.width - 40);
+    c.drawImage(map, 0, 56);
+    sheet.toBlob((blob) => save(`${file}.png`, blob));
+  }
+}
+
+/** A packed map as pixels on a canvas of its own, y upwards, or downwards where it is a depth. */
+function pixels({ packed, kind, range, relief }, down) {
+  const [nx, ny] = packed.shape;
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [nx, ny];
+  const image = new ImageData(nx, ny);
+  const out = new Uint32Array(image.data.buffer);
+  const colours = colouring(packed, kind, range);
+  for (let i = 0; i < nx; i++) {
+    for (let j = 0; j < ny; j++) out[(down ? j : ny - 1 - j) * nx + i] = colours[packed.levels[i * ny + j]];
+  }
+  if (relief) shade(image, packed, range);
+  const c = canvas.getContext("2d");
+  c.putImageData(image, 0, 0);
+  return canvas;
+}
+
+/** Light from the upper left over heights. */
+function shade(image, packed, range) {
+  const [nx, ny] = packed.shape;
+  const steep = 12 / (range[1] - range[0] || 1);
+  for (let i = 0; i < nx; i++) {
+    for (let j = 0; j < ny; j++) {
+      const slope = (di, dj) => cell(packed, Math.min(nx - 1, i + di), Math.min(ny - 1, j + dj)) - cell(packed, Math.max(0, i - di), Math.max(0, j - dj));
+      const [sx, sy] = [slope(1, 0) * steep, slope(0, 1) * steep];
+      const light = (0.6 - 0.5 * sx + 0.5 * sy) / Math.hypot(1, sx, sy);
+      const factor = Math.max(0.35, Math.min(1.6, 0.55 + 0.75 * light));
+      const at = 4 * ((ny - 1 - j) * nx + i);
+      for (let k = 0; k < 3; k++) image.data[at + k] = Math.min(255, image.data[at + k] * factor);
+    }
+  }
+}

@@ -1,0 +1,127 @@
+//! The course of a motion: curves over the positions of a pass, and over the passes.
+
+use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
+
+use super::Curves;
+use super::running;
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+
+/// A number of a position.
+pub(crate) type OfStep = fn(&StepRecord) -> f64;
+type OfPass = fn(&PassRecord) -> f64;
+
+/// What is drawn over the positions: its figure, its name, its unit.
+pub(crate) const OVER_POSITIONS: [(&str, &str, Unit, OfStep); 4] = [
+    ("load", "load", Unit::Force, |s| s.load),
+    ("friction", "friction force", Unit::Force, |s| s.tangential_force.abs()),
+    ("contact_area", "real contact area", Unit::Area, |s| s.contact_area),
+    ("max_pressure", "largest pressure", Unit::Pressure, |s| s.max_pressure),
+];
+
+/// All curves of a motion whose bodies had these rms heights before it.
+pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) -> Vec<Curves> {
+    let done = done(passes);
+    let slides = steps.iter().any(|step| step.tangential_force != 0.0);
+    let shown = OVER_POSITIONS.into_iter().filter(|(name, ..)| *name != "friction" || slides);
+    let mut curves: Vec<Curves> = shown
+        .map(|(name, title, unit, value)| {
+            let charts = over_positions(steps, &done, title, unit, value);
+            Curves::new(name, format!("{title} over the positions"), charts)
+        })
+        .collect();
+    curves.push(Curves::new("roughness", "roughness over the passes", roughness(passes, &done, sq)));
+    let charts = approach(passes, &done);
+    curves.push(Curves::new("approach", "approach and plastic volume over the passes", charts));
+    curves.push(Curves::new("mean_contact_area", "contact area over the passes", area(passes, &done)));
+    curves.extend(running::curves(passes, sq));
+    curves
+}
+
+/// What the solver has left and what it took, over the positions or increments; none of what has neither.
+pub(crate) fn solution(steps: &[StepRecord], increments: &[IncrementRecord], done: &[usize]) -> Vec<Curves> {
+    let title = "residual and cost of the solution";
+    if increments.len() > 1 {
+        let points = |value: fn(&IncrementRecord) -> f64| {
+            increments.iter().map(|i| [i.increment as f64, value(i)]).collect::<Vec<_>>()
+        };
+        let chart = |y: Axis, points| {
+            let x = Axis::linear("increment", Unit::Count);
+            Chart::new("", x, y, vec![Series::new("", points, Mark::LineAndPoints)])
+        };
+        let residual = chart(Axis::log("residual η", Unit::Number), points(|i| i.residual));
+        let cost = chart(Axis::linear("convolutions", Unit::Number), points(|i| i.convolutions));
+        return vec![Curves::new("solution", title, beside([residual, cost]))];
+    }
+    if steps.is_empty() {
+        return Vec::new();
+    }
+    let residual = over_positions(steps, done, "residual η", Unit::Number, |s| s.residual);
+    let cost = over_positions(steps, done, "convolutions", Unit::Number, |s| s.convolutions);
+    let [mut residual, cost] = [residual, cost].map(|mut charts| charts.charts.remove(0));
+    residual.y.log = true;
+    vec![Curves::new("solution", title, beside([residual, cost]))]
+}
+
+fn beside(charts: [Chart; 2]) -> Charts {
+    Charts { charts: charts.into(), columns: 2, aspect: 0.8 }
+}
+
+/// Passes of the motion that are done before the first and after each of the computed ones.
+pub(crate) fn done(passes: &[PassRecord]) -> Vec<usize> {
+    let mut done = vec![0];
+    for pass in passes {
+        done.push(done[done.len() - 1] + pass.represents());
+    }
+    done
+}
+
+/// A quantity of the positions in the first, a middle and the last pass.
+fn over_positions(steps: &[StepRecord], done: &[usize], quantity: &str, unit: Unit, value: OfStep) -> Charts {
+    let passes = done.len() - 1;
+    let mut shown = vec![1, passes.div_ceil(2), passes];
+    shown.dedup();
+    let series = shown.into_iter().map(|pass| {
+        let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
+        Series::new(format!("pass {}", done[pass]), points, Mark::Line)
+    });
+    let x = Axis::linear("offset of the upper body", Unit::Length);
+    Chart::new("", x, Axis::linear(quantity, unit), series.collect()).into()
+}
+
+fn roughness(passes: &[PassRecord], done: &[usize], sq: [f64; 2]) -> Charts {
+    let points = |body: usize, value: OfPass| {
+        let first = [0.0, sq[body]];
+        std::iter::once(first).chain(passes.iter().map(|p| [done[p.pass] as f64, value(p)])).collect()
+    };
+    let series = vec![
+        Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
+        Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
+    ];
+    Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear("Sq", Unit::Length), series).into()
+}
+
+/// The real contact area of a pass, its mean over the positions.
+fn area(passes: &[PassRecord], done: &[usize]) -> Charts {
+    let points = |value: OfPass| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
+    let series = vec![
+        Series::new("whole", points(|p| p.mean_contact_area), Mark::LineAndPoints),
+        Series::new("without the rim", points(|p| p.mean_contact_area_interior), Mark::LineAndPoints),
+    ];
+    let y = Axis::linear("mean contact area", Unit::Area);
+    Chart::new("", Axis::linear("pass", Unit::Count), y, series).into()
+}
+
+fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
+    let points =
+        |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
+    let x = Axis::linear("pass", Unit::Count);
+    let series = vec![
+        Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
+        Series::new("plastic volume, lower body", points(|p| p.lost("plastic")[0]), Mark::LineAndPoints)
+            .on_the_right(),
+        Series::new("plastic volume, upper body", points(|p| p.lost("plastic")[1]), Mark::LineAndPoints)
+            .on_the_right(),
+    ];
+    let chart = Chart::new("", x, Axis::linear("approach", Unit::Length), series);
+    chart.with_right(Axis::linear("plastic volume in the pass", Unit::Volume)).into()
+}

@@ -1,0 +1,71 @@
+//! Curves of the bodies' surfaces: material ratio and spectrum.
+
+use asperity::surface::{SpectralPoint, Spectrum, Topography, Window};
+
+use super::Curves;
+use super::stored::Stored;
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use crate::report::Outcome;
+use crate::surface::RINGS;
+
+/// Points of a material ratio curve.
+const POINTS: usize = 257;
+
+/// Names of the curves.
+pub(super) const NAMES: [&str; 2] = ["material_ratio", "spectrum"];
+
+/// Both bodies with their material below, as they were measured: the underside is turned over.
+pub(crate) fn as_measured([lower, upper]: &[Stored; 2]) -> Outcome<[Topography; 2]> {
+    let of = |stored: &Stored| Topography::new(stored.grid, stored.field.clone());
+    Ok([of(lower)?, of(upper)?.underside()])
+}
+
+/// The chart of a body from its states with their names, and a title.
+type OfStates<'a> = &'a dyn Fn(&[(&str, &Topography)], &str) -> Chart;
+
+/// The curves of both bodies, material upwards, before and, where something became of them, after.
+pub(crate) fn curves(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Vec<Curves> {
+    let charts = |chart: OfStates<'_>| {
+        let body = |(index, title): (usize, &str)| {
+            let now = after.map(|after| ("after", &after[index]));
+            let before = (if now.is_some() { "before" } else { "" }, &before[index]);
+            chart(&[Some(before), now].into_iter().flatten().collect::<Vec<_>>(), title)
+        };
+        let charts = ["lower body", "upper body"].into_iter().enumerate().map(body).collect();
+        Charts { charts, columns: 2, aspect: 0.8 }
+    };
+    let [ratio, densities] = NAMES;
+    let curves = [
+        Curves::new(ratio, "material ratio (Abbott–Firestone) curves", charts(&material_ratio)),
+        Curves::new(densities, "power spectral densities, over all directions", charts(&spectrum)),
+    ];
+    // A plane has no spectrum.
+    let has_points = |chart: &Chart| chart.series.iter().any(|series| series.points.len() > 1);
+    curves.into_iter().filter(|curves| curves.charts.charts.iter().any(has_points)).collect()
+}
+
+/// What is before is drawn broken, so that neither hides the other.
+fn mark(when: &str) -> Mark {
+    if when == "before" { Mark::Dashed } else { Mark::Line }
+}
+
+fn material_ratio(bodies: &[(&str, &Topography)], title: &str) -> Chart {
+    let series = bodies.iter().filter_map(|(when, body)| {
+        let curve = body.bearing_curve().ok()?.sampled(POINTS);
+        let per_cent = curve.into_iter().map(|[ratio, z]| [100.0 * ratio, z]).collect();
+        Some(Series::new(*when, per_cent, mark(when)))
+    });
+    let x = Axis { range: Some([0.0, 100.0]), ..Axis::linear("material ratio", Unit::Of("%")) };
+    Chart::new(title, x, Axis::linear("height above the mean", Unit::Length), series.collect())
+}
+
+fn spectrum(bodies: &[(&str, &Topography)], title: &str) -> Chart {
+    let series = bodies.iter().map(|(when, body)| {
+        let radial = Spectrum::of(body, Window::Hann).radial(RINGS);
+        let shown = |p: &&SpectralPoint| p.wave_number > 0.0 && p.density > 0.0;
+        let points = radial.iter().filter(shown).map(|p| [p.wave_number, p.density]).collect();
+        Series::new(*when, points, mark(when))
+    });
+    let series = series.collect();
+    Chart::new(title, Axis::log("wave number", Unit::Wavenumber), Axis::log("C", Unit::Of("m⁴")), series)
+}

@@ -1,0 +1,166 @@
+//! The bodies: topographies before and after, their difference, profiles, parameters, material ratio, spectra.
+
+use asperity::study::Results;
+use asperity::surface::{Parameter, Parameters, Topography};
+use serde_json::{Value, json};
+
+use super::curves;
+use super::found::Found;
+use super::html::{details, escaped};
+use super::packed::Packed;
+use crate::draw::{Unit, range_of_heights};
+use crate::figures::{self, Stored};
+use crate::report::Outcome;
+
+/// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
+const MAX_CELLS: usize = 1 << 18;
+
+const BODIES: [(&str, &str); 2] = [("lower", "lower body"), ("upper", "upper body, underside")];
+
+/// The section, and the data that it shows.
+pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    let [before, after] = if found.moves() { of_motion(found)? } else { [of_rest(found)?, None] };
+    let before = before?;
+    let mut html = String::new();
+    let mut shown = Vec::new();
+    for (index, (key, title)) in BODIES.into_iter().enumerate() {
+        // A counter-body that is new in each pass has nothing to compare with.
+        let compares = index == 0 || !found.has_new_upper();
+        let now = after.as_ref().map(|after| &after[index]).filter(|_| compares);
+        let body = body(key, title, &before[index], now);
+        html += &format!(
+            "<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>\
+             <p class=\"remark\">{}</p>",
+            escaped(body["remark"].as_str().unwrap_or_default())
+        );
+        let mut body = body;
+        body["kept"] = kept(found, key).into();
+        shown.push(body);
+    }
+    data["bodies"] = shown.into();
+
+    let before = found.kept(figures::as_measured(&before))?;
+    let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
+    if before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
+        html += &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref()));
+        html += &curves::html(figures::of_surfaces(&before, after.as_ref()), charts);
+    }
+    Some(html)
+}
+
+type Pair = Option<[Stored; 2]>;
+
+fn of_motion(found: &mut Found) -> Option<[Pair; 2]> {
+    let last = found.passes.len();
+    let mut read = |passes: usize| -> Pair {
+        let fields = found.fields(found.results.fields_after(passes))?;
+        let both =
+            |fields| -> Outcome<_> { Ok([Stored::read(fields, "lower")?, Stored::read(fields, "upper")?]) };
+        found.kept(both(&fields))
+    };
+    let before = read(0);
+    before.is_some().then(|| [before, if last > 0 { read(last) } else { None }])
+}
+
+fn of_rest(found: &mut Found) -> Option<Pair> {
+    if !has_rest(found.results) {
+        return None;
+    }
+    let fields = found.fields(found.results.static_fields())?;
+    let both = Stored::read(&fields, "lower").and_then(|lower| Ok([lower, Stored::read(&fields, "upper")?]));
+    Some(found.kept(both))
+}
+
+/// Whether the fields of a static contact are there.
+pub(super) fn has_rest(results: &Results) -> bool {
+    results.directory().join("fields.h5").exists()
+}
+
+/// One body: its heights before, and the depth that it has lost since.
+fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> Value {
+    let fields: Vec<_> = std::iter::once(before).chain(after).map(|stored| &stored.field).collect();
+    let (range, remark) = range_of_heights(fields).unwrap_or(([0.0, 1.0], None));
+    let pitch = before.grid.pitch;
+    // Positive where material is gone, on either side.
+    let sign = if key == "lower" { 1.0 } else { -1.0 };
+    let lost = after.filter(|after| after.field.dim() == before.field.dim());
+    let lost = lost.map(|after| (&before.field - &after.field) * sign);
+    let size = |field: &asperity::Field| {
+        field.iter().filter(|z| z.is_finite()).fold(0.0, |m: f64, z| m.max(z.abs()))
+    };
+    json!({
+        "name": key,
+        "title": title,
+        "sign": sign,
+        "before": Packed::even(&before.field, pitch),
+        "lost": lost.as_ref().map(|lost| Packed::even(lost, pitch)),
+        "range": range,
+        "unit": curves::unit(Unit::Length, range[0].abs().max(range[1].abs())),
+        "lost_unit": lost.as_ref().map(|lost| curves::unit(Unit::Length, size(lost))),
+        "length": curves::unit(Unit::Length, before.grid.extent()[0].max(before.grid.extent()[1])),
+        "remark": remark,
+    })
+}
+
+/// What laws keep of a body at the end: the depth of its wear where the surface before is not there to compare with, its film.
+fn kept(found: &mut Found, body: &str) -> Vec<Value> {
+    let last = found.passes.len();
+    let fields = match (found.moves(), last) {
+        (true, 0) => return Vec::new(),
+        (true, last) => found.results.fields_after(last),
+        (false, _) => found.results.static_fields(),
+    };
+    let Some(fields) = found.kept(fields) else { return Vec::new() };
+    let Some(names) = found.kept(fields.names()) else { return Vec::new() };
+    let mut maps = Vec::new();
+    for (state, title, quantity) in [("wear", "depth of wear of", "depth"), ("film", "film on", "thickness")]
+    {
+        let name = format!("{state}_{body}");
+        if !names.contains(&name) || (state == "wear" && found.moves()) {
+            continue;
+        }
+        if let Some(stored) = found.kept(Stored::read(&fields, &name)) {
+            let map = Packed::positive(&stored.field, stored.grid.pitch);
+            let unit = curves::unit(Unit::Length, map.high);
+            let title = format!("{title} the {body} body");
+            maps.push(
+                json!({ "name": state, "title": title, "quantity": quantity, "map": map, "unit": unit }),
+            );
+        }
+    }
+    maps
+}
+
+/// A table of all parameters of both bodies, before and after.
+fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> String {
+    let mut columns: Vec<(String, Vec<Parameter>)> = Vec::new();
+    for (index, (_, title)) in [("", "lower"), ("", "upper")].into_iter().enumerate() {
+        let mut add = |when: &str, body: &Topography| {
+            columns.push((format!("{title}{when}"), Parameters::of(body).rows()));
+        };
+        match after {
+            None => add("", &before[index]),
+            Some(after) => {
+                add(" before", &before[index]);
+                add(" after", &after[index]);
+            }
+        }
+    }
+    let mut html = String::from(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"ISO 25178 parameters\"><table><thead><tr>\
+         <th scope=\"col\">parameter</th>",
+    );
+    for (title, _) in &columns {
+        html += &format!("<th scope=\"col\">{title}</th>");
+    }
+    html += "<th scope=\"col\">meaning</th></tr></thead><tbody>";
+    for row in 0..columns[0].1.len() {
+        let of = &columns[0].1[row];
+        html += &format!("<tr><th scope=\"row\">{}</th>", escaped(of.symbol));
+        for (_, values) in &columns {
+            html += &format!("<td>{}</td>", escaped(&of.unit.format(values[row].value)));
+        }
+        html += &format!("<td class=\"words\">{}</td></tr>", escaped(of.meaning));
+    }
+    html + "</tbody></table></div>"
+}

@@ -1,0 +1,404 @@
+//! The contact: maps over the kept positions and passes, with where both bodies are.
+
+use asperity::io::fields::Fields;
+use asperity::motion::{StepRecord, SweepRecord};
+use asperity::study::{cap_name, pressure_name, temperature_name};
+use asperity::units::{Dimension, format};
+use asperity::{Field, Grid};
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+
+use super::bodies::has_rest;
+use super::curves;
+use super::found::Found;
+use super::html::escaped;
+use super::packed::Packed;
+use super::table::evenly;
+use crate::draw::{Colours, Unit};
+use crate::figures::{self, Cap, Curves, Stored};
+use crate::report::Outcome;
+
+/// Bytes that all maps of a page take together, at most.
+const MAX_BYTES: usize = 3 << 20;
+/// Passes whose positions are shown, at most.
+const MAX_PASSES: usize = 20;
+/// Positions that a pass shows at least, before passes are left out.
+const MIN_POSITIONS: usize = 24;
+
+/// What one of the maps shows.
+struct Layer {
+    name: &'static str,
+    title: &'static str,
+    unit: Unit,
+    kind: Kind,
+}
+
+enum Kind {
+    /// Above 0 or nothing.
+    Positive,
+    /// Below 0, too.
+    Signed,
+    /// From the least to the largest, where there is any.
+    Between,
+    Classes(Colours),
+}
+
+/// All maps that a position may have, in the order of the page.
+const LAYERS: [Layer; 8] = [
+    Layer { name: "pressure", title: "pressure", unit: Unit::Pressure, kind: Kind::Positive },
+    Layer { name: "contact", title: "contact", unit: Unit::Number, kind: Kind::Classes(Colours::CONTACT) },
+    Layer { name: "temperature", title: "temperature", unit: Unit::Of("°C"), kind: Kind::Between },
+    Layer { name: "shear", title: "shear on the lower body", unit: Unit::Pressure, kind: Kind::Positive },
+    Layer { name: "stick", title: "stick and slip", unit: Unit::Number, kind: Kind::Classes(Colours::STICK) },
+    Layer { name: "slip", title: "slip", unit: Unit::Length, kind: Kind::Positive },
+    Layer { name: "gap", title: "gap", unit: Unit::Length, kind: Kind::Signed },
+    Layer { name: "plastic", title: "plastic interference", unit: Unit::Length, kind: Kind::Positive },
+];
+
+/// One position, point or contact at rest.
+struct Frame {
+    /// Number of its pass among those shown.
+    group: usize,
+    /// What it is, in a few words.
+    label: String,
+    /// Its numbers.
+    text: String,
+    /// Where the upper body's corner is, seen from the lower one's, m.
+    offset: f64,
+    /// How far it is displaced along y, cyclically, m.
+    across: f64,
+    approach: f64,
+    fields: Vec<(&'static str, Stored)>,
+}
+
+/// A frame as it goes onto the page.
+struct Shown {
+    about: Value,
+    maps: Vec<(&'static str, Packed)>,
+}
+
+/// The section, and the data that it shows.
+pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    if found.moves() {
+        return of_motion(found, data, charts);
+    }
+    let frames = match found.points.is_empty() {
+        true => of_rest(found)?,
+        false => of_sweep(found),
+    };
+    if frames.is_empty() {
+        return None;
+    }
+    let groups = vec![json!({ "label": "" })];
+    data["contact"] = shown(&packed(frames), groups);
+    let mut html = SCRUBBER.to_owned();
+    if has_rest(found.results)
+        && let Some(fields) = found.kept(found.results.static_fields())
+        && let Some(Some(profile)) = found.kept(figures::profile_at_rest(&fields, &found.case))
+    {
+        let charts_of = Curves { charts: profile, name: "profile", title: "section".to_owned() };
+        html += "<h3>Section through the most loaded spot</h3>";
+        html += &curves::html(vec![charts_of], charts);
+    }
+    Some(html)
+}
+
+/// Where the maps are drawn.
+const SCRUBBER: &str = "<div id=\"scrubber\"></div>";
+
+fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    let last = found.passes.len();
+    if last == 0 {
+        return None;
+    }
+    if found.case["output"]["pressure_every"] == 0 {
+        let why = "No pressures were kept: <code>pressure_every = 0</code> in <code>[output]</code>.";
+        return Some(format!("<p>{why}</p>"));
+    }
+    let fields = found.fields(found.results.fields_after(last))?;
+    let names = found.kept(fields.names())?;
+    let is_kept = |step: &&StepRecord| names.contains(&pressure_name(step.step));
+    let kept: Vec<usize> =
+        found.steps.iter().filter(|s| s.pass == last).filter(is_kept).map(|s| s.step).collect();
+    if kept.is_empty() {
+        return None;
+    }
+    let (passes, positions) = affordable(found, &fields, &kept);
+    let mut frames = Vec::new();
+    let mut groups = Vec::new();
+    let mut histogram = None;
+    for pass in passes {
+        let opened = if pass == last { None } else { Some(found.fields(found.results.fields_after(pass))) };
+        let Some(fields) = opened.as_ref().map_or(Some(&fields), Option::as_ref) else { continue };
+        let read = read_pass(found, fields, pass, &positions, groups.len());
+        let Some(read) = found.kept(read) else { continue };
+        if pass == last {
+            let cap = found.kept(Cap::read(fields))?;
+            histogram = Some(figures::histogram(read.iter().map(Frame::pressure), &cap));
+        }
+        frames.extend(packed(read));
+        groups.push(json!({
+            "label": format!("pass {}", found.done[pass]),
+            "lost": found.kept(lost_before(found, pass)),
+            "known": pass == 1 || !found.has_new_upper(),
+        }));
+    }
+    let count = groups.len();
+    data["contact"] = shown(&frames, groups);
+    data["contact"]["wraps"] = (found.case["motion"]["strategy"] == "shift").into();
+    let mut html = SCRUBBER.to_owned();
+    if count < last || positions.len() < kept.len() {
+        html += &format!(
+            "<p class=\"remark\">Shown: {} of {} kept positions of {count} of {last} passes, evenly chosen, so that \
+             this page stays small. The files hold all.</p>",
+            positions.len(),
+            kept.len(),
+        );
+    }
+    let title = format!("distribution of the pressure over the contact, pass {}", found.done[last]);
+    let histogram = histogram.map(|charts| Curves { name: "pressure_histogram", title, charts });
+    html += &curves::html(histogram.into_iter().collect(), charts);
+    Some(html)
+}
+
+/// The passes, and the positions of each, whose maps have room, evenly chosen; the last pass among them.
+fn affordable(found: &Found, fields: &Fields, kept: &[usize]) -> (Vec<usize>, Vec<usize>) {
+    let samples = evenly(kept.len(), 6);
+    let size = |at: &usize| {
+        let stored = Stored::read(fields, &pressure_name(kept[*at])).ok()?;
+        Some(Packed::positive(&stored.field, stored.grid.pitch).size())
+    };
+    let sizes: Vec<usize> = samples.iter().filter_map(size).collect();
+    // What is elastic and what is plastic takes some more, and so do words.
+    let each = 1.3 * sizes.iter().sum::<usize>() as f64 / sizes.len().max(1) as f64 + 600.0;
+    let last = found.passes.len();
+    let lost = lost_before(found, last).ok().flatten();
+    let lost = lost.iter().flatten().map(|lost| lost.size() as f64).sum::<f64>();
+    let least = MIN_POSITIONS.min(kept.len());
+    let room = MAX_BYTES as f64;
+    let passes = last.min(MAX_PASSES).min((room / (least as f64 * each + lost)) as usize).max(1);
+    let positions = kept.len().min(((room / passes as f64 - lost) / each) as usize).max(1);
+    let passes = evenly(last, passes).into_iter().map(|index| index + 1).collect();
+    (passes, evenly(kept.len(), positions).into_iter().map(|index| kept[index]).collect())
+}
+
+fn read_pass(
+    found: &Found,
+    fields: &Fields,
+    pass: usize,
+    positions: &[usize],
+    group: usize,
+) -> Outcome<Vec<Frame>> {
+    let names = fields.names()?;
+    let cap = Cap::read(fields)?;
+    let of_pass = || found.steps.iter().filter(|step| step.pass == pass);
+    let all = of_pass().count();
+    let frame = |step: &StepRecord| -> Outcome<Frame> {
+        let pressure = Stored::read(fields, &pressure_name(step.step))?;
+        let own = match names.contains(&cap_name(step.step)) {
+            true => Some(Cap::Field(Stored::read(fields, &cap_name(step.step))?.field)),
+            false => None,
+        };
+        let contact = pressure.contact(own.as_ref().unwrap_or(&cap));
+        let mut maps = vec![("pressure", pressure), ("contact", contact)];
+        if names.contains(&temperature_name(step.step)) {
+            maps.push(("temperature", Stored::read(fields, &temperature_name(step.step))?.celsius()));
+        }
+        Ok(Frame {
+            group,
+            label: format!("position {} of {all}", step.step),
+            text: of_step(step),
+            offset: step.offset,
+            across: step.offset_y.unwrap_or(0.0),
+            approach: step.approach,
+            fields: maps,
+        })
+    };
+    of_pass()
+        .filter(|step| positions.contains(&step.step) && names.contains(&pressure_name(step.step)))
+        .map(frame)
+        .collect()
+}
+
+fn of_step(step: &StepRecord) -> String {
+    let mut text = format!(
+        "offset {}, load {}, real contact {}, largest pressure {}",
+        format(step.offset, Dimension::Length),
+        format(step.load, Dimension::Force),
+        format(step.contact_area, Dimension::Area),
+        format(step.max_pressure, Dimension::Pressure),
+    );
+    if step.tangential_force != 0.0 {
+        text += &format!(", friction {}", format(step.tangential_force.abs(), Dimension::Force));
+    }
+    text
+}
+
+/// What both bodies had lost before a pass; none before the first, and of a counter-body that is new in each.
+fn lost_before(found: &Found, pass: usize) -> asperity::Result<Option<[Packed; 2]>> {
+    if pass == 1 || found.has_new_upper() {
+        return Ok(None);
+    }
+    let [before, now] = [found.results.surfaces_after(0)?, found.results.surfaces_after(pass - 1)?];
+    let lost = |body: usize, sign: f64| {
+        let lost = sign * (before[body].heights() - now[body].heights());
+        Packed::even(&lost, before[body].grid().pitch)
+    };
+    Ok(Some([lost(0, 1.0), lost(1, -1.0)]))
+}
+
+fn of_sweep(found: &mut Found) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    let points: Vec<SweepRecord> = found.points.clone();
+    let path = |point: usize| found.directory().join(format!("fields/point-{point:04}.h5"));
+    let kept: Vec<&SweepRecord> = points.iter().filter(|point| path(point.point).exists()).collect();
+    for index in evenly(kept.len(), MAX_BYTES >> 16) {
+        let point = kept[index];
+        let Some(fields) = found.fields(found.results.point_fields(point.point)) else { continue };
+        let Some(maps) = found.kept(at_rest(&fields)) else { continue };
+        frames.push(Frame {
+            group: 0,
+            label: format!("point {} of {}", point.point, points.len()),
+            text: format!(
+                "load {}, real contact {}, largest pressure {}",
+                format(point.load, Dimension::Force),
+                format(point.contact_area, Dimension::Area),
+                format(point.max_pressure, Dimension::Pressure)
+            ),
+            offset: 0.0,
+            across: 0.0,
+            approach: point.approach,
+            fields: maps,
+        });
+    }
+    frames
+}
+
+fn of_rest(found: &mut Found) -> Option<Vec<Frame>> {
+    if !has_rest(found.results) {
+        return None;
+    }
+    let fields = found.fields(found.results.static_fields())?;
+    let maps = found.kept(at_rest(&fields))?;
+    let approach = found.kept(figures::approach(&fields))?;
+    let text = String::new();
+    Some(vec![Frame {
+        group: 0,
+        label: String::new(),
+        text,
+        offset: 0.0,
+        across: 0.0,
+        approach,
+        fields: maps,
+    }])
+}
+
+/// What there is of a static contact, or of a point of a sweep.
+fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, Stored)>> {
+    let names = fields.names()?;
+    let has = |name: &str| names.iter().any(|other| other == name);
+    let read = |name: &str| Stored::read(fields, name);
+    let pressure = read("pressure")?;
+    let mut maps = Vec::new();
+    let cap = Cap::read(fields)?;
+    let contact = pressure.contact(&cap);
+    if has("traction_x") && has("stick") {
+        let size = |x: &str, y: &str| -> Outcome<Stored> {
+            let (x, y) = (read(x)?, read(y)?);
+            let mut size = x.field.clone();
+            size.zip_mut_with(&y.field, |x, y| *x = x.hypot(*y));
+            Ok(x.with(size))
+        };
+        maps.push(("shear", size("traction_x", "traction_y")?));
+        maps.push(("stick", figures::stick(&pressure, read("stick")?)));
+        maps.push(("slip", size("slip_x", "slip_y")?));
+    }
+    if has("gap") {
+        let gap = read("gap")?;
+        let plastic = if has("plastic") { read("plastic")?.field } else { Field::zeros(gap.field.raw_dim()) };
+        maps.push(("gap", figures::open_gap(&gap, &plastic, &pressure)));
+        maps.push(("plastic", gap.with(plastic)));
+    }
+    if has("temperature") {
+        maps.push(("temperature", read("temperature")?.celsius()));
+    }
+    maps.insert(0, ("contact", contact));
+    maps.insert(0, ("pressure", pressure));
+    Ok(maps)
+}
+
+impl Frame {
+    fn pressure(&self) -> &Field {
+        &self.fields[0].1.field
+    }
+
+    fn packed(self) -> Shown {
+        let about = json!({
+            "group": self.group,
+            "label": self.label,
+            "text": escaped(&self.text),
+            "offset": self.offset,
+            "across": self.across,
+            "approach": Some(self.approach).filter(|approach| approach.is_finite()),
+        });
+        let map = |(name, Stored { field, grid: Grid { pitch, .. }, place, .. }): (&'static str, Stored)| {
+            let layer = LAYERS.iter().find(|layer| layer.name == name)?;
+            let packed = match layer.kind {
+                Kind::Positive => Packed::positive(&field, pitch),
+                Kind::Signed | Kind::Between => Packed::even(&field, pitch),
+                Kind::Classes(_) => Packed::classes(&field, pitch),
+            };
+            Some((name, packed.at([place, 0.0], pitch)))
+        };
+        Shown { about, maps: self.fields.into_iter().filter_map(map).collect() }
+    }
+}
+
+fn packed(frames: Vec<Frame>) -> Vec<Shown> {
+    frames.into_par_iter().map(Frame::packed).collect()
+}
+
+/// The data of the section.
+fn shown(frames: &[Shown], groups: Vec<Value>) -> Value {
+    let mut layers = Vec::new();
+    for layer in &LAYERS {
+        let maps = || {
+            let all = frames.iter().flat_map(|frame| &frame.maps);
+            all.filter(|(name, _)| *name == layer.name).map(|(_, map)| map)
+        };
+        let begin =
+            if matches!(layer.kind, Kind::Between) { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
+        let [low, high] =
+            maps().fold(begin, |[low, high]: [f64; 2], map| [low.min(map.low), high.max(map.high)]);
+        // A pressure that is nowhere is shown, plastic interference that is nowhere is not.
+        let always = matches!(layer.name, "pressure" | "contact");
+        if maps().next().is_none() || (!always && low == 0.0 && high == 0.0) {
+            continue;
+        }
+        let (kind, classes) = match layer.kind {
+            Kind::Positive => ("positive", Vec::new()),
+            Kind::Signed => ("signed", Vec::new()),
+            Kind::Between => ("between", Vec::new()),
+            Kind::Classes(Colours::Classes(names)) => {
+                ("class", names.iter().take(2 + usize::from(high > 1.0)).copied().collect())
+            }
+            Kind::Classes(_) => ("class", Vec::new()),
+        };
+        layers.push(json!({
+            "name": layer.name,
+            "title": layer.title,
+            "kind": kind,
+            "classes": classes,
+            "range": [low, high],
+            "unit": curves::unit(layer.unit, high.max(-low)),
+        }));
+    }
+    let frame = |Shown { about, maps }: &Shown| {
+        let mut frame = about.clone();
+        let shown = maps.iter().filter(|(name, _)| layers.iter().any(|layer| layer["name"] == *name));
+        frame["maps"] =
+            shown.map(|(name, map)| ((*name).to_owned(), json!(map))).collect::<Map<_, _>>().into();
+        frame
+    };
+    json!({ "layers": layers, "groups": groups, "frames": frames.iter().map(frame).collect::<Vec<_>>() })
+}

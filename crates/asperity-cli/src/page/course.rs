@@ -1,0 +1,77 @@
+//! Curves over positions, passes, increments or points, and their tables.
+
+use serde_json::{Value, json};
+
+use super::curves;
+use super::found::Found;
+use super::html::details;
+use crate::figures;
+
+/// The section; none of a contact in one step.
+pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    let mut html = String::new();
+    if !found.passes.is_empty() {
+        let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
+        let sq = found.kept(sq).unwrap_or([f64::NAN; 2]);
+        html += &curves::html(figures::of_motion(&found.passes, &found.steps, sq), charts);
+        data["passes"] = of_passes(found);
+    }
+    if found.increments.len() > 1 {
+        html += &curves::html(figures::of_loading(&found.increments), charts);
+    }
+    if found.updates.len() > 1 {
+        html += &curves::html(figures::of_sliding(&found.updates), charts);
+    }
+    if !found.points.is_empty() {
+        html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
+    }
+    let last = found.passes.len();
+    for (file, title, key) in [
+        ("passes.csv", "passes", Some("passes")),
+        ("increments.csv", "increments", None),
+        ("sweep.csv", "points", Some("sweep")),
+        ("updates.csv", "updates", None),
+    ] {
+        if let Some(table) = found.table(file) {
+            html += &details(&format!("Table: {title}"), &table.html(title, key));
+        }
+    }
+    if let Some(steps) = found.table("steps.csv") {
+        let title = format!("positions of pass {}", found.done[last]);
+        html += &details(&format!("Table: {title}"), &steps.only("pass", last as f64).html(&title, None));
+    }
+    Some(html).filter(|html| !html.is_empty())
+}
+
+/// Rms about the mean of what is defined.
+fn spread(heights: &asperity::Field) -> f64 {
+    let defined: Vec<f64> = heights.iter().copied().filter(|z| z.is_finite()).collect();
+    let mean = defined.iter().sum::<f64>() / defined.len() as f64;
+    (defined.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / defined.len() as f64).sqrt()
+}
+
+/// What a chosen pass shows over its positions.
+fn of_passes(found: &Found) -> Value {
+    /// Numbers of the page for this, at most.
+    const MAX: usize = 40_000;
+    let each = found.steps.len() / found.passes.len().max(1);
+    let room = (MAX / each.max(1)).max(1);
+    let passes = super::table::evenly(found.passes.len(), room);
+    let of = |index: usize| {
+        let pass = index + 1;
+        let steps: Vec<_> = found.steps.iter().filter(|step| step.pass == pass).collect();
+        let values = |value: &dyn Fn(&asperity::motion::StepRecord) -> f64| -> Vec<f64> {
+            steps.iter().map(|step| value(step)).collect()
+        };
+        let over: serde_json::Map<String, Value> = figures::OVER_POSITIONS
+            .iter()
+            .map(|(name, .., value)| ((*name).to_owned(), json!(values(value))))
+            .collect();
+        json!({
+            "label": format!("pass {}", found.done[pass]),
+            "offset": values(&|step| step.offset),
+            "over": over,
+        })
+    };
+    passes.into_iter().map(of).collect()
+}

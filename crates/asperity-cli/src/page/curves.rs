@@ -1,0 +1,85 @@
+//! Curves: a place for each on the page, its numbers in the data.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::html::escaped;
+use crate::draw::{Axis, Chart, Charts, Unit};
+use crate::figures::Curves;
+
+/// HTML with a place for each chart, whose numbers go to `data`.
+pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
+    let mut html = String::from("<div class=\"charts\">");
+    for Curves { name, title, charts } in curves {
+        let Charts { charts, .. } = charts;
+        let several = charts.len() > 1;
+        for chart in charts.into_iter().filter(|chart| chart.series.iter().any(|s| s.points.len() > 1)) {
+            let title = match (several, chart.title.is_empty()) {
+                (false, _) => title.clone(),
+                (true, true) => chart.y.label.clone(),
+                (true, false) => chart.title.clone(),
+            };
+            let _ = write!(
+                html,
+                "<figure class=\"chart\" data-chart=\"{}\"><figcaption>{}</figcaption></figure>",
+                data.len(),
+                escaped(&title)
+            );
+            data.push(of_chart(name, &title, &chart));
+        }
+    }
+    html + "</div>"
+}
+
+fn of_chart(name: &str, title: &str, chart: &Chart) -> Value {
+    let points = |right: bool| {
+        let series = chart.series.iter().filter(move |series| series.is_on_the_right() == right);
+        series.flat_map(|series| series.points.iter().copied())
+    };
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        values.map(f64::abs).filter(|size| size.is_finite()).fold(0.0, f64::max)
+    };
+    let all = || points(false).chain(points(true));
+    let series: Vec<Value> = chart
+        .series
+        .iter()
+        .map(|series| {
+            let values =
+                |axis: usize| -> Vec<f64> { series.points.iter().map(|point| point[axis]).collect() };
+            json!({
+                "name": series.name,
+                "mark": format!("{:?}", series.mark).to_lowercase(),
+                "right": series.is_on_the_right(),
+                "x": values(0),
+                "y": values(1),
+            })
+        })
+        .collect();
+    json!({
+        "name": name,
+        "title": title,
+        "x": axis(&chart.x, largest(&mut all().map(|point| point[0]))),
+        "y": axis(&chart.y, largest(&mut points(false).map(|point| point[1]))),
+        "right": chart.right.as_ref().map(|right| axis(right, largest(&mut points(true).map(|p| p[1])))),
+        "series": series,
+        "words": chart.words,
+    })
+}
+
+fn axis(axis: &Axis, largest: f64) -> Value {
+    // Powers of ten stand at the ticks of a logarithmic axis.
+    let largest = if axis.log && !axis.unit.has_multiples() { 1.0 } else { largest };
+    let mut value = unit(axis.unit, largest);
+    value["label"] = axis.label.as_str().into();
+    value["log"] = axis.log.into();
+    value["range"] = json!(axis.range);
+    value["whole"] = (axis.unit == Unit::Count).into();
+    value
+}
+
+/// The multiple that suits numbers up to `largest`: its size in SI, its symbol, and that of the SI unit itself.
+pub(super) fn unit(unit: Unit, largest: f64) -> Value {
+    let (factor, symbol) = unit.shown(largest);
+    json!({ "factor": factor, "symbol": symbol, "si": unit.base() })
+}

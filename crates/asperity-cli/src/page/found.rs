@@ -1,0 +1,111 @@
+//! What a results directory holds. What is missing or damaged is left out, and named.
+
+use std::path::Path;
+
+use asperity::io::fields::Fields;
+use asperity::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
+use asperity::study::{Results, Summary};
+use serde_json::Value;
+
+use super::table::Table;
+use crate::report::{self, Outcome};
+
+/// The records of a results directory.
+pub(super) struct Found<'a> {
+    pub(super) results: &'a Results,
+    pub(super) case: Value,
+    /// There once all is done.
+    pub(super) summary: Option<Summary>,
+    pub(super) passes: Vec<PassRecord>,
+    /// Passes of the motion that are done before the first and after each of the computed ones.
+    pub(super) done: Vec<usize>,
+    pub(super) steps: Vec<StepRecord>,
+    pub(super) increments: Vec<IncrementRecord>,
+    pub(super) updates: Vec<UpdateRecord>,
+    pub(super) points: Vec<SweepRecord>,
+    /// What could not be read, and why.
+    pub(super) missing: Vec<String>,
+}
+
+impl<'a> Found<'a> {
+    /// Reads the records; an error only without a case that can be read.
+    pub(super) fn in_results(results: &'a Results) -> Outcome<Self> {
+        let mut missing = Vec::new();
+        let case = results.case()?;
+        let finished = results.directory().join("summary.json").exists();
+        let summary = if finished { kept(results.summary(), &mut missing) } else { None };
+        let passes = kept(results.passes(), &mut missing).unwrap_or_default();
+        Ok(Self {
+            done: crate::figures::done(&passes),
+            steps: kept(results.steps(), &mut missing).unwrap_or_default(),
+            increments: kept(results.increments(), &mut missing).unwrap_or_default(),
+            updates: kept(results.updates(), &mut missing).unwrap_or_default(),
+            points: kept(results.sweep(), &mut missing).unwrap_or_default(),
+            results,
+            case,
+            summary,
+            passes,
+            missing,
+        })
+    }
+
+    /// What was read; none where that failed, which is then told.
+    pub(super) fn kept<T>(&mut self, read: impl Into<Kept<T>>) -> Option<T> {
+        kept(read, &mut self.missing)
+    }
+
+    /// A file of fields that is whole.
+    pub(super) fn fields(&mut self, opened: asperity::Result<Fields>) -> Option<Fields> {
+        self.kept(opened.and_then(|fields| fields.verify().map(|()| fields)))
+    }
+
+    /// The table of that file, if it is there.
+    pub(super) fn table(&self, file: &str) -> Option<Table> {
+        Table::read(&self.results.directory().join(file)).ok().filter(|table| table.len() > 0)
+    }
+
+    /// Whether all is done.
+    pub(super) fn is_finished(&self) -> bool {
+        self.summary.is_some()
+    }
+
+    pub(super) fn moves(&self) -> bool {
+        !self.case["motion"].is_null()
+    }
+
+    /// Whether the upper body before the last pass is another one than at the beginning, and not kept.
+    pub(super) fn has_new_upper(&self) -> bool {
+        self.case["motion"]["counter"] == "fresh" && self.passes.len() > 1
+    }
+
+    pub(super) fn directory(&self) -> &Path {
+        self.results.directory()
+    }
+}
+
+/// A result of reading, with its message where it failed.
+pub(super) struct Kept<T>(Result<T, String>);
+
+impl<T> From<asperity::Result<T>> for Kept<T> {
+    fn from(read: asperity::Result<T>) -> Self {
+        Self(read.map_err(|error| report::clipped(&error.to_string())))
+    }
+}
+
+impl<T> From<Outcome<T>> for Kept<T> {
+    fn from(read: Outcome<T>) -> Self {
+        Self(read.map_err(|failure| report::clipped(&report::message(&failure))))
+    }
+}
+
+fn kept<T>(read: impl Into<Kept<T>>, missing: &mut Vec<String>) -> Option<T> {
+    match read.into().0 {
+        Ok(read) => Some(read),
+        Err(message) => {
+            if !missing.contains(&message) {
+                missing.push(message);
+            }
+            None
+        }
+    }
+}

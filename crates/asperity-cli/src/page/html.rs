@@ -1,0 +1,67 @@
+//! Text that becomes HTML.
+
+use std::fmt::Write;
+
+/// `text` with nothing in it that is markup, in an element as well as in an attribute.
+pub(super) fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            // Neither HTML nor JSON for a script takes them.
+            c if c.is_control() && c != '\n' => safe.push('\u{fffd}'),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// JSON that may stand in a script: nothing in it ends the script or begins a comment.
+pub(super) fn script_data(data: &serde_json::Value) -> String {
+    // These signs occur within texts only.
+    data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
+}
+
+/// A number with its value, SI, for programs that read the page; `key` says where it stands in `summary.json`.
+pub(super) fn number(key: &str, value: &serde_json::Value, text: &str) -> String {
+    match value {
+        serde_json::Value::Number(value) => {
+            format!("<data data-key=\"{}\" value=\"{value}\">{}</data>", escaped(key), escaped(text))
+        }
+        _ => escaped(text),
+    }
+}
+
+/// Rows of a name and what has been made HTML already.
+pub(super) fn facts(rows: impl IntoIterator<Item = (String, String)>) -> String {
+    let mut html = String::from("<table class=\"facts\"><tbody>");
+    for (name, value) in rows {
+        let _ = write!(html, "<tr><th scope=\"row\">{}</th><td>{value}</td></tr>", escaped(&name));
+    }
+    html + "</tbody></table>"
+}
+
+/// What can be unfolded.
+pub(super) fn details(summary: &str, content: &str) -> String {
+    format!("<details><summary>{}</summary>{content}</details>", escaped(summary))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_markup_survives() {
+        let title = "</script><img src=x onerror=alert(1)> & \"x\" 'y' \u{0}\u{1b}";
+        let safe = escaped(title);
+        assert!(!safe.contains(['<', '>', '"', '\'', '\u{0}', '\u{1b}']), "{safe}");
+        let data = serde_json::json!({ "title": title, "<!--": "]]>" });
+        let script = script_data(&data);
+        assert!(!script.contains(['<', '>', '&']), "{script}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&script).unwrap(), data);
+    }
+}

@@ -1,0 +1,162 @@
+//! `asperity report`: a results directory as one HTML page, made from what it holds and from nothing else.
+//!
+//! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in levels
+//! ([`packed`]) and curves, those of the figures ([`curves`]). Nothing on the page asks for anything from outside.
+
+mod below;
+mod bodies;
+mod contact;
+mod course;
+mod curves;
+mod found;
+mod head;
+mod html;
+mod live;
+mod packed;
+mod table;
+#[cfg(test)]
+mod tests;
+mod trust;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use asperity::io;
+use asperity::study::Results;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+use crate::args::Report;
+use crate::draw::{Colours, Paper, palette};
+use crate::figures;
+use crate::report::{Outcome, print};
+use found::Found;
+pub(crate) use live::LivePage;
+
+/// Name of the page in a results directory.
+const FILE: &str = "report.html";
+
+/// Writes the page of a results directory and prints its path.
+pub(crate) fn report(arguments: &Report) -> Outcome {
+    let results = Results::open(&arguments.directory)?;
+    let path = arguments.out.clone().unwrap_or_else(|| of(&results));
+    write(&results, &path)?;
+    print(&format!("{}\n", path.display()))
+}
+
+/// Where the page of a results directory is.
+pub(crate) fn of(results: &Results) -> PathBuf {
+    results.directory().join(FILE)
+}
+
+/// Writes the page of `results` to `path`; where that fails the one that is there stays.
+pub(crate) fn write(results: &Results, path: &Path) -> Outcome {
+    let page = page(results)?;
+    // What killed processes have left beside it.
+    io::sweep(path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new(".")));
+    Ok(io::replace(path, page.as_bytes())?)
+}
+
+/// A section: its anchor, its title, its HTML.
+type Section = (&'static str, &'static str, Option<String>);
+
+/// The page.
+fn page(results: &Results) -> Outcome<String> {
+    let mut found = Found::in_results(results)?;
+    let mut data = json!({ "colours": {
+        "heights": palette(Colours::Heights),
+        "pressure": palette(Colours::Pressure),
+    }});
+    let mut charts = Vec::new();
+    let contact = contact::section(&mut found, &mut data, &mut charts);
+    let sections: [Section; 5] = [
+        ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
+        ("contact", "Contact", contact),
+        ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
+        ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
+        ("trust", "Trust", Some(trust::section(&mut found, &mut charts))),
+    ];
+    data["charts"] = charts.into();
+    Ok(document(&found, &sections, &data))
+}
+
+fn document(found: &Found, sections: &[Section], data: &Value) -> String {
+    let title = html::escaped(&head::title(found));
+    let there = || sections.iter().filter_map(|(id, title, html)| Some((id, title, html.as_ref()?)));
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>{CHART_STYLE}\n{STYLE}</style>\n</head>\n<body>\n\
+         <a class=\"skip\" href=\"#main\">to the results</a>\n<header class=\"bar\"><span class=\"name\">asperity</span>\
+         <nav aria-label=\"sections\">"
+    );
+    for (id, title, _) in there() {
+        let _ = write!(page, "<a href=\"#{id}\">{title}</a> ");
+    }
+    page += "</nav><button type=\"button\" id=\"theme\" hidden>dark</button></header>\n<main id=\"main\">\n";
+    let _ = writeln!(page, "<section id=\"head\">{}</section>", head::html(found));
+    for (id, title, html) in there() {
+        let _ = write!(
+            page,
+            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>{html}"
+        );
+        if *id == "contact" {
+            page += &pictures(found.results);
+        }
+        page += "</section>\n";
+    }
+    let data = html::script_data(data);
+    let _ = write!(
+        page,
+        "</main>\n<footer><p>Made by asperity {} from the results alone; it opens without a network.</p></footer>\n\
+         <script type=\"application/json\" id=\"data\">{data}</script>\n<script>{CHARTS}</script>\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    for program in PROGRAMS {
+        let _ = write!(page, "<script>\n{program}</script>\n");
+    }
+    page + "</body>\n</html>\n"
+}
+
+/// No request can leave the page.
+const POLICY: &str =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+/// uPlot 1.6.32, under the MIT licence that stands beside it.
+const CHARTS: &str = concat!(
+    "/*\n",
+    include_str!("../../assets/report/LICENSE_UPLOT"),
+    "*/\n",
+    include_str!("../../assets/report/uPlot.iife.min.js")
+);
+const CHART_STYLE: &str = include_str!("../../assets/report/uPlot.min.css");
+const STYLE: &str = include_str!("../../assets/report/page.css");
+/// The page's own programs, each after what it uses.
+const PROGRAMS: [&str; 7] = [
+    include_str!("../../assets/report/data.js"),
+    include_str!("../../assets/report/maps.js"),
+    include_str!("../../assets/report/curves.js"),
+    include_str!("../../assets/report/profile.js"),
+    include_str!("../../assets/report/bodies.js"),
+    include_str!("../../assets/report/scrubber.js"),
+    include_str!("../../assets/report/page.js"),
+];
+
+/// The maps as pictures, for who has no JavaScript.
+fn pictures(results: &Results) -> String {
+    let paper = Paper { dpi: 96.0, ..Paper::default() };
+    let only = ["topographies", "pressure", "contact"].map(str::to_owned).to_vec();
+    // What cannot be read has been told already.
+    let pictures = figures::pictures(results, &figures::Wanted { paper, only }).unwrap_or_default();
+    let mut html = String::from("<noscript>");
+    for (title, picture) in pictures {
+        let _ = write!(
+            html,
+            "<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
+            html::escaped(&title),
+            STANDARD.encode(picture)
+        );
+    }
+    html + "</noscript>"
+}

@@ -1,0 +1,213 @@
+//! The tables of a results directory as HTML: every column, in one unit each.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use asperity::units::{CELSIUS, Dimension, Multiple, format, format_number};
+
+use super::html::escaped;
+
+/// Rows of a table on a page, at most.
+const MAX_ROWS: usize = 200;
+
+/// A table of numbers, SI.
+pub(super) struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// What a column measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Of(Dimension),
+    Celsius,
+    Number,
+}
+
+impl Table {
+    /// The table of a file: its rows whose line has an end, as long as they are numbers.
+    pub(super) fn read(path: &Path) -> std::io::Result<Self> {
+        let text = std::fs::read_to_string(path)?;
+        let ended = text.rfind('\n').map_or("", |end| &text[..end]);
+        let mut lines = ended.lines();
+        let columns = lines.next().unwrap_or_default().split(',').map(str::to_owned).collect();
+        // A stiffness that there is not is an empty cell.
+        let cell = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+        let rows = lines.map_while(|line| line.split(',').map(cell).collect());
+        Ok(Self { columns, rows: rows.collect() })
+    }
+
+    /// The rows in which the column has this value.
+    pub(super) fn only(mut self, column: &str, value: f64) -> Self {
+        if let Some(at) = self.columns.iter().position(|name| name == column) {
+            self.rows.retain(|row| row.get(at) == Some(&value));
+        }
+        self
+    }
+
+    /// How many rows there are.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// HTML under a caption. With a `key` each number has its value and says where it stands in `summary.json`. Of many
+    /// rows some, evenly chosen.
+    pub(super) fn html(&self, caption: &str, key: Option<&str>) -> String {
+        let shown = evenly(self.rows.len(), MAX_ROWS);
+        let units: Vec<(Kind, Multiple)> = (0..self.columns.len()).map(|column| self.unit(column)).collect();
+        let some = match shown.len() < self.rows.len() {
+            true => format!("; {} of {} rows, evenly chosen", shown.len(), self.rows.len()),
+            false => String::new(),
+        };
+        let mut html = format!(
+            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table><caption>{0}{some}\
+             </caption><thead><tr>",
+            escaped(caption)
+        );
+        for (name, (_, unit)) in self.columns.iter().zip(&units) {
+            let unit = if unit.symbol.is_empty() { String::new() } else { format!("<br>{}", unit.symbol) };
+            let _ = write!(html, "<th scope=\"col\">{}{unit}</th>", escaped(&name.replace('_', " ")));
+        }
+        html += "</tr></thead><tbody>";
+        for index in shown {
+            html += "<tr>";
+            for ((value, (kind, unit)), name) in self.rows[index].iter().zip(&units).zip(&self.columns) {
+                let text = shown_in(*value, *kind, unit);
+                let _ = match key {
+                    Some(key) if value.is_finite() => write!(
+                        html,
+                        "<td><data data-key=\"{}.{index}.{}\" value=\"{value:?}\">{text}</data></td>",
+                        escaped(key),
+                        escaped(name)
+                    ),
+                    _ => write!(html, "<td>{text}</td>"),
+                };
+            }
+            html += "</tr>";
+        }
+        html + "</tbody></table></div>"
+    }
+
+    /// What a column measures, and the unit that suits its largest number.
+    fn unit(&self, column: usize) -> (Kind, Multiple) {
+        let kind = kind(&self.columns[column]);
+        let sizes = self.rows.iter().filter_map(|row| row.get(column)).map(|value| value.abs());
+        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let multiple = match kind {
+            Kind::Of(dimension) => dimension.multiple(largest),
+            Kind::Celsius => Multiple { factor: 1.0, symbol: "°C".to_owned() },
+            Kind::Number => Multiple { factor: 1.0, symbol: String::new() },
+        };
+        (kind, multiple)
+    }
+}
+
+/// A value, SI, under its key in `summary.json`, with a unit that suits it.
+pub(super) fn text_of(key: &str, value: f64) -> String {
+    match kind(key) {
+        Kind::Of(dimension) => format(value, dimension),
+        Kind::Celsius => format!("{} °C", format_number(value - CELSIUS)),
+        Kind::Number => format_number(value),
+    }
+}
+
+/// At most so many of the numbers below `all`, evenly, the first and the last among them.
+pub(super) fn evenly(all: usize, most: usize) -> Vec<usize> {
+    match (all, most) {
+        (all, most) if all <= most => (0..all).collect(),
+        (all, 0 | 1) => vec![all - 1],
+        (all, most) => (0..most).map(|k| k * (all - 1) / (most - 1)).collect(),
+    }
+}
+
+fn shown_in(value: f64, kind: Kind, unit: &Multiple) -> String {
+    match kind {
+        _ if !value.is_finite() => "–".to_owned(),
+        Kind::Celsius => format_number(value - CELSIUS),
+        Kind::Of(_) | Kind::Number => format_number(value / unit.factor),
+    }
+    .replace('-', "−")
+}
+
+/// What the column or key measures, by its name.
+fn kind(name: &str) -> Kind {
+    // The first word that a name has; `max_pressure`, `plastic_volume_lower_interior`.
+    const WORDS: [(&str, Kind); 24] = [
+        ("friction_coefficient", Kind::Number),
+        ("fraction", Kind::Number),
+        ("ratio", Kind::Number),
+        ("cells", Kind::Number),
+        ("columns", Kind::Number),
+        ("temperature", Kind::Celsius),
+        ("friction_power", Kind::Of(Dimension::Power)),
+        ("friction_work", Kind::Of(Dimension::Energy)),
+        ("volume", Kind::Of(Dimension::Volume)),
+        ("area", Kind::Of(Dimension::Area)),
+        ("pressure", Kind::Of(Dimension::Pressure)),
+        ("shear", Kind::Of(Dimension::Pressure)),
+        ("von_mises", Kind::Of(Dimension::Pressure)),
+        ("stiffness", Kind::Of(Dimension::Stiffness)),
+        ("energy", Kind::Of(Dimension::Energy)),
+        ("dissipation", Kind::Of(Dimension::Energy)),
+        ("force", Kind::Of(Dimension::Force)),
+        ("load", Kind::Of(Dimension::Force)),
+        ("time", Kind::Of(Dimension::Time)),
+        ("displacement", Kind::Of(Dimension::Length)),
+        ("distance", Kind::Of(Dimension::Length)),
+        ("approach", Kind::Of(Dimension::Length)),
+        ("offset", Kind::Of(Dimension::Length)),
+        ("gap", Kind::Of(Dimension::Length)),
+    ];
+    /// How names of other lengths begin.
+    const LENGTHS: [&str; 4] = ["sq_", "max_wear", "mean_film", "error_"];
+    if LENGTHS.iter().any(|begin| name.starts_with(begin)) {
+        return Kind::Of(Dimension::Length);
+    }
+    WORDS.iter().find(|(word, _)| name.contains(word)).map_or(Kind::Number, |(_, kind)| *kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use asperity::study::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+
+    use super::*;
+
+    #[test]
+    fn each_column_is_what_the_documents_say() {
+        let document = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/results.md");
+        let document = std::fs::read_to_string(document).unwrap();
+        let all = [&PASS_COLUMNS[..], &STEP_COLUMNS, &INCREMENT_COLUMNS, &SWEEP_COLUMNS].concat();
+        for column in all {
+            let rows = document.lines().filter(|line| {
+                let names = line.split('|').nth(1).unwrap_or_default();
+                names.split(", ").any(|name| name.trim() == format!("`{column}`"))
+            });
+            let units: Vec<&str> = rows.filter_map(|row| row.split('|').nth(2)).map(str::trim).collect();
+            let unit = match kind(column) {
+                Kind::Of(dimension) => dimension.multiple(0.0).symbol,
+                Kind::Celsius => "K".to_owned(),
+                Kind::Number => String::new(),
+            };
+            assert!(
+                units.iter().any(|of| of.split(", ").any(|of| of == unit)),
+                "{column}: {units:?}, {unit}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_table_is_read_to_its_last_whole_row() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, "pass,load,stiffness\n1,0.5,\n2,0.25,1e6\n3,0.1").unwrap();
+        let table = Table::read(&path).unwrap();
+        assert_eq!(table.len(), 2);
+        let html = table.html("rows", Some("passes"));
+        assert!(html.contains("<th scope=\"col\">load<br>mN</th>"), "{html}");
+        assert!(html.contains("<data data-key=\"passes.1.load\" value=\"0.25\">250</data>"), "{html}");
+        assert!(html.contains("<td>–</td>"), "{html}");
+        assert_eq!(table.only("pass", 2.0).len(), 1);
+        assert_eq!(evenly(5, 3), [0, 2, 4]);
+        assert_eq!((evenly(3, 5), evenly(7, 1), evenly(0, 4)), (vec![0, 1, 2], vec![6], vec![]));
+    }
+}

@@ -1,0 +1,233 @@
+//! The page of computed results, whatever they are.
+
+use std::fs;
+use std::path::Path;
+
+use asperity::study::{self, Case, Existing, Given, Results};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::*;
+
+/// Two small rough bodies that pass over each other twice.
+const MOVING: &str = "\
+title = \"two rough bodies\"
+lower = { young = 210e9, poisson = 0.3, hardness = 2e9, topography = { generate = \"low-pass\", shape = [16, 16], pitch = 1e-6, sq = 30e-9, cutoff = 4e-6, seed = 1 } }
+upper = { young = 210e9, poisson = 0.3, hardness = 4e9, topography = { generate = \"low-pass\", shape = [16, 16], pitch = 1e-6, sq = 30e-9, cutoff = 4e-6, seed = 2 } }
+contact = { load = 5e-3 }
+motion = { passes = 2, stride = 4 }
+output = { pressure_every = 1 }
+";
+
+/// A ball on a plane.
+const AT_REST: &str = "\
+lower = { young = 210e9, poisson = 0.3, topography = { form = \"flat\", shape = [24, 24], pitch = 1e-6 } }
+upper = { young = 210e9, poisson = 0.3, topography = { form = \"sphere\", radius = 1e-4, shape = [24, 24], pitch = 1e-6 } }
+contact = { load = 5e-3 }
+";
+
+/// A folder with the results of a case in it.
+struct Computed {
+    folder: TempDir,
+}
+
+impl Computed {
+    fn of(text: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let case = Case::parse(text, Path::new("case.toml"), folder.path())
+            .unwrap_or_else(|e| panic!("{e} of\n{text}"));
+        let directory = folder.path().join("results");
+        study::run(&case, Given::default(), &directory, Existing::Keep, &())
+            .unwrap_or_else(|e| panic!("{e} of\n{text}"));
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join("results").join(name)
+    }
+
+    fn page(&self) -> String {
+        page(&Results::open(&self.folder.path().join("results")).unwrap()).unwrap()
+    }
+
+    fn data(&self) -> Value {
+        let page = self.page();
+        let (_, data) = page.split_once("id=\"data\">").unwrap();
+        serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()
+    }
+
+    fn summary(&self) -> Value {
+        serde_json::from_slice(&fs::read(self.path("summary.json")).unwrap()).unwrap()
+    }
+}
+
+#[test]
+fn every_number_of_the_summary_is_on_the_page() {
+    fn look_for(value: &Value, key: &str, page: &str) -> usize {
+        match value {
+            Value::Object(keys) => {
+                keys.iter().map(|(name, v)| look_for(v, &format!("{key}.{name}"), page)).sum()
+            }
+            Value::Array(all) => {
+                all.iter().enumerate().map(|(n, v)| look_for(v, &format!("{key}.{n}"), page)).sum()
+            }
+            Value::Number(number) => {
+                let begin = format!("data-key=\"{key}\" value=\"");
+                let at = page.find(&begin).unwrap_or_else(|| panic!("no {key}")) + begin.len();
+                let told: f64 = page[at..].split('"').next().unwrap().parse().unwrap();
+                assert_eq!(Some(told), number.as_f64(), "{key}");
+                1
+            }
+            _ => 0,
+        }
+    }
+    let rubbed =
+        format!("{AT_REST}friction = {{ coefficient = 0.3 }}\nhistory = [{{ force = [1e-3, 0] }}]\n");
+    let swept = AT_REST.replace("load = 5e-3", "loads = [1e-3, 2e-3, 5e-3]");
+    for (text, key, least) in
+        [(MOVING, "passes", 40), (AT_REST, "static", 12), (&rubbed, "static", 20), (&swept, "sweep", 40)]
+    {
+        let computed = Computed::of(text);
+        let found = look_for(&computed.summary()[key], key, &computed.page());
+        assert!(found >= least, "{found} numbers of {key}");
+    }
+}
+
+#[test]
+fn the_case_on_a_page_of_an_example_is_that_case() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut looked_at = 0;
+    for entry in fs::read_dir(examples).unwrap() {
+        let folder = entry.unwrap().path();
+        let case = Case::load(&folder.join("case.toml")).unwrap();
+        let resolved = |case: &Case| study::resolved(case, &study::bodies(case, Given::default()).unwrap());
+        let before = resolved(&case);
+        let toml = toml::to_string(&head::written(&before)).unwrap();
+        let again = Case::parse(&toml, Path::new("case.toml"), Path::new(""))
+            .unwrap_or_else(|e| panic!("{e} in\n{toml}"));
+        assert_eq!(resolved(&again)["identity"], before["identity"], "{}", folder.display());
+        looked_at += 1;
+    }
+    assert!(looked_at >= 6);
+}
+
+#[test]
+fn nothing_of_a_case_is_markup_and_nothing_is_asked_for() {
+    let title = "</script><img src=x onerror=alert(1)>";
+    let computed = Computed::of(&MOVING.replace("two rough bodies", title));
+    let page = computed.page();
+    assert!(!page.contains("<img src=x"), "the title is markup");
+    assert!(page.contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;"));
+    for begin in ["=\"http", "='http", "=\"//", "@import", "url("] {
+        assert!(!page.contains(begin), "{begin}");
+    }
+    assert!(page.contains("default-src 'none'"));
+    assert!(page.len() < 600_000, "{} bytes", page.len());
+}
+
+#[test]
+fn the_same_results_make_the_same_page() {
+    let computed = Computed::of(MOVING);
+    assert!(computed.page() == computed.page());
+}
+
+#[test]
+fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
+    let section = |page: &str, id: &str| page.contains(&format!("<section id=\"{id}\" "));
+    let moving = Computed::of(MOVING);
+    let page = moving.page();
+    assert!(section(&page, "contact") && section(&page, "curves") && !section(&page, "below"));
+    assert!(page.contains("Table: passes") && page.contains("Table: positions of pass 2"));
+    let data = moving.data();
+    assert_eq!(data["contact"]["frames"].as_array().unwrap().len(), 14, "all positions of both passes");
+    assert_eq!(data["contact"]["groups"][1]["lost"].as_array().unwrap().len(), 2);
+    let names = |data: &Value, of: &str, key: &str| -> Vec<String> {
+        data.pointer(of)
+            .unwrap()
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|v| v[key].as_str().unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact"]);
+    for chart in
+        ["load", "contact_area", "max_pressure", "roughness", "approach", "pressure_histogram", "solution"]
+    {
+        assert!(names(&data, "/charts", "name").iter().any(|name| name == chart), "{chart}");
+    }
+
+    let rest = Computed::of(&format!(
+        "{AT_REST}subsurface = {{ to = 5e-6, layers = 8, columns = [[12e-6, 12e-6]] }}\n"
+    ));
+    let page = rest.page();
+    assert!(section(&page, "contact") && section(&page, "below") && !section(&page, "curves"));
+    let data = rest.data();
+    assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact", "gap"]);
+    assert_eq!(data["contact"]["layers"][1]["classes"], serde_json::json!(["no contact", "elastic"]));
+    for chart in ["profile", "stress_columns", "material_ratio"] {
+        assert_eq!(
+            names(&data, "/charts", "name").iter().any(|name| name == chart),
+            chart != "none",
+            "{chart}"
+        );
+    }
+
+    let none = Computed::of(&MOVING.replace("pressure_every = 1", "pressure_every = 0"));
+    assert!(none.page().contains("<code>pressure_every = 0</code>") && none.data()["contact"].is_null());
+}
+
+#[test]
+fn a_run_under_way_says_so_and_what_is_damaged_is_named() {
+    let computed = Computed::of(MOVING);
+    assert!(!computed.page().contains("under way"));
+    fs::remove_file(computed.path("summary.json")).unwrap();
+    let page = computed.page();
+    assert!(page.contains("2 of 2 passes are there") && page.contains("--resume"), "no banner");
+
+    let fields = computed.path("fields/pass-0001.h5");
+    let bytes = fs::read(&fields).unwrap();
+    fs::write(&fields, &bytes[..bytes.len() / 2]).unwrap();
+    let page = computed.page();
+    assert!(page.contains("Not on this page") && page.contains("pass-0001.h5"), "damage goes unnoticed");
+    assert_eq!(computed.data()["contact"]["groups"].as_array().unwrap().len(), 1, "the other pass is there");
+
+    fs::remove_file(computed.path("fields/pass-0002.h5")).unwrap();
+    let page = computed.page();
+    assert!(page.contains("pass-0002.h5") && page.contains("Table: passes"));
+    fs::write(computed.path("fields/initial.h5"), b"nothing of it").unwrap();
+    assert!(computed.page().contains("initial.h5"));
+    // Nothing but a case.
+    for name in ["passes.csv", "steps.csv"] {
+        fs::remove_file(computed.path(name)).unwrap();
+    }
+    assert!(computed.page().contains("0 of 2 passes are there"));
+}
+
+#[test]
+fn the_least_of_contacts_have_a_page() {
+    let one_cell = AT_REST.replace("[24, 24]", "[1, 1]").replace("sphere\", radius = 1e-4", "flat\"");
+    let rigid = AT_REST.replacen("young = 210e9", "young = inf", 1);
+    let apart = AT_REST.replace("load = 5e-3", "approach = -1e-7");
+    let flat = MOVING.replace("generate = \"low-pass\"", "form = \"flat\"");
+    let flat = flat
+        .replace(", sq = 30e-9, cutoff = 4e-6, seed = 1", "")
+        .replace(", sq = 30e-9, cutoff = 4e-6, seed = 2", "");
+    let narrow = flat.replace("[16, 16]", "[1, 4]");
+    let shifted = MOVING.replace("passes = 2", "strategy = \"shift\", speed_upper = 1, passes = 2");
+    for text in [&one_cell, &rigid, &apart, &flat, &narrow, &shifted] {
+        let computed = Computed::of(text);
+        let page = computed.page();
+        assert!(page.contains("<section id=\"trust\" ") && !page.contains("Not on this page"), "of\n{text}");
+        assert!(!page.contains("NaN</"), "of\n{text}");
+    }
+}
+
+#[test]
+fn beyond_the_budget_positions_are_left_out_evenly() {
+    use super::table::evenly;
+    let shown = evenly(100, 7);
+    assert_eq!((shown[0], shown[6], shown.len()), (0, 99, 7));
+    let gaps: Vec<usize> = shown.windows(2).map(|w| w[1] - w[0]).collect();
+    assert!(gaps.iter().all(|gap| (16..=17).contains(gap)), "{gaps:?}");
+}

@@ -1,0 +1,88 @@
+//! Why one may trust the numbers: residuals, what was reached of what was wanted, files, how to cite.
+
+use std::path::Path;
+
+use asperity::units::{Dimension, bytes, format};
+use serde_json::Value;
+
+use super::curves;
+use super::found::Found;
+use super::html::{details, escaped, facts};
+use crate::figures;
+
+/// The section.
+pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
+    let mut rows = Vec::new();
+    let residuals = || {
+        let steps = found.steps.iter().map(|step| step.residual);
+        let increments = found.increments.iter().map(|increment| increment.residual);
+        steps.chain(increments).chain(found.points.iter().map(|point| point.residual))
+    };
+    let at_rest = found.summary.as_ref().and_then(|summary| match &summary.outcome {
+        asperity::study::Outcome::Static(record) => Some(record),
+        _ => None,
+    });
+    let largest = residuals().chain(at_rest.map(|record| record.residual)).fold(0.0, f64::max);
+    let tolerance = found.case["contact"]["tolerance"].as_f64();
+    if largest > 0.0 {
+        let against = tolerance.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.0e}"));
+        rows.push(("largest residual η".to_owned(), format!("{largest:.1e}{against}")));
+    }
+    let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|record| record.load));
+    if let (Some(wanted), Some(reached)) = (found.case["contact"]["load"].as_f64(), reached) {
+        let off = (reached - wanted).abs() / wanted;
+        let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));
+        let text = format!("{reached} of {wanted} wanted, {off:.0e} of it off");
+        rows.push(("load reached".to_owned(), escaped(&text)));
+    }
+    if let Some(asperity::study::RunningIn { computed, represented, error_bound, .. }) =
+        found.summary.as_ref().and_then(|summary| summary.running_in.as_ref())
+    {
+        let bound = format(*error_bound, Dimension::Length);
+        let text =
+            format!("{computed} of {represented} passes computed; heights off by less than {bound} of it");
+        rows.push(("passes".to_owned(), escaped(&text)));
+    }
+    if let Some(identity) = found.case["identity"].as_str() {
+        rows.push(("identity".to_owned(), format!("<code>{}</code>", escaped(identity))));
+    }
+    let mut html = facts(rows);
+    html += &curves::html(figures::of_solution(&found.steps, &found.increments, &found.done), charts);
+    html += &details("Files", &files(found.directory()));
+    html += &details("How to cite", CITATION);
+    html
+}
+
+/// After `CITATION.cff`.
+const CITATION: &str = concat!(
+    "<p>The asperity founders: <cite>asperity: contact of two rough surfaces that press together and move</cite>, ",
+    "version ",
+    env!("CARGO_PKG_VERSION"),
+    ".</p><p>A motion by overlap: A. Ghanbarzadeh, M. Wilson, A. Morina, D. Dowson, A. Neville, <cite>A new strategy for \
+     the relative movement of rough surfaces in contact using a boundary element method</cite>.</p>"
+);
+
+/// The files of the directory with their sizes, without the figures, which are drawn from them.
+fn files(directory: &Path) -> String {
+    let mut all = Vec::new();
+    list(directory, directory, &mut all);
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    let rows = all.into_iter().map(|(name, size)| (name, escaped(&bytes(size))));
+    facts(rows)
+}
+
+fn list(folder: &Path, root: &Path, all: &mut Vec<(String, f64)>) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let Ok(metadata) = entry.metadata() else { continue };
+        if metadata.is_dir() {
+            if path != root.join("figures") {
+                list(&path, root, all);
+            }
+        } else if !name.starts_with('.') && name != super::FILE {
+            let name = path.strip_prefix(root).unwrap_or(&path).to_string_lossy().into_owned();
+            all.push((name, metadata.len() as f64));
+        }
+    }
+}

@@ -1,0 +1,256 @@
+"""The page of results in a browser: `python page.py ASPERITY FOLDER`.
+
+ASPERITY is the command, FOLDER takes the examples that are computed and screenshots of their pages. It needs playwright
+(its driver alone), h5py, and Chromium: $CHROMIUM, or `chromium` of the path. $AXE is the file axe.min.js of axe-core; without
+it accessibility is not looked at.
+"""
+
+import base64
+import csv
+import hashlib
+import html.parser
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+import zlib
+from pathlib import Path
+
+import h5py
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+EXAMPLES = ["quickstart", "hertz", "friction", "measured"]
+# A page of an example, in bytes. Times are printed, and looked at by whoever runs it on a quiet machine.
+MAX_SIZE = 1 << 20
+
+
+class Data(html.parser.HTMLParser):
+    """The numbers of a page that say what they are, and its data."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.numbers, self.inside, self.json = {}, None, None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag == "data":
+            self.numbers[attributes["data-key"]] = float(attributes["value"])
+        for name, value in attributes.items():
+            assert not (value or "").startswith(("http:", "https:", "//")), (tag, name, value)
+        self.inside = attributes.get("id") if tag == "script" else None
+
+    def handle_endtag(self, _):
+        self.inside = None
+
+    def handle_data(self, text):
+        if self.inside == "data":
+            self.json = json.loads(text)
+
+
+def flat(value, key):
+    """All numbers of JSON, under dotted keys."""
+    if isinstance(value, dict):
+        return {k: v for name, each in value.items() for k, v in flat(each, f"{key}.{name}").items()}
+    if isinstance(value, list):
+        return {k: v for n, each in enumerate(value) for k, v in flat(each, f"{key}.{n}").items()}
+    return {key: value} if isinstance(value, (int, float)) and not isinstance(value, bool) else {}
+
+
+def numbers_are_those_of_the_summary(page, results):
+    summary = json.loads((results / "summary.json").read_text())
+    key = next(k for k in ("static", "sweep", "passes") if k in summary)
+    expected = flat(summary[key], key)
+    assert len(expected) > 5
+    for name, value in expected.items():
+        assert page.numbers.get(name) == value, (name, value, page.numbers.get(name))
+
+
+def unpacked(packed):
+    """The values of a packed map, worked out here and not by the page."""
+    raw = np.frombuffer(zlib.decompress(base64.b64decode(packed["data"])), np.uint8)
+    shape = packed["shape"]
+    if packed["code"] == "even":
+        steps = (raw[: raw.size // 2].astype(np.uint16) << 8) | raw[raw.size // 2 :]
+        levels = np.cumsum(steps.reshape(shape), axis=1, dtype=np.uint16)
+        return packed["low"] + levels / 65534 * (packed["high"] - packed["low"])
+    levels = raw.reshape(shape)
+    return np.where(levels == 0, 0, (levels - 1.0) / 254) * packed["high"]
+
+
+def maps_are_the_fields(tab, data, results):
+    """What the browser unpacks is what is packed, and that is the fields within half a level."""
+    checked = 0
+    seen = tab.evaluate(
+        """async () => { const all = [];
+        for (const frame of data.contact.frames) { const p = await unpack(frame.maps.pressure);
+          let sum = 0, weighted = 0; p.levels.forEach((_, n) => { const v = cell(p, Math.floor(n / p.shape[1]), n % p.shape[1]);
+            sum += v; weighted += v * (n % 97); }); all.push([sum, weighted]); }
+        return all; }"""
+    )
+    passes = sorted(results.glob("fields/pass-*.h5"))
+    for frame, (total, weighted) in zip(data["contact"]["frames"], seen):
+        packed = frame["maps"]["pressure"]
+        if passes:
+            number = int(data["contact"]["groups"][frame["group"]]["label"].split()[1])
+            name = f"pressure_{int(frame['label'].split()[1]):05}"
+            file = results / f"fields/pass-{number:04}.h5"
+        else:
+            name, file = "pressure", results / "fields.h5"
+        with h5py.File(file) as fields:
+            field = fields[name][:]
+        values = unpacked(packed)
+        assert np.abs(values - field).max() <= 0.5001 * packed["high"] / 254, name
+        assert ((values > 0) <= (field > 0)).all()
+        places = np.arange(values.size) % 97
+        assert np.isclose(total, values.sum()) and np.isclose(weighted, (values.ravel() * places).sum())
+        checked += 1
+    first = results / ("fields/initial.h5" if passes else "fields.h5")
+    with h5py.File(first) as fields:
+        for body in data["bodies"]:
+            heights = fields[body["name"]][:]
+            level = (body["before"]["high"] - body["before"]["low"]) / 65534
+            assert np.abs(unpacked(body["before"]) - heights).max() <= 0.5001 * level, body["name"]
+    assert checked > 0
+
+
+def curves_are_the_tables(tab, data, results):
+    """The CSV of a curve over the positions holds the numbers of steps.csv."""
+    if not (results / "steps.csv").exists():
+        return
+    steps = list(csv.DictReader(open(results / "steps.csv")))
+    for column in ("load", "contact_area", "max_pressure"):
+        text = tab.evaluate("name => charts.find((view) => view.chart.name === name).csv()", column)
+        rows = list(csv.reader(text.splitlines()))
+        head = rows[0]
+        assert head[0] == "offset of the upper body (m)" and head[1].endswith((" (N)", " (m²)", " (Pa)")), head
+        number = head[1].split("pass ")[1].split(" ")[0]
+        of_pass = [step for step in steps if step["pass"] == number]
+        assert len(rows) == len(of_pass) + 1
+        for row, step in zip(rows[1:], of_pass):
+            assert float(row[0]) == float(step["offset"]) and float(row[1]) == float(step[column]), (row, step)
+
+
+def downloads(tab, folder):
+    """A map saves as PNG, a curve as CSV."""
+    tab.evaluate("document.querySelectorAll('details').forEach((d) => (d.open = true))")
+    for label, begin in (("PNG of", b"\x89PNG"), ("CSV of", b'"')):
+        with tab.expect_download() as download:
+            tab.locator(f"button[aria-label^='{label}']").first.click()
+        path = folder / download.value.suggested_filename
+        download.value.save_as(path)
+        assert path.read_bytes().startswith(begin), path
+
+
+def picture(tab):
+    """What the map of the contact shows."""
+    tab.evaluate("scrubber.show()")
+    return hashlib.sha256(tab.evaluate("scrubber.map.canvas.toDataURL()").encode()).hexdigest()
+
+
+def keys_change_the_picture(tab, data):
+    frames = data["contact"]["frames"]
+    if len(frames) == 1:
+        assert tab.locator("#scrubber input[type=range]").count() == 0
+        return
+    tab.wait_for_selector("[data-unpacked]", timeout=120_000)
+    canvas = tab.locator("#scrubber canvas").first
+    canvas.focus()
+    keys = ["ArrowRight", "ArrowLeft", "Home", "End", "ArrowLeft"]
+    if len(data["contact"]["groups"]) > 1:
+        keys += ["ArrowDown", "ArrowUp"]
+    before = picture(tab)
+    for key in keys:
+        tab.keyboard.press(key)
+        now = picture(tab)
+        assert now != before, key
+        before = now
+    tab.keyboard.press("Space")
+    for _ in range(50):
+        tab.wait_for_timeout(200)
+        if picture(tab) != before:
+            break
+    else:
+        raise AssertionError("it does not play")
+    tab.keyboard.press("Space")
+    assert tab.locator("#scrubber button", has_text="play").count() == 1
+    took = tab.evaluate(
+        """async () => { const all = []; for (let k = 0; k < 20; k++) { const began = performance.now();
+        await scrubber.to(scrubber.group, k % scrubber.groups[scrubber.group].length); all.push(performance.now() - began); }
+        return all.sort((a, b) => a - b)[10] / 1000; }"""
+    )
+    print(f"  a step of the scrubber takes {1000 * took:.1f} ms")
+
+
+def is_accessible(tab, axe):
+    if not axe:
+        return
+    for scheme in ("light", "dark"):
+        tab.emulate_media(color_scheme=scheme)
+        tab.wait_for_timeout(200)
+        # An element, not a request; the page's policy lets inline scripts run.
+        tab.evaluate(axe)
+        found = tab.evaluate("axe.run().then((r) => r.violations.map((v) => [v.id, v.nodes.map((n) => n.html + ' ' + n.failureSummary)]))")
+        assert not found, (scheme, found)
+    tab.emulate_media(color_scheme="light")
+
+
+def look_at(browser, path, results, folder, axe):
+    text = path.read_text()
+    page = Data(text)
+    numbers_are_those_of_the_summary(page, results)
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
+    tab = context.new_page()
+    wrong, requests = [], []
+    tab.on("console", lambda message: wrong.append(message.text) if message.type in ("error", "warning") else None)
+    tab.on("pageerror", lambda error: wrong.append(str(error)))
+    tab.on("request", lambda request: requests.append(request.url))
+    began = time.time()
+    tab.goto(path.as_uri())
+    tab.wait_for_selector("[data-ready]", timeout=120_000)
+    took = time.time() - began
+    print(f"{path.stem}: {len(text.encode()) / 1e6:.2f} MB, ready in {took:.1f} s")
+    maps_are_the_fields(tab, page.json, results)
+    curves_are_the_tables(tab, page.json, results)
+    keys_change_the_picture(tab, page.json)
+    downloads(tab, folder)
+    is_accessible(tab, axe)
+    for width in (1280, 400):
+        tab.set_viewport_size({"width": width, "height": 900})
+        tab.wait_for_timeout(400)
+        beyond = tab.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+        assert beyond <= 0, f"{beyond} pixels beyond {width}"
+        tab.screenshot(path=folder / f"{path.stem}-{width}.png", full_page=True)
+    assert not wrong, wrong
+    assert [url for url in requests if not url.startswith(("blob:", "data:"))] == [path.as_uri()], requests
+    context.close()
+
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    tab.goto(path.as_uri())
+    assert tab.locator("table tbody tr").count() > 3 and tab.locator("noscript img, img").count() > 0
+    context.close()
+
+
+def main(asperity, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    axe = Path(os.environ["AXE"]).read_text() if os.environ.get("AXE") else None
+    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        for example in EXAMPLES:
+            results = folder / example / "results"
+            if not (results / "summary.json").exists():
+                subprocess.run([asperity, "run", "--example", example, "--out", folder / example, "--quiet"], check=True, stderr=subprocess.DEVNULL)
+            path = folder / f"{example}.html"
+            subprocess.run([asperity, "report", results, "--out", path], check=True, stdout=subprocess.DEVNULL)
+            look_at(browser, path, results, folder, axe)
+        assert (folder / "quickstart.html").stat().st_size < MAX_SIZE
+        browser.close()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve())
