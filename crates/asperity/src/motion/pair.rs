@@ -222,10 +222,15 @@ pub(crate) fn facing_values(
     }
     let shape = [position.columns, shapes[0][1]];
     let [lower, upper] = Seat::of_bodies(position, shapes);
-    let facing =
-        |cell| of(lower.value(values[0], lower.cell(cell)), upper.value(values[1], upper.cell(cell)));
-    let values = (0..shape[0] * shape[1]).map(facing).collect();
-    CellValues::Field(Field::from_shape_vec(shape, values).expect("a value for each cell"))
+    let mut facing = Field::zeros(shape);
+    let mut above = vec![0.0; shape[1]];
+    for (j, mut row) in facing.outer_iter_mut().enumerate() {
+        let row = row.as_slice_mut().expect("standard layout");
+        lower.fill(values[0], j, row);
+        upper.fill(values[1], j, &mut above);
+        row.iter_mut().zip(&above).for_each(|(value, above)| *value = of(*value, *above));
+    }
+    CellValues::Field(facing)
 }
 
 /// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.

@@ -64,6 +64,14 @@ impl Seat {
         }
     }
 
+    /// The values of a body on all cells of the contact in its column `j`.
+    pub(super) fn fill(&self, values: &CellValues, j: usize, row: &mut [f64]) {
+        match values {
+            CellValues::Uniform(value) => row.fill(*value),
+            CellValues::Field(values) => self.for_column(values, j, row, |at, value| *at = value),
+        }
+    }
+
     /// The values of a body on all cells of the contact in its column `j`, each as `change` makes it of what stands in `row`.
     pub(super) fn for_column(
         &self,
