@@ -3,12 +3,13 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
+use crate::motion::loading::{Origin, Stage};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, ResidualRecord, StaticRecord};
-use crate::motion::watch::Watch;
+use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, StaticRecord};
+use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::Boundary;
 use crate::plasticity::{FlowParams, PlasticBody, PlasticContact, TensorField, VolumeField};
-use crate::solver::{Control, Params, Solution};
+use crate::solver::{Control, Loading, Params, Solution, Tangential};
 use crate::stress::{Component, Stress};
 use crate::units::{CubicMetre, Metre};
 
@@ -87,12 +88,10 @@ impl FlowedVolume {
     fn max_tension(&self) -> f64 {
         let mut most = 0.0_f64;
         for layer in self.residual_stress.outer_iter() {
-            let [_, nx, ny] = [layer.shape()[0], layer.shape()[1], layer.shape()[2]];
-            for (ix, iy) in ndarray::indices([nx, ny]) {
-                let components = Component::ALL.map(|component| layer[[component as usize, ix, iy]]);
-                if components.iter().any(|value| *value != 0.0) {
-                    most = most.max(Stress::from_components(components).principal()[0]);
-                }
+            for cell in layer.lanes(ndarray::Axis(0)) {
+                let stress =
+                    Stress::from_components(Component::ALL.map(|component| cell[component as usize]));
+                most = most.max(stress.principal()[0]);
             }
         }
         most
@@ -103,26 +102,24 @@ impl FlowedVolume {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FlowPath {
-    /// What is prescribed in the normal direction, stage after stage.
-    pub stages: Vec<Control>,
-    /// Equal steps of each stage, and of taking the load off, ≥ 1.
-    pub increments: usize,
-    /// Whether the load is taken off at the end.
-    pub unload: bool,
+    /// The stages, one after another; nothing acts in the plane.
+    pub stages: Vec<Stage>,
+    /// Equal steps in which the load is taken off at the end, ≥ 1; none where it stays.
+    pub unloading: Option<usize>,
     /// When a step is done.
     pub flow: FlowParams,
 }
 
 impl FlowPath {
-    /// Through these stages in so many equal steps each, and off again.
-    pub fn new(stages: Vec<Control>, increments: usize) -> Self {
-        Self { stages, increments, unload: true, flow: FlowParams::new() }
+    /// Through these stages, and no further.
+    pub fn new(stages: Vec<Stage>) -> Self {
+        Self { stages, unloading: None, flow: FlowParams::new() }
     }
 
-    /// The same, whose load is taken off at the end or not.
+    /// The same, whose load is taken off at the end in so many steps.
     #[must_use]
-    pub fn with_unloading(self, unload: bool) -> Self {
-        Self { unload, ..self }
+    pub fn with_unloading(self, steps: impl Into<Option<usize>>) -> Self {
+        Self { unloading: steps.into(), ..self }
     }
 
     /// The same with another measure of when a step is done.
@@ -153,57 +150,26 @@ pub fn press_flowing(
     let (operators, gap) = facing(pair, boundary)?;
     let operator = operators.on(pair.lower_grid().shape);
     let mut contact = PlasticContact::new(operator, gap, bodies, path.flow, *params);
-    let mut course = Course { increments: Vec::new(), products: 0, mismatch: 0.0, plastic_work: 0.0 };
-    let mut from = 0.0;
-    for (stage, control) in path.stages.iter().enumerate() {
-        for step in 1..=path.increments {
-            if watch.stop() {
-                return Err(Error::Interrupted);
-            }
-            let share = step as f64 / path.increments as f64;
-            let now = match *control {
-                Control::Load(load) => Control::Load(from + (load - from) * share),
-                // From where it first touches on.
-                Control::Approach(approach) => {
-                    let first = contact.first_touch();
-                    let start = if stage == 0 { first } else { contact.approach().unwrap_or(first) };
-                    Control::Approach(start + (approach - start) * share)
-                }
-            };
-            course.go(&mut contact, now, stage + 1)?;
-        }
-        from = contact.load();
+    let steps = path.stages.iter().map(|stage| stage.increments).chain(path.unloading).sum();
+    let mut course =
+        Course { watch, steps, increments: Vec::new(), products: 0, mismatch: 0.0, plastic_work: 0.0 };
+    for (stage, index) in path.stages.iter().zip(1..) {
+        course.walk(&mut contact, stage, index)?;
     }
     let solution =
         contact.solution().cloned().ok_or(Error::Unsupported("a contact without a load does not flow"))?;
     let volumes = kept(&mut contact, &indices);
     let flow = course.record(&mut contact, &volumes);
-    let residual = match path.unload {
-        false => Vec::new(),
-        true => {
-            let load = contact.load();
-            for step in 1..=path.increments {
-                if watch.stop() {
-                    return Err(Error::Interrupted);
-                }
-                let left = load * (1.0 - step as f64 / path.increments as f64);
-                course.go(&mut contact, Control::Load(left.max(0.0)), path.stages.len() + 1)?;
-            }
-            kept(&mut contact, &indices)
+    let (residual, left) = match path.unloading {
+        None => (Vec::new(), None),
+        Some(increments) => {
+            let loading = Loading { normal: Control::Load(0.0), tangential: Tangential::Force([0.0; 2]) };
+            course.walk(&mut contact, &Stage { loading, increments }, path.stages.len() + 1)?;
+            let residual = kept(&mut contact, &indices);
+            let left = course.record(&mut contact, &residual).into_residual();
+            (residual, Some(left))
         }
     };
-    let left = path.unload.then(|| {
-        let after = course.record(&mut contact, &residual);
-        ResidualRecord {
-            residual_max_plastic_strain: after.max_plastic_strain,
-            residual_yielded_volume: after.yielded_volume,
-            residual_plastic_work: after.plastic_work,
-            residual_stored_energy: after.stored_energy,
-            residual_displaced_volume: after.displaced_volume,
-            residual_max_residual_tension: after.max_residual_tension,
-            residual_residual_displacement: after.residual_displacement,
-        }
-    });
     let flow = FlowRecord { products: course.products, mismatch: course.mismatch, residual: left, ..flow };
     let record = StaticRecord { flow: Some(flow), ..StaticRecord::new(&solution) };
     Ok(FlowedContact {
@@ -218,17 +184,32 @@ fn kept(contact: &mut PlasticContact, indices: &[usize]) -> Vec<FlowedVolume> {
 }
 
 /// The increments so far.
-struct Course {
+struct Course<'a> {
+    watch: &'a dyn Watch,
+    /// Increments in all.
+    steps: usize,
     increments: Vec<IncrementRecord>,
     products: usize,
     mismatch: f64,
     plastic_work: f64,
 }
 
-impl Course {
+impl Course<'_> {
+    /// Goes through a stage, which begins where the contact is.
+    fn walk(&mut self, contact: &mut PlasticContact, stage: &Stage, index: usize) -> Result<()> {
+        let approach = contact.approach().unwrap_or_else(|| contact.first_touch());
+        let origin = Origin { load: contact.load(), approach, force: [0.0; 2], displacement: [0.0; 2] };
+        for step in 1..=stage.increments {
+            let Loading { normal, .. } = origin.towards(stage.loading, step as f64 / stage.increments as f64);
+            self.go(contact, normal, index)?;
+        }
+        Ok(())
+    }
+
     /// Goes on to a load or an approach.
     fn go(&mut self, contact: &mut PlasticContact, control: Control, stage: usize) -> Result<()> {
-        let increment = contact.go_to(control)?;
+        let at_rest = AtRest::new(self.watch, self.increments.len(), self.steps, control);
+        let increment = contact.go_to_watched(control, &at_rest)?;
         self.products += increment.products;
         self.mismatch = self.mismatch.max(increment.mismatch);
         self.plastic_work += increment.plastic_work();
@@ -261,6 +242,8 @@ impl Course {
             }),
             ..IncrementRecord::default()
         });
+        let (solved, positions, load) = (self.increments.len(), self.steps, contact.load());
+        self.watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
         Ok(())
     }
 
@@ -268,7 +251,10 @@ impl Course {
     fn record(&self, contact: &mut PlasticContact, volumes: &[FlowedVolume]) -> FlowRecord {
         let grid = *contact.grid();
         let bodies = contact.bodies();
-        let stored_energy = bodies.iter_mut().map(PlasticBody::stored_energy).sum();
+        let energy = |(body, volume): (&mut PlasticBody, &FlowedVolume)| {
+            -0.5 * body.volume().inner_product(&volume.residual_stress, &volume.strain)
+        };
+        let stored_energy = bodies.iter_mut().zip(volumes).map(energy).sum();
         let yielded_volume: CubicMetre = bodies.iter().map(PlasticBody::yielded_volume).sum();
         let most = bodies.iter_mut().map(|body| {
             let (strain, [layer, ix, iy]) = body.max_accumulated();

@@ -242,10 +242,12 @@ pub(super) fn compliance(
     let of_laws: Vec<_> =
         laws.iter().zip(sums).map(|(law, sums)| law.per_pressure_of_cells(pair, sums, friction)).collect();
     [0, 1].map(|body| {
-        let mut depth = Field::zeros([&pair.lower, &pair.upper][body].heights.raw_dim());
-        for (cell, depth) in depth.iter_mut().enumerate() {
-            *depth = distance * of_laws.iter().map(|of_law| of_law[body].at(cell)).sum::<f64>();
+        let at = |cell: usize| distance * of_laws.iter().map(|of_law| of_law[body].at(cell)).sum::<f64>();
+        if of_laws.iter().all(|of_law| of_law[body].uniform().is_some()) {
+            return CellValues::Uniform(at(0));
         }
+        let mut depth = Field::zeros([&pair.lower, &pair.upper][body].heights.raw_dim());
+        depth.iter_mut().enumerate().for_each(|(cell, depth)| *depth = at(cell));
         depth.into()
     })
 }

@@ -495,7 +495,7 @@ impl Origin {
     }
 
     /// The loading so far on the way to the end of the stage, which is met exactly.
-    fn towards(&self, end: Loading, share: f64) -> Loading {
+    pub(super) fn towards(&self, end: Loading, share: f64) -> Loading {
         let between = |from: f64, to: f64| if share == 1.0 { to } else { from + share * (to - from) };
         let both = |from: [f64; 2], to: [f64; 2]| [between(from[0], to[0]), between(from[1], to[1])];
         Loading {

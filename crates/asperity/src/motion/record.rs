@@ -73,6 +73,21 @@ pub struct FlowRecord {
     pub residual: Option<ResidualRecord>,
 }
 
+impl FlowRecord {
+    /// What is left, where the load has been taken off.
+    pub(super) fn into_residual(self) -> ResidualRecord {
+        ResidualRecord {
+            residual_max_plastic_strain: self.max_plastic_strain,
+            residual_yielded_volume: self.yielded_volume,
+            residual_plastic_work: self.plastic_work,
+            residual_stored_energy: self.stored_energy,
+            residual_displaced_volume: self.displaced_volume,
+            residual_max_residual_tension: self.max_residual_tension,
+            residual_residual_displacement: self.residual_displacement,
+        }
+    }
+}
+
 /// What a contact of bodies that flow leaves in them once its load is taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -59,6 +59,15 @@ pub struct Simulation {
     warm: WarmStart,
 }
 
+/// How much the laws that repeat take in a pass.
+struct PassWear {
+    softness: Softness,
+    /// Passes of such wear at which a chequered pattern of pressures would not decay if each were solved without it.
+    stable: f64,
+    /// The depths that the pass would have taken without its wear, where it was solved with that.
+    explicit: Option<Vec<[Field; 2]>>,
+}
+
 /// What gives the upper body of a pass.
 type Counter = Box<dyn Fn(usize) -> Result<Body> + Send + Sync>;
 
@@ -231,8 +240,7 @@ impl Simulation {
             self.laws.push(Box::new(law));
         } else {
             // What a pass does once comes first: how many passes it stands for depends on it.
-            let once = self.laws.iter().take_while(|law| !law.repeats()).count();
-            self.laws.insert(once, Box::new(law));
+            self.laws.insert(self.once(), Box::new(law));
         }
         self
     }
@@ -339,7 +347,7 @@ impl Simulation {
         let pass = self.passes_done + 1;
         let (mut outcome, guess, trials) = self.solve_pass(&*self.next_pair()?, watch)?;
         self.come_back(&mut outcome.contacts);
-        let begun = self.solve_with_wear(&mut outcome, watch)?;
+        let wear = self.solve_with_wear(&mut outcome, watch)?;
         let displaced = self.motion.offset_y != OffsetY::NONE;
         let offset_y = |across: usize| displaced.then_some(across as f64 * self.pair.pitch()[1]);
         let step = |(k, contact): (usize, &Contact)| {
@@ -349,7 +357,7 @@ impl Simulation {
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
         let (running, jump) = match outcome.has_changed {
             true => (None, None),
-            false => self.advance(&mut outcome, &mut steps, begun.as_deref())?,
+            false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
         };
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
@@ -364,26 +372,27 @@ impl Simulation {
         contacts.extend(back);
     }
 
-    /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging. Its contacts take the
-    /// place of those of the `outcome`; the depths that these would have taken are given.
-    fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<Vec<[Field; 2]>>> {
+    /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging: its contacts take
+    /// the place of those of the `outcome`. None where no law repeats.
+    fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<PassWear>> {
         let Some(softness) = self.softness.filter(|_| !outcome.has_changed) else { return Ok(None) };
         let passage = self.motion.passage(self.pair.pitch()[0]);
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let laws = &self.laws[self.once()..];
         let relaxation = jump::relaxation(&outcome.pair, &outcome.contacts, laws, friction, passage.distance);
-        if relaxation < 2.0 * softness.chequered {
-            return Ok(None);
+        let stable = softness.chequered / relaxation;
+        if stable > 0.5 {
+            return Ok(Some(PassWear { softness, stable, explicit: None }));
         }
         let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
         // The way back wears as much again under the same pressures.
         let distance = passage.distance * (self.positions.len() / self.distinct) as f64;
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
-        let depths = law::tried(laws, &outcome.pair, &sums, 1);
+        let explicit = Some(law::tried(laws, &outcome.pair, &sums, 1));
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
         self.come_back(&mut outcome.contacts);
-        Ok(Some(depths))
+        Ok(Some(PassWear { softness, stable, explicit }))
     }
 
     /// How many of the laws, the first, act once in a computed pass; the others do again in the passes that it stands for.
@@ -391,13 +400,12 @@ impl Simulation {
         self.laws.iter().take_while(|law| !law.repeats()).count()
     }
 
-    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for. `begun` are the depths that they
-    /// would have taken without its wear, where it was solved with that.
+    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for.
     fn advance(
         &self,
         pass: &mut Pass,
         steps: &mut [StepRecord],
-        begun: Option<&[[Field; 2]]>,
+        wear: Option<&PassWear>,
     ) -> Result<(Option<RunningRecord>, Option<Jump>)> {
         let passage = self.motion.passage(self.pair.pitch()[0]);
         let mut heat =
@@ -424,13 +432,14 @@ impl Simulation {
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let Leap { passes, mean, error } = match begun {
+        let Leap { passes, mean, error } = match wear {
             // Euler's implicit and explicit steps err by as much, to either side.
-            Some(begun) => {
+            Some(PassWear { explicit: Some(explicit), .. }) => {
                 let taken = law::tried(laws, &pass.pair, &repeated, 1);
-                Leap { error: 0.5 * law::difference(begun, &taken), ..Leap::ONE }
+                Leap { error: 0.5 * law::difference(explicit, &taken), ..Leap::ONE }
             }
-            None => self.jump(pass, laws, &repeated, flown, passage.distance),
+            Some(wear) => self.jump(pass, laws, &repeated, flown, wear),
+            None => Leap::ONE,
         };
         let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
@@ -474,11 +483,8 @@ impl Simulation {
         laws: &[Box<dyn Law>],
         sums: &[Sums],
         flown: CubicMetre,
-        distance: Metre,
+        wear: &PassWear,
     ) -> Leap {
-        let Some(softness) = self.softness else { return Leap::ONE };
-        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
-        let relaxation = jump::relaxation(&pass.pair, &pass.contacts, laws, friction, distance);
         let Some(before) = self.warm.jump.as_ref().filter(|_| self.acceleration.max_jump > 1) else {
             return Leap::ONE;
         };
@@ -488,12 +494,12 @@ impl Simulation {
             left: self.motion.passes - self.represented(),
             volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
-            stable: softness.chequered / relaxation,
+            stable: wear.stable,
         };
         let mut passes = self.acceleration.most(&bounds, before);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let allowed = self.acceleration.tolerance * softness.single * highest;
+        let allowed = self.acceleration.tolerance * wear.softness.single * highest;
         while passes > 1 {
             let mean = jump::extrapolated(sums, before, passes);
             let error = law::difference(

@@ -284,13 +284,10 @@ impl InPlace {
         }
         let (solution, contact) =
             self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
-        let temperature = self.flash(&contact)?.map(|flash| {
-            let mut field = Field::from_elem(solution.pressure.raw_dim(), f64::NAN);
-            let cells = field.as_slice_mut().expect("standard layout");
-            let of_cells = contact.pressure.iter().zip(flash.temperature);
-            of_cells.for_each(|((cell, _), temperature)| cells[*cell as usize] = temperature);
-            field
-        });
+        let flash = self.flash(&contact)?;
+        let contact =
+            Contact { temperature: flash.map_or_else(Vec::new, |flash| flash.temperature), ..contact };
+        let temperature = contact.temperature_field(solution.pressure.ncols());
         Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
     }
 
@@ -384,16 +381,9 @@ impl InPlace {
     /// The depth κ that laws take off each cell of both bodies per pressure on it over a `distance`, under these sums, m/Pa.
     fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre) -> CellValues {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
-        let (shape, position) = (pair.lower_grid().shape, pair.at_rest());
-        let laws = self.laws.iter().zip(sums);
-        let both = laws.map(|(law, sums)| {
-            let [lower, upper] = law.per_pressure_of_cells(pair, sums, friction);
-            facing_values([&lower, &upper], [shape; 2], &position, |lower, upper| (lower + upper) * distance)
-        });
-        both.reduce(|one, other| {
-            facing_values([&one, &other], [shape; 2], &position, |one, other| one + other)
-        })
-        .expect("plastic flow is a law")
+        let [lower, upper] = law::compliance(&self.laws, pair, sums, friction, distance);
+        let shape = pair.lower_grid().shape;
+        facing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper)
     }
 
     /// What the laws sum over an update.

@@ -5,7 +5,7 @@ use super::increment::{FlowParams, Increment, Loading, advance};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::operator::Operator;
-use crate::solver::{Bounds, Control, Params, Solution, solve_normal};
+use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal_watched};
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
 
@@ -102,8 +102,13 @@ impl PlasticContact {
     /// Goes on to a load (0: the bodies are taken apart) or an approach in one increment.
     ///
     /// # Errors
-    /// [`Error::AtIncrement`] with what is wrong there: [`Error::FlowNotConverged`], or what [`solve_normal`] finds.
+    /// [`Error::AtIncrement`] with what is wrong there: [`Error::FlowNotConverged`], or what [`crate::solver::solve_normal`] finds.
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
+        self.go_to_watched(control, &())
+    }
+
+    /// As [`PlasticContact::go_to`], while somebody looks on.
+    pub(crate) fn go_to_watched(&mut self, control: Control, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
         let Self { operator, initial_gap, bodies, flow, contact, pressure, places, .. } = self;
         let shapes = bodies.iter().map(|body| [body.displacement().nrows(), body.displacement().ncols()]);
@@ -112,12 +117,16 @@ impl PlasticContact {
             initial_gap,
             control,
             params: contact,
+            watch,
             pressure: pressure.clone(),
             solution: None,
             facing: places.iter().copied().zip(shapes).collect(),
         };
         let mut flowing: Vec<&mut PlasticBody> = bodies.iter_mut().collect();
-        let at = |source| Error::AtIncrement { increment: self.increments, source: Box::new(source) };
+        let at = |source| match source {
+            Error::Interrupted => source,
+            source => Error::AtIncrement { increment: self.increments, source: Box::new(source) },
+        };
         let increment = advance(&mut flowing, &mut pressing, Some(&self.shifts), flow).map_err(at)?;
         let Pressing { pressure, solution, .. } = pressing;
         self.solution = solution;
@@ -199,6 +208,7 @@ struct Pressing<'a> {
     initial_gap: &'a Field,
     control: Control,
     params: &'a Params,
+    watch: &'a dyn Watch,
     /// The last pressure: a start for the next.
     pressure: Field,
     solution: Option<Solution>,
@@ -208,6 +218,9 @@ struct Pressing<'a> {
 
 impl Loading for Pressing<'_> {
     fn act(&mut self, residual: &[Field]) -> Result<Vec<Action>> {
+        if self.watch.stop() {
+            return Err(Error::Interrupted);
+        }
         if self.control == Control::Load(0.0) {
             self.pressure.fill(0.0);
             self.solution = None;
@@ -217,8 +230,16 @@ impl Loading for Pressing<'_> {
             let gap = facing
                 .fold(self.initial_gap.clone(), |gap, (r, (place, _))| gap + on_contact(r, *place, shape));
             let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
-            let solution =
-                solve_normal(self.operator, &gap, &Bounds::ELASTIC, self.control, start, self.params)?;
+            let (control, params) = (self.control, self.params);
+            let solution = solve_normal_watched(
+                self.operator,
+                &gap,
+                &Bounds::ELASTIC,
+                control,
+                start,
+                params,
+                self.watch,
+            )?;
             self.pressure.assign(&solution.pressure);
             self.solution = Some(solution);
         }

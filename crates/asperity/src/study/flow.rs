@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use crate::error::Result;
-use crate::motion::{FlowPath, Pair};
+use crate::motion::{FlowPath, Pair, Stage};
 use crate::plasticity::{PlasticBody, Volume};
 use crate::study::case::{Case, PlasticitySpec};
-use crate::units::SquareMetre;
 
 /// The bodies of `case` that flow, lower one first, under the surfaces of the `pair`.
 pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<[Option<PlasticBody>; 2]> {
@@ -20,15 +19,7 @@ pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<
     Ok([of_body(0)?, of_body(1)?])
 }
 
-/// How the bodies of `case` are pressed together on so large an apparent area.
-pub(super) fn path(case: &Case, spec: &PlasticitySpec, apparent_area: SquareMetre) -> FlowPath {
-    let mut control = case.contact.prescribed.control(apparent_area);
-    let mut stages = vec![control];
-    for stage in &case.history {
-        if let Some(normal) = stage.normal {
-            control = normal.control(apparent_area);
-        }
-        stages.push(control);
-    }
-    FlowPath::new(stages, spec.increments).with_unloading(spec.unload).with_flow(spec.params())
+/// How the bodies of `case` are pressed together by these `stages`.
+pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> FlowPath {
+    FlowPath::new(stages).with_unloading(spec.unload.then_some(spec.increments)).with_flow(spec.params())
 }

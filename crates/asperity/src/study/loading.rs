@@ -73,11 +73,7 @@ impl LoadingWriter {
     /// # Errors
     /// [`Error::File`].
     pub fn done(&self) -> Result<()> {
-        let state = self.results.increment_state_path();
-        self.results.remove(&state)?;
-        // Nothing else is kept of a loading: its folder goes, unless somebody has put something there.
-        let _ = state.parent().map(std::fs::remove_dir);
-        Ok(())
+        self.results.remove_state(&self.results.increment_state_path())
     }
 }
 

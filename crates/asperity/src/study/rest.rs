@@ -159,22 +159,17 @@ pub(super) fn solve(
         let warnings = at_rest(&worn.state.pair, case, &worn.solution);
         return Ok((Solved::Slid(Box::new(worn), friction, kept), warnings));
     }
-    if let Some(spec) = &case.plasticity {
-        let FlowedContact { record, solution, flowed } = press_flowing(
-            pair,
-            boundary,
-            flow::bodies(case, spec, pair)?,
-            &flow::path(case, spec, apparent_area),
-            params,
-            watch,
-        )?;
-        begin()?;
-        let warnings =
-            [review::flowed(case, pair, &record, &flowed), at_rest(pair, case, &solution)].concat();
-        return Ok((Solved::Flowed(Box::new(record), Box::new(solution), Some(Box::new(flowed))), warnings));
-    }
-    Ok(match (case.loading_path(apparent_area), law) {
-        (Some(LoadingPath::Sweep(points)), law) => {
+    Ok(match (case.loading_path(apparent_area), law, &case.plasticity) {
+        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => {
+            let (bodies, path) = (flow::bodies(case, spec, pair)?, flow::path(spec, stages));
+            let FlowedContact { record, solution, flowed } =
+                press_flowing(pair, boundary, bodies, &path, params, watch)?;
+            begin()?;
+            let warnings =
+                [review::flowed(case, pair, &record, &flowed), at_rest(pair, case, &solution)].concat();
+            (Solved::Flowed(Box::new(record), Box::new(solution), Some(Box::new(flowed))), warnings)
+        }
+        (Some(LoadingPath::Sweep(points)), law, _) => {
             begin()?;
             let (points, contact) = match writer {
                 None => sweep(pair, boundary, law, &points, params, Vec::new(), watch, &mut ())?,
@@ -187,14 +182,14 @@ pub(super) fn solve(
             let warnings = review::sweep(&points, &contact);
             (Solved::Swept(Outcome::Sweep(points), Box::new(contact)), warnings)
         }
-        (Some(LoadingPath::Rolling(rolling)), Some(law)) => {
+        (Some(LoadingPath::Rolling(rolling)), Some(law), _) => {
             let contact = roll(pair, boundary, law, control, rolling, params, watch)?;
             begin()?;
             let warnings =
                 [review::loaded(&contact), at_rest(pair, case, contact.solution.normal())].concat();
             (Solved::Loaded(Box::new(contact), None), warnings)
         }
-        (Some(LoadingPath::Stages(stages)), law) if law.is_some() || stages.len() > 1 => {
+        (Some(LoadingPath::Stages(stages)), law, _) if law.is_some() || stages.len() > 1 => {
             begin()?;
             let increments = stages.iter().map(|stage| stage.increments).sum();
             let mut loading = writer.map(|writer| Box::new(writer.loading(pair, increments)));

@@ -68,11 +68,7 @@ impl SlidingWriter {
     /// # Errors
     /// [`Error::File`].
     pub fn done(&self) -> Result<()> {
-        let state = self.results.update_state_path();
-        self.results.remove(&state)?;
-        // Nothing else is kept of it: its folder goes, unless somebody has put something there.
-        let _ = state.parent().map(std::fs::remove_dir);
-        Ok(())
+        self.results.remove_state(&self.results.update_state_path())
     }
 }
 

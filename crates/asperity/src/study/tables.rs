@@ -140,10 +140,7 @@ pub(super) fn write_increments(path: &Path, increments: &[IncrementRecord]) -> R
         Some(row) => row.columns(),
         None => INCREMENT_COLUMNS.map(str::to_owned).to_vec(),
     };
-    atomic::write_with(path, |file| {
-        writeln!(file, "{}", columns.join(","))?;
-        file.write_all(lines(&columns, &rows).as_bytes())
-    })
+    write_rows(path, &columns, &rows)
 }
 
 /// Reads `increments.csv`.
@@ -214,14 +211,19 @@ impl GrowingTable {
             false => raw_rows(&self.path).map_err(failed(&self.path))?,
         };
         before.extend(rows);
-        let text = lines(&columns, &before);
-        atomic::write_with(&self.path, |file| {
-            writeln!(file, "{}", columns.join(","))?;
-            file.write_all(text.as_bytes())
-        })?;
+        write_rows(&self.path, &columns, &before)?;
         self.columns = columns;
         Ok(())
     }
+}
+
+/// Writes a table of these columns.
+fn write_rows(path: &Path, columns: &[String], rows: &[Row]) -> Result<()> {
+    let text = lines(columns, rows);
+    atomic::write_with(path, |file| {
+        writeln!(file, "{}", columns.join(","))?;
+        file.write_all(text.as_bytes())
+    })
 }
 
 /// The rows in the order of these `columns`, a line each; a volume of a law that a row does not know is 0.

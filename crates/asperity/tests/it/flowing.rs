@@ -101,6 +101,29 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     assert!(open < 1e-5 * record.approach, "{open:e}");
 }
 
+/// A stage goes in its own equal steps from where the one before has ended, in load or approach; without any in those of the volume.
+#[test]
+fn stages_go_in_their_own_steps() {
+    let stages = "[[history]]\nload = \"8 N\"\nincrements = 2\n[[history]]\napproach = \"1.2 um\"\n";
+    let staged = study::rest(
+        &case("16 N", FLOWS, &format!("{VOLUME}unload = false\n{stages}")),
+        Given::default(),
+        &(),
+    )
+    .unwrap();
+    let increments = &staged.increments;
+    let stages: Vec<usize> = increments.iter().map(|increment| increment.stage).collect();
+    assert_eq!(stages, [1, 1, 1, 1, 2, 2, 3, 3, 3, 3]);
+    for (increment, load) in increments.iter().zip([4.0, 8.0, 12.0, 16.0, 12.0, 8.0]) {
+        assert!((increment.load - load).abs() < 1e-6, "{increment:?}");
+    }
+    let from = increments[5].approach;
+    for (increment, part) in increments[6..].iter().zip([0.25, 0.5, 0.75, 1.0]) {
+        let expected = from + part * (1.2e-6 - from);
+        assert!((increment.approach / expected - 1.0).abs() < 1e-9, "{increment:?} {expected:e}");
+    }
+}
+
 #[test]
 fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     let depth = |depth: &str| VOLUME.replace("72 um", depth);

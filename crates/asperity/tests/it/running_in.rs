@@ -375,27 +375,31 @@ fn an_interrupted_run_goes_on_with_the_same_jumps() {
     assert_eq!(jumps(&rest), jumps(&whole)[6..]);
 }
 
-#[test]
-fn friction_heats_the_cells_and_films_see_it() {
+/// Some passes of a body in zinc dialkyl dithiophosphate against one that runs over it so fast under friction, heated in every so
+/// many passes, in none at 0.
+fn heated(speed: f64, passes: usize, every: usize) -> Kept {
     use asperity::solver::{Coupling, Friction};
     use asperity::temperature::Thermal;
 
     let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
+    let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
+    let motion = Motion::new(strategy, Control::Load(0.05))
+        .with_passes(passes)
+        .with_stride(4)
+        .with_friction(friction)
+        .with_bulk([373.15; 2]);
+    let pair = rough(1.5e9, 16);
+    let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
+    let simulation =
+        Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
     let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
-    let run = |speed: f64, heated: bool| {
-        let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
-        let motion = Motion::new(strategy, Control::Load(0.05))
-            .with_passes(2)
-            .with_stride(4)
-            .with_friction(friction)
-            .with_bulk([373.15; 2]);
-        let pair = rough(1.5e9, 16);
-        let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
-        let simulation =
-            Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
-        Kept::of(if heated { simulation.with_heat([steel; 2], 1).unwrap() } else { simulation })
-    };
-    let [cold, slow, fast] = [run(0.5, false), run(0.5, true), run(5.0, true)];
+    Kept::of(if every > 0 { simulation.with_heat([steel; 2], every).unwrap() } else { simulation })
+}
+
+#[test]
+fn friction_heats_the_cells_and_films_see_it() {
+    let run = |speed: f64, every: usize| heated(speed, 2, every);
+    let [cold, slow, fast] = [run(0.5, 0), run(0.5, 1), run(5.0, 1)];
     let warmest = |kept: &Kept| kept.passes[1].running.unwrap().max_flash_temperature - 373.15;
     assert_eq!(warmest(&cold), 0.0);
     assert!(
@@ -417,25 +421,7 @@ fn friction_heats_the_cells_and_films_see_it() {
 /// Between passes whose flash temperature is computed the cells are as warm as they were in the last of these.
 #[test]
 fn what_is_heated_in_some_passes_grows_films_in_all() {
-    use asperity::solver::{Coupling, Friction};
-    use asperity::temperature::Thermal;
-
-    let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
-    let run = |every: usize| {
-        let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 5.0 };
-        let motion = Motion::new(strategy, Control::Load(0.05))
-            .with_passes(7)
-            .with_stride(4)
-            .with_friction(friction)
-            .with_bulk([373.15; 2]);
-        let pair = rough(1.5e9, 16);
-        let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
-        let simulation =
-            Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
-        let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
-        Kept::of(if every > 0 { simulation.with_heat([steel; 2], every).unwrap() } else { simulation })
-    };
-    let [never, each, third] = [0, 1, 3].map(run);
+    let [never, each, third] = [0, 1, 3].map(|every| heated(5.0, 7, every));
     let grown = |kept: &Kept| kept.passes[6].running.unwrap().mean_film_lower;
     let [cold, all, some] = [&never, &each, &third].map(grown);
     assert!(

@@ -5,6 +5,7 @@ use crate::grid::Grid;
 use crate::material::Material;
 use crate::operator::{Boundary, PeriodicFft};
 use crate::plasticity::{Hardening, J2, Layers, Volume};
+use crate::solver::solve_normal;
 
 /// A rigid sphere on a body of E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an independent
 /// program.

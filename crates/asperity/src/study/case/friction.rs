@@ -6,7 +6,7 @@ use super::cursor::{Entry, Table};
 use super::keys::{belongs, known_in};
 use super::prescribed::{Prescribed, prescribed};
 use super::sweep::creepages;
-use super::{Case, Number};
+use super::{Case, Number, PlasticitySpec};
 use crate::error::Result;
 use crate::motion::{Point, Stage};
 use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
@@ -104,8 +104,8 @@ impl Case {
     /// The loading path of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
     /// `[motion]` or `[sliding]`.
     ///
-    /// Without friction a first stage is a single increment: pressed for the first time, a contact does not depend on its
-    /// steps.
+    /// Without friction a first stage is a single increment, unless bodies flow below their surfaces: pressed for the first time, a
+    /// contact does not depend on its steps.
     pub fn loading_path(&self, apparent_area: SquareMetre) -> Option<LoadingPath> {
         if self.motion.is_some() || self.sliding.is_some() {
             return None;
@@ -128,7 +128,8 @@ impl Case {
         }
         let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
-        let increments = friction.map_or(1, |friction| friction.increments);
+        let flowing = self.plasticity.map_or(1, |plasticity| plasticity.increments);
+        let increments = friction.map_or(flowing, |friction| friction.increments);
         let mut stages = vec![Stage { loading, increments }];
         for stage in &self.history {
             if let Some(normal) = stage.normal {
@@ -219,7 +220,7 @@ pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<F
         return Err(entry.error(message, Some(STEADY.to_owned())));
     }
     spec.spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, spec.rolls()))?;
-    spec.increments = increments(table)?;
+    spec.increments = increments(table, 1)?;
     Ok(spec)
 }
 
@@ -242,7 +243,12 @@ fn spin(entry: &Entry<'_>, rolls: bool) -> Result<f64> {
 }
 
 /// The stages after the first, in the plane only where there is friction.
-pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> Result<Vec<StageSpec>> {
+pub(super) fn history(
+    tables: &[Table<'_>],
+    friction: Option<&FrictionSpec>,
+    plasticity: Option<&PlasticitySpec>,
+) -> Result<Vec<StageSpec>> {
+    let steps = plasticity.map_or(1, |plasticity| plasticity.increments);
     tables
         .iter()
         .map(|table| {
@@ -272,14 +278,14 @@ pub(super) fn history(tables: &[Table<'_>], friction: Option<&FrictionSpec>) -> 
                         .transpose()?,
                     None => None,
                 },
-                increments: increments(table)?,
+                increments: increments(table, steps)?,
             })
         })
         .collect()
 }
 
-fn increments(table: &Table<'_>) -> Result<usize> {
-    table.get("increments").map_or(Ok(1), |entry| entry.count(1))
+fn increments(table: &Table<'_>, default: usize) -> Result<usize> {
+    table.get("increments").map_or(Ok(default), |entry| entry.count(1))
 }
 
 /// The one of `keys` that is given, if any is.

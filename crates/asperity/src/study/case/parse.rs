@@ -7,7 +7,7 @@ use super::document::Document;
 use super::friction::friction;
 use super::hardness::hardness;
 use super::keys::{belongs, known_in, known_of_topographies, suits};
-use super::plasticity;
+use super::plasticity::{self, PlasticitySpec};
 use super::prescribed::prescribed;
 use super::running;
 use super::sliding::{alone, sliding};
@@ -90,7 +90,8 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let friction = root.table("friction")?.map(|table| friction(&table, yields, slides)).transpose()?;
     let stages = root.get("history");
     stands_alone(&contact_table, friction.as_ref(), motion.is_some(), stages.is_some())?;
-    let history = history(stages.as_ref(), motion.is_some(), friction.as_ref())?;
+    let plasticity = plasticity::plasticity(&root, [&lower, &upper])?;
+    let history = history(stages.as_ref(), motion.is_some(), friction.as_ref(), plasticity.as_ref())?;
     if let (Some(_), Some(motion)) = (&friction, motion)
         && motion.strategy.direction() == 0.0
     {
@@ -107,7 +108,6 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let acceleration = acceleration.transpose()?;
     let temperature =
         running::temperature(&root, [&lower, &upper], motion.as_ref(), sliding.as_ref(), contact.boundary)?;
-    let plasticity = plasticity::plasticity(&root, [&lower, &upper])?;
     let subsurface =
         root.table("subsurface")?.map(|table| subsurface(&table, motion.is_some())).transpose()?;
     if let Some(entry) = root.table("friction")?.and_then(|table| table.get("spin"))
@@ -266,6 +266,7 @@ fn history(
     entry: Option<&Entry<'_>>,
     moves: bool,
     friction: Option<&FrictionSpec>,
+    plasticity: Option<&PlasticitySpec>,
 ) -> Result<Vec<StageSpec>> {
     let Some(entry) = entry else { return Ok(Vec::new()) };
     let tables = entry.tables()?;
@@ -278,7 +279,7 @@ fn history(
             None => entry.error(message, hint),
         });
     }
-    super::friction::history(&tables, friction)
+    super::friction::history(&tables, friction, plasticity)
 }
 
 fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {

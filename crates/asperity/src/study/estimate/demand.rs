@@ -205,10 +205,11 @@ impl Sizes<'_> {
         /// Products of an increment that flows, and those of one that is taken off.
         const PRODUCTS: [f64; 2] = [8.0, 1.0];
         let Some(plasticity) = self.case.plasticity else { return 0.0 };
-        let stages = 1.0 + self.case.history.len() as f64;
+        let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
         let [flowing, unloading] = PRODUCTS;
         let unloading = if plasticity.unload { unloading } else { 0.0 };
-        let products = plasticity.increments as f64 * (stages * flowing + unloading);
+        let first = plasticity.increments as f64;
+        let products = flowing * (first + later as f64) + unloading * first;
         let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };
         products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
     }

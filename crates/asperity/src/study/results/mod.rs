@@ -290,6 +290,13 @@ impl Results {
         }
     }
 
+    /// Removes the state of a static contact under way, and its folder, unless somebody has put something there.
+    pub(super) fn remove_state(&self, state: &Path) -> Result<()> {
+        self.remove(state)?;
+        let _ = state.parent().map(fs::remove_dir);
+        Ok(())
+    }
+
     /// What has flowed below the surfaces: of a static contact, or after the pass, from 1, of a motion.
     ///
     /// # Errors
