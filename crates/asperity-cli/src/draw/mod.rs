@@ -33,7 +33,9 @@ pub(crate) use axis::{Quantity, Unit};
 pub(crate) use chart::{Axis, Chart, Charts, Mark, Series};
 pub(crate) use colour::{Colours, palette};
 pub(crate) use map::Map;
-pub(crate) use output::{Caption, Figure, Format, Paper, captioned, picture, save, write as write_scene};
+pub(crate) use output::{
+    Caption, Figure, Format, Paper, captioned, captioned_alike, picture, save, write as write_scene,
+};
 pub(crate) use relief::Relief;
 pub(crate) use scene::Scene;
 pub(crate) use sheet::{Maps, heights, range_of_heights};

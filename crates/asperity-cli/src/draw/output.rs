@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::image::Image;
+use super::image::{Image, Rgb};
 use super::scene::{FAINT, INK, Scene};
 use super::text::{SMALL, wrapped};
 use super::{Result, at, pdf, raster, svg};
@@ -80,12 +80,38 @@ pub(crate) trait Figure {
 
 /// A figure under its caption.
 pub(crate) fn captioned(figure: &dyn Figure, caption: &Caption, paper: &Paper) -> Scene {
-    const TITLE: f64 = 9.5;
     let scene = figure.scene(paper);
+    let lines = lines(caption, &scene);
+    scene.under(&lines)
+}
+
+/// Figures, each under its caption, of one size: those with fewer lines of a caption or a legend have room left.
+pub(crate) fn captioned_alike<F: Figure>(figures: &[(F, Caption)], paper: &Paper) -> Vec<Scene> {
+    let all = figures.iter().map(|(figure, caption)| {
+        let scene = figure.scene(paper);
+        let lines = lines(caption, &scene);
+        (scene, lines)
+    });
+    let mut all: Vec<(Scene, Vec<Line>)> = all.collect();
+    let most = all.iter().map(|(_, lines)| lines.len()).max().unwrap_or_default();
+    all.iter_mut().for_each(|(_, lines)| lines.resize(most, (String::new(), SMALL, FAINT)));
+    let mut scenes: Vec<Scene> = all.into_iter().map(|(scene, lines)| scene.under(&lines)).collect();
+    let size =
+        scenes.iter().fold([0.0; 2], |most: [f64; 2], scene| [0, 1].map(|k| most[k].max(scene.size[k])));
+    scenes.iter_mut().for_each(|scene| scene.size = size);
+    scenes
+}
+
+/// A line of text, its size, its colour.
+type Line = (String, f64, Rgb);
+
+/// The lines of a caption over a scene.
+fn lines(caption: &Caption, scene: &Scene) -> Vec<Line> {
+    const TITLE: f64 = 9.5;
     let room = scene.size[0] - 12.0;
     let title = wrapped(&caption.title, TITLE, room).into_iter().map(|line| (line, TITLE, INK));
     let of = wrapped(&caption.of, SMALL, room).into_iter().map(|line| (line, SMALL, FAINT));
-    scene.under(&title.chain(of).collect::<Vec<_>>())
+    title.chain(of).collect()
 }
 
 /// Draws a figure under its caption into the file `path`.

@@ -505,6 +505,22 @@ fn a_figure_that_cannot_be_written_names_its_file() {
 }
 
 #[test]
+fn frames_whose_captions_and_legends_differ_are_of_one_size() {
+    let (g, field) = (grid(8, 8, 1e-6), Field::zeros([8, 8]));
+    let missing = Field::from_elem([8, 8], f64::NAN);
+    let frame = |field, of: &str| {
+        let caption = Caption { of: of.to_owned(), ..caption() };
+        (Maps::new(vec![pressures("", field, &g).range([0.0, 4e9]).missing("nothing faces it")]), caption)
+    };
+    let long = "pass 1, position 100, load 10.5 N ".repeat(6);
+    let frames = [frame(&field, "pass 1"), frame(&field, &long), frame(&missing, "pass 1")];
+    let sizes = captioned_alike(&frames, &PAPER).iter().map(|scene| scene.size).collect::<Vec<_>>();
+    assert!(sizes[0] == sizes[1] && sizes[1] == sizes[2], "{sizes:?}");
+    let alone = captioned(&frames[0].0, &frames[0].1, &PAPER).size;
+    assert!(alone[1] < sizes[0][1], "{alone:?}, {sizes:?}");
+}
+
+#[test]
 fn an_animation_shows_each_frame_in_its_time() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("pass.gif");

@@ -104,8 +104,8 @@ impl<'a> Sheet<'a> {
         }
         self.go_on()?;
         let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
-        let scene = |(of, figure): (String, F)| draw::captioned(&figure, &self.caption(title, &of), &paper);
-        let scenes: Vec<Scene> = frames()?.into_iter().map(scene).collect();
+        let frames = frames()?.into_iter().map(|(of, figure)| (figure, self.caption(title, &of)));
+        let scenes = draw::captioned_alike(&frames.collect::<Vec<_>>(), &paper);
         for name in wanted {
             self.drawings.push((self.folder.join(name), Drawing::Moving(scenes.clone(), colours)));
         }

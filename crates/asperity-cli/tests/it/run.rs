@@ -17,7 +17,7 @@ use asperity::surface::ReadOptions;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, files, ok, refused, send, spawn, stderr, wait_for};
+use crate::support::{asperity, change, command, files, ok, refused, send, spawn, stderr, wait_for};
 
 // ---- what a run leaves -----------------------------------------------------------------------------------
 
@@ -775,24 +775,77 @@ fn the_page_of_an_interrupted_run_shows_what_is_done() {
 }
 
 #[test]
-fn an_animation_is_an_apng_where_it_is_named_and_an_mp4_where_there_is_ffmpeg() {
-    let folder = folder_with("case.toml", &moving(1, 8));
+fn an_animation_is_an_apng_where_it_is_named() {
+    // Its numbers are so long that they break the line over some of the frames.
+    let title = format!("title = \"{}\"\n", "contact ".repeat(9));
+    let folder = folder_with("case.toml", &format!("{title}{}", moving(1, 8)));
     ok(&run(&folder, "case.toml --out out"));
-    assert!(!folder.path().join("out/figures/pressure.apng").exists());
+    let gif = fs::read(folder.path().join("out/figures/pressure.gif")).unwrap();
+    assert!(gif.starts_with(b"GIF89a") && !folder.path().join("out/figures/pressure.apng").exists());
     assert_eq!(ok(&asperity(&folder, "plot out --only pressure.apng")), "out/figures/pressure.apng\n");
     let bytes = fs::read(folder.path().join("out/figures/pressure.apng")).unwrap();
-    let count = |chunk: &[u8]| bytes.windows(4).filter(|window| *window == chunk).count();
     let names = Fields::open(&folder.path().join("out/fields/pass-0001.h5")).unwrap().names().unwrap();
-    let kept = names.iter().filter(|name| name.starts_with("pressure_")).count();
-    assert!(kept > 1 && count(b"acTL") == 1 && count(b"fcTL") == kept, "{} frames of {kept}", count(b"fcTL"));
-    let output = asperity(&folder, "plot out --only pressure.mp4");
-    if Command::new("ffmpeg").arg("-version").output().is_ok() {
-        ok(&output);
-        let bytes = fs::read(folder.path().join("out/figures/pressure.mp4")).unwrap();
-        assert_eq!(&bytes[4..8], b"ftyp");
-    } else {
-        assert!(refused(&output).contains("`apt-get install ffmpeg`"), "{}", stderr(&output));
+    let kept = names.iter().filter(|name| name.starts_with("pressure_")).count() as u32;
+
+    let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
+    assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+    let (mut at, mut frames, mut sequence, mut last) = (8, 0, 0, Vec::new());
+    while at < bytes.len() {
+        let (length, content) = (number(at) as usize, at + 8);
+        last = bytes[at + 4..content].to_vec();
+        match &*last {
+            // As many frames as positions, without end.
+            b"acTL" => assert_eq!((number(content), number(content + 4)), (kept, 0)),
+            b"fcTL" => {
+                assert_eq!(number(content), sequence);
+                assert_eq!(bytes[content + 20..content + 24], [0, 12, 0, 100], "not 0.12 s");
+                (frames, sequence) = (frames + 1, sequence + 1);
+            }
+            b"fdAT" => {
+                assert_eq!(number(content), sequence);
+                sequence += 1;
+            }
+            _ => {}
+        }
+        at = content + length + 4;
     }
+    assert!(kept > 1 && frames == kept && at == bytes.len() && last == b"IEND", "{frames} frames of {kept}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_animation_is_an_mp4_where_there_is_ffmpeg() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let drawn = folder.path().join("out/figures/pressure.mp4");
+    let plot =
+        |path: &str| command(&folder, "plot out --only pressure.mp4").env("PATH", path).output().unwrap();
+    assert!(refused(&plot("nowhere")).contains("`apt-get install ffmpeg`") && !drawn.exists());
+
+    let programs = format!("{}:/usr/bin:/bin", folder.path().display());
+    let program = folder.path().join("ffmpeg");
+    let put = |script: &str| {
+        fs::write(&program, script).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    };
+    put("#!/bin/sh\necho \"$@\" > arguments; wc -c > bytes; printf film\n");
+    ok(&plot(&programs));
+    assert_eq!(fs::read(&drawn).unwrap(), b"film");
+    let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
+    let after = |name: &str| arguments.split_once(name).unwrap().1.split(' ').next().unwrap().to_owned();
+    assert_eq!((after("-framerate ").as_str(), after("-pix_fmt ").as_str()), ("100/12", "rgb24"));
+    let size = after("-video_size ");
+    let (width, height) = size.split_once('x').unwrap();
+    let frame = 3 * width.parse::<usize>().unwrap() * height.parse::<usize>().unwrap();
+    let bytes: usize = fs::read_to_string(folder.path().join("bytes")).unwrap().trim().parse().unwrap();
+    assert!(bytes > frame && bytes.is_multiple_of(frame), "{bytes} bytes in frames of {frame}");
+
+    put("#!/bin/sh\ncat > /dev/null; echo no codec >&2; exit 3\n");
+    let output = plot(&programs);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no codec") && fs::read(&drawn).unwrap() == b"film");
 }
 
 #[test]
