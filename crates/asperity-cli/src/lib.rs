@@ -22,6 +22,7 @@ use clap::Parser;
 
 use args::{Arguments, Command};
 pub use machine::available as available_memory;
+pub use page::make as write_report;
 pub use verify::{
     expected as verification_expects, text as verification_text, verdict as verification_verdict,
 };

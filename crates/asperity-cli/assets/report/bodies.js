@@ -21,7 +21,8 @@ async function showBody(place, body) {
   const shown = new Profiles(profiles, body);
   let relief = false;
   let at = region.map(([, end]) => end / 2);
-  const views = [{ title: body.lost ? `${body.title}, before` : body.title, file: `${body.name}-before`, packed: body.before, heights: true }];
+  const views = [];
+  if (!body.flat) views.push({ title: body.lost ? `${body.title}, before` : body.title, file: `${body.name}-before`, packed: body.before, heights: true });
   if (body.lost) {
     views.push({ title: `${body.title}, after the last pass`, file: `${body.name}-after`, packed: remaining(body), heights: true });
     views.push({ title: `depth that the ${body.title.split(",")[0]} has lost`, file: `${body.name}-lost`, packed: body.lost, heights: false });
@@ -29,10 +30,10 @@ async function showBody(place, body) {
   for (const { name, title, quantity, map, unit } of body.kept) {
     views.push({ title, file: `${body.name}-${name}`, packed: map, quantity, unit });
   }
-  const pick = (x, y) => { at = [x, y]; draw(); shown.show(x, y); };
+  const pick = body.flat ? null : (x, y) => { at = [x, y]; draw(); shown.show(x, y); };
   for (const view of views) view.map = new MapView(place, view.title, view.file, pick);
   function draw() {
-    const cross = [{ from: [region[0][0], at[1]], to: [region[0][1], at[1]] }, { from: [at[0], region[1][0]], to: [at[0], region[1][1]] }];
+    const cross = body.flat ? [] : [{ from: [region[0][0], at[1]], to: [region[0][1], at[1]] }, { from: [at[0], region[1][0]], to: [at[0], region[1][1]] }];
     for (const { map, packed, heights, quantity, unit: own } of views) {
       const range = heights ? body.range : [0, Math.max(packed.high, 0)];
       const unit = heights ? body.unit : own || body.lost_unit;
@@ -45,13 +46,15 @@ async function showBody(place, body) {
       });
     }
   }
-  const flat = body.before.low === body.before.high;
+  if (!views.length) return;
   const light = element("input", { type: "checkbox", onchange: () => { relief = light.checked; draw(); } });
-  place.before(element("div", { class: "controls" }, flat ? "flat" : element("label", {}, light, "light from the upper left"),
-    element("span", { class: "remark" }, "click a map for profiles through that point")));
-  place.after(profiles);
+  if (!body.flat) {
+    place.before(element("div", { class: "controls" }, element("label", {}, light, "light from the upper left"),
+      element("span", { class: "remark" }, "click a map for profiles through that point")));
+    place.after(profiles);
+  }
   draw();
-  shown.show(...at);
+  if (!body.flat) shown.show(...at);
 }
 
 const bodiesReady = Promise.all([...document.querySelectorAll("[data-body]")].map((place) =>

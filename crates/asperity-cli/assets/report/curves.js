@@ -19,8 +19,7 @@ class ChartView {
   show(chart) {
     this.chart = chart;
     if (this.plot) this.plot.destroy();
-    const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-    const [ink, line] = [css("--ink"), css("--line")];
+    const [ink, line] = [style("--ink"), style("--line")];
     const colour = (n) => SERIES[n % SERIES.length] || ink;
     const series = chart.series;
     const axisOf = (s) => (s.right ? chart.right : chart.y);
@@ -68,7 +67,11 @@ class ChartView {
   }
 
   width() { return Math.max(200, this.place.clientWidth); }
-  height() { return Math.min(340, Math.max(220, 0.62 * this.width())); }
+  /** So high that the words at the axes have room. */
+  height() {
+    const letters = Math.max(...[this.chart.y, this.chart.right].map((axis) => (axis ? axis.label.length + axis.symbol.length + 3 : 0)));
+    return Math.max(Math.min(340, Math.max(220, 0.62 * this.width())), 80 + 6.6 * letters);
+  }
 
   resize() {
     if (this.plot && this.plot.width !== this.width()) this.plot.setSize({ width: this.width(), height: this.height() });
@@ -161,7 +164,7 @@ function decades(min, max) {
 
 /** What stands at a tick; of a logarithmic axis ticks are decimal logarithms. */
 function tick(v, log) {
-  if (!log) return digits(v);
+  if (!log) return round(v);
   if (v >= -3 && v < 5) return digits(10 ** v);
   const power = Math.floor(v + 1e-9);
   const mantissa = 10 ** (v - power);

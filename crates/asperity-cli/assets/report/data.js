@@ -11,6 +11,18 @@ function digits(value) {
   return text.replace("-", "−");
 }
 
+/** A round number in full, as it stands at a tick. */
+function round(value) {
+  const size = Math.abs(value);
+  return size !== 0 && (size < 1e-4 || size >= 1e6) ? digits(value) : String(Number(value.toPrecision(10))).replace("-", "−");
+}
+
+/** The multiple of the metre that suits lengths up to `size`. */
+function lengthUnit(size) {
+  return [["m", 1], ["mm", 1e-3], ["µm", 1e-6], ["nm", 1e-9]].map(([symbol, factor]) => ({ symbol, factor })).find(({ factor }) => size >= factor)
+    || { symbol: "pm", factor: 1e-12 };
+}
+
 /** A value, SI, in a unit { factor, symbol }. */
 function written(value, unit) {
   return `${digits(value / unit.factor)} ${unit.symbol}`.trim();
@@ -70,38 +82,54 @@ function cell(packed, i, j) {
   return value(packed, packed.levels[i * packed.shape[1] + j]);
 }
 
-const palettes = Object.fromEntries(Object.entries(data.colours).map(([name, text]) => [
-  name, Array.from({ length: 256 }, (_, i) => [0, 2, 4].map((at) => parseInt(text.substr(6 * i + at, 2), 16))),
-]));
-const CLASSES = [null, [0, 114, 178], [213, 94, 0]];
-
-/** A colour of the page's own style, as three numbers. */
-function style(name) {
-  const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  return [1, 3, 5].map((at) => parseInt(text.substr(at, 2), 16));
+/** A colour as `#rrggbb`, as a pixel. */
+function pixel(text) {
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(text.substr(at, 2), 16));
+  return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-/** The colours of all levels of a map, as pixels: `range` SI, `kind` heights, positive, signed or class. */
+/** 256 colours of each table, as they are written and as pixels. */
+const palettes = Object.fromEntries(Object.entries(data.colours).map(([name, text]) => {
+  const css = Array.from({ length: 256 }, (_, i) => `#${text.substr(6 * i, 6)}`);
+  return [name, { css, pixels: Uint32Array.from(css, pixel) }];
+}));
+const CLASSES = [null, "#0072b2", "#d55e00"];
+
+/** Colours of the page's own style, as long as they hold. */
+const styles = new Map();
+
+/** One of them. */
+function style(name) {
+  if (!styles.has(name)) styles.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  return styles.get(name);
+}
+
+/** The colours of all levels of a map, as pixels: `range` SI, `kind` heights, between, positive, signed or class. */
 function colouring(packed, kind, range) {
   const levels = packed.code === "even" ? 65536 : 256;
   const pixels = new Uint32Array(levels);
-  const [blank, missing] = [style("--blank"), style("--missing")];
-  const palette = palettes[kind === "heights" ? "heights" : "pressure"];
-  const [low, high] = kind === "heights" || kind === "between" ? range : [0, range[1]];
+  const [blank, missing] = [style("--blank"), style("--missing")].map(pixel);
+  const classes = [blank, ...CLASSES.slice(1).map(pixel)];
+  const palette = palettes[paletteOf(kind)].pixels;
+  const [low, high] = runsFromLowest(kind) ? range : [0, range[1]];
   for (let level = 0; level < levels; level++) {
     const v = value(packed, level);
-    let rgb;
-    if (Number.isNaN(v)) rgb = missing;
-    else if (kind === "class") rgb = CLASSES[Math.min(v, 2)] || blank;
-    else if (packed.code === "positive" && level === 0) rgb = blank;
-    else if (kind === "signed" && v <= 0) rgb = v < -1e-9 * high ? CLASSES[2] : blank;
-    else {
-      const t = high > low ? (v - low) / (high - low) : 0.5;
-      rgb = palette[Math.max(0, Math.min(255, Math.round(255 * t)))];
-    }
-    pixels[level] = (255 << 24) | (rgb[2] << 16) | (rgb[1] << 8) | rgb[0];
+    if (Number.isNaN(v)) pixels[level] = missing;
+    else if (kind === "class") pixels[level] = classes[Math.min(v, 2)];
+    else if (packed.code === "positive" && level === 0) pixels[level] = blank;
+    else if (kind === "signed" && v <= 0) pixels[level] = v < -1e-9 * high ? classes[2] : blank;
+    else pixels[level] = palette[high > low ? Math.max(0, Math.min(255, Math.round((255 * (v - low)) / (high - low)))) : 128];
   }
   return pixels;
+}
+
+function paletteOf(kind) {
+  return kind === "heights" ? "heights" : "pressure";
+}
+
+/** Whether the colours of a kind run from the lowest value on, and not from 0. */
+function runsFromLowest(kind) {
+  return kind === "heights" || kind === "between";
 }
 
 /** Offers bytes as a file. */

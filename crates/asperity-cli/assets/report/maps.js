@@ -4,20 +4,99 @@
 const MARGIN = { left: 58, right: 84, top: 8, bottom: 40 };
 const FONT = "12px system-ui, sans-serif";
 
-class MapView {
+/** A canvas in a figure, drawn again where the figure's width or the colours of the page change. */
+class Drawing {
+  /** `below` stands under the canvas. */
+  constructor(place, kind, label, ...below) {
+    this.canvas = element("canvas", { role: "img", "aria-label": label });
+    this.caption = element("figcaption", {}, label);
+    this.figure = element("figure", { class: kind }, this.caption, this.canvas, ...below);
+    place.append(this.figure);
+    this.width = 0;
+    new ResizeObserver(([entry]) => { this.width = entry.contentRect.width; this.draw(); }).observe(this.figure);
+    redraws.add(() => this.draw(true));
+  }
+
+  title(text) {
+    if (this.caption.textContent === text) return;
+    this.caption.textContent = text;
+    this.canvas.setAttribute("aria-label", text);
+  }
+
+  show(scene) {
+    this.scene = scene;
+    this.draw(true);
+  }
+
+  /** Draws the scene, if there is room; what is on the canvas may be kept unless it is `stale`. */
+  draw(stale = false) {
+    if (!this.scene || this.figure.hidden) return;
+    this.width = this.width || this.figure.clientWidth;
+    if (this.width > 0) this.paint(this.canvas, this.width, window.devicePixelRatio || 1, stale);
+  }
+
+  /** A context of that many pixels of the page, each of `ratio`; a canvas that has its size already keeps what is on it. */
+  context(canvas, width, height, ratio) {
+    const size = [width, height].map((length) => Math.round(length * ratio));
+    if (canvas.width !== size[0] || canvas.height !== size[1]) {
+      [canvas.width, canvas.height] = size;
+      canvas.style.width = `${width}px`;
+      canvas.style.height = `${height}px`;
+    }
+    const c = canvas.getContext("2d");
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return c;
+  }
+}
+
+/** Draws the frame of a plane and its axes, in `units`, under `names`: `ticks` apart along each. */
+function drawAxes(c, { frame: [left, top, w, h], region, down, units, names, apart }) {
+  const [[x0, x1], [y0, y1]] = region;
+  const [ink, faint, line] = ["--ink", "--faint", "--line"].map(style);
+  c.strokeStyle = line;
+  c.lineWidth = 1;
+  c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
+  c.fillStyle = ink;
+  c.strokeStyle = faint;
+  c.font = FONT;
+  c.textBaseline = "top";
+  c.textAlign = "center";
+  for (const t of ticks(x0 / units[0].factor, x1 / units[0].factor, w / apart[0])) {
+    const at = left + ((t * units[0].factor - x0) / (x1 - x0)) * w;
+    c.beginPath(); c.moveTo(at, top + h); c.lineTo(at, top + h + 4); c.stroke();
+    c.fillText(round(t), at, top + h + 6);
+  }
+  c.fillText(`${names[0]} (${units[0].symbol})`, left + w / 2, top + h + 22);
+  c.textBaseline = "middle";
+  c.textAlign = "right";
+  for (const t of ticks(y0 / units[1].factor, y1 / units[1].factor, h / apart[1])) {
+    const part = (t * units[1].factor - y0) / (y1 - y0);
+    const at = top + (down ? part : 1 - part) * h;
+    c.beginPath(); c.moveTo(left, at); c.lineTo(left - 4, at); c.stroke();
+    c.fillText(round(t), left - 7, at);
+  }
+  c.save();
+  c.translate(12, top + h / 2);
+  c.rotate(-Math.PI / 2);
+  c.textAlign = "center";
+  c.fillText(`${names[1]} (${units[1].symbol})`, 0, 0);
+  c.restore();
+}
+
+class MapView extends Drawing {
   /** `file` names the picture; `picked(x, y)` hears of clicks. */
   constructor(place, title, file, picked) {
-    this.canvas = element("canvas", { role: "img", "aria-label": title, ...(picked ? { class: "pick" } : {}) });
-    this.caption = element("figcaption", {}, title);
-    this.readout = element("output", { "aria-live": "off" });
-    this.legend = element("div", { class: "legend" });
+    const readout = element("output", { "aria-live": "off" });
+    const legend = element("div", { class: "legend" });
     const png = element("button", { type: "button", "aria-label": `PNG of ${title}`, onclick: () => this.savePng(file) }, "PNG");
-    place.append(element("figure", { class: "map" }, this.caption, this.canvas, this.legend, element("div", { class: "tools" }, this.readout, png)));
+    super(place, "map", title, legend, element("div", { class: "tools" }, readout, png));
+    Object.assign(this, { readout, legend, images: [] });
     this.canvas.addEventListener("pointermove", (event) => this.read(event));
     this.canvas.addEventListener("pointerleave", () => { this.readout.textContent = ""; });
-    if (picked) this.canvas.addEventListener("click", (event) => { const at = this.at(event); if (at) picked(...at); });
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
-    redraws.add(() => { this.painted = null; this.draw(); });
+    if (picked) {
+      this.canvas.className = "pick";
+      this.canvas.addEventListener("click", (event) => { const at = this.at(event); if (at) picked(...at); });
+    }
   }
 
   /**
@@ -26,20 +105,13 @@ class MapView {
    * `lines`; `marks`; `bar` with `range`, `unit`, `label`, `kind`; `classes`; `down` where y is a depth; `relief`.
    */
   show(scene) {
-    this.scene = scene;
-    this.painted = null;
-    this.draw();
-  }
-
-  title(text) {
-    this.caption.textContent = text;
-    this.canvas.setAttribute("aria-label", text);
-  }
-
-  draw() {
-    if (!this.scene) return;
-    const width = this.canvas.parentElement.clientWidth;
-    if (width > 0) this.paint(this.canvas, width, window.devicePixelRatio || 1);
+    const classes = JSON.stringify(scene.classes || []);
+    if (classes !== this.classes) {
+      this.classes = classes;
+      this.legend.replaceChildren(...(scene.classes || []).map(([colour, name]) =>
+        element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name)));
+    }
+    super.show(scene);
   }
 
   /** Where the plane is on a canvas of a width: [left, top, width, height]. */
@@ -47,53 +119,63 @@ class MapView {
     const { region } = this.scene;
     const [dx, dy] = region.map(([a, b]) => b - a);
     const aspect = Math.min(4, Math.max(0.25, dx / dy));
-    let w = Math.max(60, width - MARGIN.left - (this.scene.bar ? MARGIN.right : 16));
+    let w = Math.max(60, width - MARGIN.left - (this.hasBar() ? MARGIN.right : 16));
     const most = Math.max(220, Math.min(520, window.innerHeight * 0.62));
     if (w / aspect > most) w = most * aspect;
     return [MARGIN.left, MARGIN.top, w, w / aspect];
   }
 
-  paint(canvas, width, ratio) {
-    const { region, length, images, rects = [], lines = [], marks = [], bar, classes, down } = this.scene;
-    const [left, top, w, h] = this.frame(width);
-    const height = top + h + MARGIN.bottom;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    canvas.style.width = `${width}px`;
-    canvas.style.height = `${height}px`;
-    const c = canvas.getContext("2d");
-    c.scale(ratio, ratio);
-    const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-    const [ink, faint, line] = [css("--ink"), css("--faint"), css("--line")];
-    c.fillStyle = css("--paper");
-    c.fillRect(0, 0, width, height);
+  /** A bar of one value says nothing. */
+  hasBar() {
+    const { bar } = this.scene;
+    return Boolean(bar) && bar.range[1] > (runsFromLowest(bar.kind) ? bar.range[0] : 0);
+  }
+
+  paint(canvas, width, ratio, stale) {
+    const { region, length, bar, down, names = ["x", "y"] } = this.scene;
+    const frame = this.frame(width);
+    const [left, top, w, h] = frame;
+    const c = this.context(canvas, width, top + h + MARGIN.bottom, ratio);
+    // Around the plane nothing changes from one position to the next.
+    const around = JSON.stringify([width, ratio, frame, region, length, bar, names, style("--paper")]);
+    if (canvas !== this.canvas || around !== this.around) {
+      c.fillStyle = style("--paper");
+      c.fillRect(0, 0, width, top + h + MARGIN.bottom);
+      drawAxes(c, { frame, region, down, units: [length, length], names, apart: [60, 40] });
+      if (this.hasBar()) paintBar(c, bar, [left + w + 12, top, 12, h]);
+      if (canvas === this.canvas) this.around = around;
+    }
+    this.paintPlane(c, frame, ratio, stale);
+  }
+
+  paintPlane(c, [left, top, w, h], ratio, stale) {
+    const { region, images, rects = [], lines = [], marks = [], down } = this.scene;
     const [[x0, x1], [y0, y1]] = region;
     const px = (x) => left + ((x - x0) / (x1 - x0)) * w;
     const py = (y) => (down ? top + ((y - y0) / (y1 - y0)) * h : top + h - ((y - y0) / (y1 - y0)) * h);
-    this.px = px;
-    this.py = py;
     c.save();
     c.beginPath();
     c.rect(left, top, w, h);
     c.clip();
-    if (!this.painted) this.painted = images.map((image) => pixels(image, down));
+    c.fillStyle = style("--paper");
+    c.fillRect(left, top, w, h);
     images.forEach((image, n) => {
       const { packed, corner, wraps } = image;
+      if (stale || !this.images[n]) this.images[n] = pixels(image, down, this.images[n]);
       const size = [0, 1].map((axis) => packed.shape[axis] * packed.pitch[axis]);
       c.imageSmoothingEnabled = packed.shape[0] > w * ratio;
       for (const shift of wraps ? [0, -(x1 - x0), x1 - x0] : [0]) {
         const [a, b] = [px(corner[0] + shift), px(corner[0] + shift + size[0])];
         const [lower, upper] = [py(corner[1]), py(corner[1] + size[1])];
-        c.drawImage(this.painted[n], a, Math.min(lower, upper), b - a, Math.abs(lower - upper));
+        c.drawImage(this.images[n].canvas, a, Math.min(lower, upper), b - a, Math.abs(lower - upper));
       }
     });
-    for (const { from, size, colour, dashed, fill } of rects) {
+    for (const { from, size, colour, dashed } of rects) {
       const [a, b] = [px(from[0]), px(from[0] + size[0])];
       const [lower, upper] = [py(from[1]), py(from[1] + size[1])];
       c.setLineDash(dashed ? [6, 4] : []);
       c.strokeStyle = colour;
       c.lineWidth = 1.5;
-      if (fill) { c.fillStyle = fill; c.fillRect(a, Math.min(lower, upper), b - a, Math.abs(lower - upper)); }
       c.strokeRect(a + 0.75, Math.min(lower, upper) + 0.75, b - a - 1.5, Math.abs(lower - upper) - 1.5);
     }
     c.setLineDash([]);
@@ -115,62 +197,6 @@ class MapView {
       }
     }
     c.restore();
-    c.strokeStyle = line;
-    c.lineWidth = 1;
-    c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
-    c.fillStyle = ink;
-    c.strokeStyle = faint;
-    c.font = FONT;
-    c.textBaseline = "top";
-    c.textAlign = "center";
-    for (const t of ticks(x0 / length.factor, x1 / length.factor, w / 60)) {
-      const at = px(t * length.factor);
-      c.beginPath(); c.moveTo(at, top + h); c.lineTo(at, top + h + 4); c.stroke();
-      c.fillText(digits(t), at, top + h + 6);
-    }
-    c.fillText(`${this.scene.names ? this.scene.names[0] : "x"} (${length.symbol})`, left + w / 2, top + h + 22);
-    c.textBaseline = "middle";
-    c.textAlign = "right";
-    for (const t of ticks(y0 / length.factor, y1 / length.factor, h / 40)) {
-      const at = py(t * length.factor);
-      c.beginPath(); c.moveTo(left, at); c.lineTo(left - 4, at); c.stroke();
-      c.fillText(digits(t), left - 7, at);
-    }
-    c.save();
-    c.translate(12, top + h / 2);
-    c.rotate(-Math.PI / 2);
-    c.textAlign = "center";
-    c.fillText(`${this.scene.names ? this.scene.names[1] : "y"} (${length.symbol})`, 0, 0);
-    c.restore();
-    if (bar) this.paintBar(c, bar, [left + w + 12, top, 12, h], [ink, line]);
-    this.legend.replaceChildren(...(classes || []).map(([colour, name]) =>
-      element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name)));
-  }
-
-  paintBar(c, { range, unit, label, kind }, [left, top, w, h], [ink, line]) {
-    const palette = palettes[kind === "heights" ? "heights" : "pressure"];
-    const [low, high] = kind === "heights" || kind === "between" ? range : [0, range[1]];
-    for (let k = 0; k < 256; k++) {
-      c.fillStyle = `rgb(${palette[255 - k]})`;
-      c.fillRect(left, top + (k * h) / 256, w, h / 256 + 1);
-    }
-    c.strokeStyle = line;
-    c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
-    c.fillStyle = ink;
-    c.textAlign = "left";
-    c.textBaseline = "middle";
-    if (high > low) {
-      for (const t of ticks(low / unit.factor, high / unit.factor, h / 40)) {
-        const at = top + h - ((t * unit.factor - low) / (high - low)) * h;
-        c.fillText(digits(t), left + w + 5, at);
-      }
-    }
-    c.save();
-    c.translate(left + w + 46, top + h / 2);
-    c.rotate(Math.PI / 2);
-    c.textAlign = "center";
-    c.fillText(unit.symbol ? `${label} (${unit.symbol})` : label, 0, 0);
-    c.restore();
   }
 
   /** The place under the pointer, m. */
@@ -178,7 +204,7 @@ class MapView {
     if (!this.scene) return null;
     const box = this.canvas.getBoundingClientRect();
     const { region, down } = this.scene;
-    const [left, top, w, h] = this.frame(this.canvas.parentElement.clientWidth);
+    const [left, top, w, h] = this.frame(this.width);
     const s = (event.clientX - box.left - left) / w;
     const t = (event.clientY - box.top - top) / h;
     if (s < 0 || s > 1 || t < 0 || t > 1) return null;
@@ -188,8 +214,7 @@ class MapView {
   read(event) {
     const at = this.at(event);
     if (!at) { this.readout.textContent = ""; return; }
-    const { length, images, region } = this.scene;
-    const names = this.scene.names || ["x", "y"];
+    const { length, images, names = ["x", "y"] } = this.scene;
     const where = `${names[0]} ${written(at[0], length)}, ${names[1]} ${written(at[1], length)}`;
     const texts = images.map((image) => {
       const { packed, corner, wraps, told } = image;
@@ -206,13 +231,13 @@ class MapView {
   /** The map as a picture of its own, with its title. */
   savePng(file) {
     const map = document.createElement("canvas");
-    this.paint(map, Math.max(560, this.canvas.parentElement.clientWidth), 2);
+    this.paint(map, Math.max(560, this.width), 2, false);
     const sheet = document.createElement("canvas");
     [sheet.width, sheet.height] = [map.width, map.height + 56];
     const c = sheet.getContext("2d");
-    c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper");
+    c.fillStyle = style("--paper");
     c.fillRect(0, 0, sheet.width, sheet.height);
-    c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--ink");
+    c.fillStyle = style("--ink");
     c.font = "26px system-ui, sans-serif";
     c.fillText(this.caption.textContent, 20, 38, sheet.width - 40);
     c.drawImage(map, 0, 56);
@@ -220,21 +245,51 @@ class MapView {
   }
 }
 
-/** A packed map as pixels on a canvas of its own, y upwards, or downwards where it is a depth. */
-function pixels({ packed, kind, range, relief }, down) {
+function paintBar(c, { range, unit, label, kind }, [left, top, w, h]) {
+  const palette = palettes[paletteOf(kind)].css;
+  const [low, high] = runsFromLowest(kind) ? range : [0, range[1]];
+  for (let k = 0; k < 256; k++) {
+    c.fillStyle = palette[255 - k];
+    c.fillRect(left, top + (k * h) / 256, w, h / 256 + 1);
+  }
+  c.strokeStyle = style("--line");
+  c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
+  c.fillStyle = style("--ink");
+  c.textAlign = "left";
+  c.textBaseline = "middle";
+  for (const t of ticks(low / unit.factor, high / unit.factor, Math.max(4, h / 40))) {
+    const at = top + h - ((t * unit.factor - low) / (high - low)) * h;
+    c.fillText(round(t), left + w + 5, at);
+  }
+  c.save();
+  c.translate(left + w + 46, top + h / 2);
+  c.rotate(Math.PI / 2);
+  c.textAlign = "center";
+  c.fillText(unit.symbol ? `${label} (${unit.symbol})` : label, 0, 0);
+  c.restore();
+}
+
+/** A packed map as pixels on a canvas of its own, y upwards, or downwards where it is a depth; `used` is one of before. */
+function pixels({ packed, kind, range, relief }, down, used) {
   const [nx, ny] = packed.shape;
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [nx, ny];
-  const image = new ImageData(nx, ny);
+  const kept = used && used.image.width === nx && used.image.height === ny ? used : blankPixels(nx, ny);
+  const { canvas, image } = kept;
   const out = new Uint32Array(image.data.buffer);
   const colours = colouring(packed, kind, range);
-  for (let i = 0; i < nx; i++) {
-    for (let j = 0; j < ny; j++) out[(down ? j : ny - 1 - j) * nx + i] = colours[packed.levels[i * ny + j]];
+  const { levels } = packed;
+  for (let j = 0; j < ny; j++) {
+    const begin = (down ? j : ny - 1 - j) * nx;
+    for (let i = 0, n = j; i < nx; i++, n += ny) out[begin + i] = colours[levels[n]];
   }
   if (relief) shade(image, packed, range);
-  const c = canvas.getContext("2d");
-  c.putImageData(image, 0, 0);
-  return canvas;
+  canvas.getContext("2d").putImageData(image, 0, 0);
+  return kept;
+}
+
+function blankPixels(nx, ny) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [nx, ny];
+  return { canvas, image: new ImageData(nx, ny) };
 }
 
 /** Light from the upper left over heights. */

@@ -1,5 +1,5 @@
 "use strict";
-// The page as a whole: dark or light, the case to the clipboard, stress below the surface, what is unpacked ahead.
+// The page as a whole: dark or light, the case to the clipboard, maps below the surface, what is unpacked ahead.
 
 const theme = document.getElementById("theme");
 const prefersDark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -8,6 +8,7 @@ const isDark = () => (document.documentElement.dataset.theme || (prefersDark.mat
 function themed() {
   theme.textContent = isDark() ? "light" : "dark";
   theme.setAttribute("aria-label", `colours: ${theme.textContent}`);
+  styles.clear();
   redraws.forEach((redraw) => redraw());
 }
 
@@ -32,16 +33,17 @@ for (const button of document.querySelectorAll(".copy")) {
   });
 }
 
-async function showBelow(place, below) {
-  await unpack(below.map);
-  const { shape, pitch } = below.map;
-  const view = new MapView(place, below.title, "subsurface");
-  view.show({
-    region: [[below.x, below.x + shape[0] * pitch[0]], [0, shape[1] * pitch[1]]], length: below.length, down: true, names: ["x", "depth"],
-    images: [{ packed: below.map, kind: "positive", range: below.range, corner: [below.x, 0], told: (v) => written(v, below.unit) }],
-    bar: { range: below.range, unit: below.unit, label: "von Mises stress", kind: "positive" },
-    marks: below.mark ? [below.mark] : [],
-    classes: below.mark ? [["#d02020", "most stressed point"]] : null,
+/** A map that does not change, such as one below the surface. */
+async function showPlane(place) {
+  const { file, title, map, x, down, length, quantity, unit, kind, range, mark } = data.planes[Number(place.dataset.plane)];
+  await unpack(map);
+  const extent = map.shape.map((cells, axis) => cells * map.pitch[axis]);
+  new MapView(place, title, file).show({
+    region: [[x, x + extent[0]], [0, extent[1]]], length, down, names: ["x", down ? "depth" : "y"],
+    images: [{ packed: map, kind, range, corner: [x, 0], told: (v) => written(v, unit) }],
+    bar: { range, unit, label: quantity, kind },
+    marks: mark ? [mark.at] : [],
+    classes: mark ? [["#d02020", mark.what]] : null,
   });
 }
 
@@ -49,7 +51,7 @@ async function showBelow(place, below) {
 const ready = (async () => {
   await bodiesReady;
   if (scrubber) await scrubber.show();
-  if (data.below) await showBelow(document.getElementById("below"), data.below);
+  await Promise.all([...document.querySelectorAll("[data-plane]")].map(showPlane));
   document.documentElement.dataset.ready = "true";
   // The other positions, so that none keeps the hand waiting.
   for (const frame of scrubber ? scrubber.frames : []) await Promise.all(Object.values(frame.maps).map(unpack));

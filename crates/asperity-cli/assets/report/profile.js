@@ -5,8 +5,10 @@ class Profiles {
   constructor(place, body) {
     this.place = place;
     this.body = body;
+    // Along an axis with a single cell there is none.
+    this.axes = [0, 1].filter((axis) => body.before.shape[axis] > 1);
     this.views = [0, 1].map(() => element("figure", { class: "chart" }, element("figcaption")));
-    place.append(...this.views);
+    place.append(...this.axes.map((axis) => this.views[axis]));
     this.charts = [null, null];
   }
 
@@ -14,7 +16,7 @@ class Profiles {
   show(x, y) {
     const { before } = this.body;
     const at = [x, y].map((v, axis) => Math.max(0, Math.min(before.shape[axis] - 1, Math.floor(v / before.pitch[axis]))));
-    [0, 1].forEach((axis) => {
+    this.axes.forEach((axis) => {
       const other = (at[1 - axis] + 0.5) * before.pitch[1 - axis];
       const title = `profile of the ${this.body.title} along ${"xy"[axis]}, at ${"yx"[axis]} = ${written(other, this.body.length)}`;
       const chart = this.chart(axis, at, title);

@@ -48,7 +48,7 @@ class Scrubber {
     this.map = new MapView(left, "contact", "contact", (_, y) => { this.row = y; this.show(); });
     this.moves = Boolean(this.contact.groups[0].label) && !this.contact.wraps && Boolean(data.bodies);
     if (this.moves) this.places = new PlacesView(right);
-    this.section = new SectionView(right, this.contact);
+    if (data.bodies) this.section = new SectionView(right, this.contact.wraps);
     if (most > 0 || this.groups.length > 1) {
       this.map.canvas.tabIndex = 0;
       views.before(element("p", { class: "remark" }, "Keys on the map: ← → position, ↑ ↓ pass, Home and End, space plays. A click chooses the section."));
@@ -92,7 +92,7 @@ class Scrubber {
     const packed = frame.maps[layer.name];
     const pressure = frame.maps.pressure;
     const lost = groups[this.group].lost;
-    await Promise.all([packed && unpack(packed), unpack(pressure), ...(lost || []).map(unpack)]);
+    await Promise.all([packed && unpack(packed), unpack(pressure), ...(lost || []).map(unpack), ...(data.bodies || []).map((body) => unpack(body.before))]);
     // Another frame may have been asked for meanwhile.
     if (frame !== this.frame || layer !== this.layer) return;
     const label = [groups[this.group].label, frame.label].filter(Boolean).join(", ");
@@ -119,51 +119,38 @@ class Scrubber {
       bar: layer.kind === "class" ? null : { range: layer.range, unit: layer.unit, label: layer.title, kind: layer.kind },
     });
     if (this.places) this.places.show({ lower, upper, offset: frame.offset, length });
-    this.section.show({ known: groups[this.group].known !== false, frame, lost, row, region: region[0], length });
+    if (this.section) this.section.show({ known: groups[this.group].known !== false, frame, lost, row, region: region[0], length });
   }
 }
 
-/** Where along y a row of cells bears the most, from the corner of the map, m. */
+/** Where along y a row of cells bears the most, the middle where none does, from the corner of the map, m. */
 function busiest(packed) {
-  const ny = packed.shape[1];
-  const rows = new Float64Array(ny);
-  packed.levels.forEach((level, n) => { rows[n % ny] += level; });
-  return (rows.indexOf(Math.max(...rows)) + 0.5) * packed.pitch[1];
+  if (packed.busiest === undefined) {
+    const [[nx, ny], { levels }] = [packed.shape, packed];
+    const rows = new Float64Array(ny);
+    for (let i = 0, n = 0; i < nx; i++) for (let j = 0; j < ny; j++, n++) rows[j] += levels[n];
+    const most = rows.reduce((a, b) => Math.max(a, b));
+    packed.busiest = ((most > 0 ? rows.indexOf(most) : Math.floor(ny / 2)) + 0.5) * packed.pitch[1];
+  }
+  return packed.busiest;
 }
 
 /** Where both bodies are, seen from above and to scale; what faces is shaded. */
-class PlacesView {
+class PlacesView extends Drawing {
   constructor(place) {
-    this.caption = element("figcaption");
-    this.canvas = element("canvas", { role: "img", "aria-label": "where both bodies are, from above" });
-    place.append(element("figure", {}, this.caption, this.canvas));
-    new ResizeObserver(() => this.draw()).observe(place);
-    redraws.add(() => this.draw());
+    super(place, "places", "where both bodies are, from above");
   }
 
-  show(state) {
-    this.state = state;
-    this.draw();
-  }
-
-  draw() {
-    if (!this.state) return;
-    const { lower, upper, offset, length } = this.state;
-    const width = this.canvas.parentElement.clientWidth;
-    if (!(width > 0)) return;
+  paint(canvas, width, ratio) {
+    const { lower, upper, offset, length } = this.scene;
     const deep = Math.max(lower[1], upper[1]);
     const scale = Math.min((width - 8) / (lower[0] + 2 * upper[0]), 150 / deep);
-    const height = Math.max(12, deep * scale) + 8;
-    const ratio = window.devicePixelRatio || 1;
-    [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-    this.canvas.style.width = `${width}px`;
-    this.canvas.style.height = `${height}px`;
-    const overlap = Math.max(0, Math.min(lower[0], offset + upper[0]) - Math.max(0, offset));
-    this.caption.textContent = `from above, to scale: ${written(overlap, length)} overlap, offset ${written(offset, length)}`;
-    const c = this.canvas.getContext("2d");
-    c.scale(ratio, ratio);
-    const px = (x) => 4 + (x + upper[0]) * scale;
     const tall = Math.max(8, deep * scale);
+    const overlap = Math.max(0, Math.min(lower[0], offset + upper[0]) - Math.max(0, offset));
+    this.title(`from above, to scale: ${written(overlap, length)} overlap, offset ${written(offset, length)}`);
+    const c = this.context(canvas, width, tall + 8, ratio);
+    c.clearRect(0, 0, width, tall + 8);
+    const px = (x) => 4 + (x + upper[0]) * scale;
     c.fillStyle = "rgba(230,159,0,0.55)";
     c.fillRect(px(Math.max(0, offset)), 4, overlap * scale, tall);
     c.lineWidth = 1.5;
@@ -173,7 +160,7 @@ class PlacesView {
     c.strokeStyle = "#e05050";
     c.strokeRect(px(offset), 4, upper[0] * scale, tall);
     c.setLineDash([]);
-    c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+    c.fillStyle = style("--ink");
     c.font = FONT;
     c.textBaseline = "middle";
     c.textAlign = "center";
@@ -185,113 +172,79 @@ class PlacesView {
 }
 
 /** Both bodies in a section along x, undeformed and together as far as they are; where they overlap is marked. */
-class SectionView {
-  constructor(place, contact) {
-    this.contact = contact;
-    if (!data.bodies) return;
-    this.caption = element("figcaption");
-    this.canvas = element("canvas", { role: "img", "aria-label": "both bodies in a section" });
-    place.append(element("figure", { class: "section" }, this.caption, this.canvas, element("div", { class: "legend" },
+class SectionView extends Drawing {
+  constructor(place, wraps) {
+    super(place, "section", "both bodies in a section", element("div", { class: "legend" },
       ...[["#0072b2", "lower body"], ["#c04040", "upper body"], ["#e69f00", "where they would overlap undeformed"]].map(([colour, name]) =>
-        element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name)))));
-    new ResizeObserver(() => this.draw()).observe(place);
-    redraws.add(() => this.draw());
+        element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name))));
+    this.wraps = wraps;
   }
 
-  show(state) {
-    this.state = state;
-    this.draw();
+  /** Both bodies, unless what the upper one was then is not known. */
+  show(scene) {
+    this.figure.hidden = !scene.known || scene.frame.approach === null;
+    super.show(scene);
   }
 
-  draw() {
-    if (!this.state || !data.bodies) return;
-    const { frame, lost, row, region, length } = this.state;
-    this.canvas.parentElement.hidden = !this.state.known;
-    if (!this.state.known || frame.approach === null || !data.bodies.every((body) => body.before.levels)) return;
-    const width = this.canvas.parentElement.clientWidth;
-    if (!(width > 0)) return;
-    const unit = data.bodies[0].unit.symbol && data.bodies[0].before.high > data.bodies[0].before.low ? data.bodies[0].unit : data.bodies[1].unit;
-    this.caption.textContent = `both bodies, undeformed, at y = ${written(row, length)}, approach ${written(frame.approach, unit)}`;
-    const profiles = data.bodies.map((body, b) => {
-      const { before } = body;
-      const [ny, dy] = [before.shape[1], before.pitch[1]];
-      // What is displaced across comes in on the other side.
-      const across = b === 1 ? Math.round((frame.across || 0) / dy) : 0;
-      const j = (((Math.max(0, Math.min(ny - 1, Math.floor(row / dy))) - across) % ny) + ny) % ny;
-      const gone = lost && lost[b];
-      return Array.from({ length: before.shape[0] }, (_, i) =>
-        cell(before, i, j) - (gone ? body.sign * cell(gone, i, j) : 0) - (b === 1 ? frame.approach : 0));
-    });
+  /** Heights of a body along the section, as they are then. */
+  profile(b) {
+    const { frame, lost, row } = this.scene;
+    const { before, sign } = data.bodies[b];
+    const [[nx, ny], dy] = [before.shape, before.pitch[1]];
+    // What is displaced across comes in on the other side.
+    const across = b === 1 ? Math.round((frame.across || 0) / dy) : 0;
+    const j = (((Math.max(0, Math.min(ny - 1, Math.floor(row / dy))) - across) % ny) + ny) % ny;
+    const [gone, down] = [lost && lost[b], b === 1 ? frame.approach : 0];
+    return Float64Array.from({ length: nx }, (_, i) => cell(before, i, j) - (gone ? sign * cell(gone, i, j) : 0) - down);
+  }
+
+  paint(canvas, width, ratio) {
+    const { frame, row, region, length } = this.scene;
     const pitch = data.bodies[0].before.pitch[0];
-    const nx = profiles[0].length;
-    const shift = Math.round(frame.offset / pitch);
-    const at = (b, i) => {
-      if (b === 0) return profiles[0][i];
-      const k = i - shift;
-      return this.contact.wraps ? profiles[1][((k % profiles[1].length) + profiles[1].length) % profiles[1].length] : profiles[1][k];
-    };
-    const finite = profiles.flat().filter(Number.isFinite);
-    let [low, high] = [Math.min(...finite), Math.max(...finite)];
+    const [lower, upper] = [this.profile(0), this.profile(1)];
+    let [low, high] = [Infinity, -Infinity];
+    for (const z of [...lower, ...upper]) { if (z < low) low = z; if (z > high) high = z; }
     const room = 0.06 * (high - low) || Math.abs(high) || 1e-9;
     [low, high] = [low - room, high + room];
-    const ratio = window.devicePixelRatio || 1;
+    const unit = lengthUnit(high - low);
+    this.title(`both bodies, undeformed, at y = ${written(row, length)}, approach ${frame.together}`);
     const [left, top, h] = [MARGIN.left, 8, 170];
     const w = Math.max(60, width - left - MARGIN.right);
-    [this.canvas.width, this.canvas.height] = [Math.round(width * ratio), Math.round((h + top + 40) * ratio)];
-    this.canvas.style.width = `${width}px`;
-    this.canvas.style.height = `${h + top + 40}px`;
-    const c = this.canvas.getContext("2d");
-    c.scale(ratio, ratio);
-    const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-    const px = (x) => left + ((x - region[0]) / (region[1] - region[0])) * w;
+    const c = this.context(canvas, width, h + top + 40, ratio);
+    c.clearRect(0, 0, width, h + top + 40);
+    const shift = Math.round(frame.offset / pitch);
+    const facing = (i) => upper[this.wraps ? (((i - shift) % upper.length) + upper.length) % upper.length : i - shift];
+    const px = (i) => left + ((i * pitch - region[0]) / (region[1] - region[0])) * w;
     const py = (z) => top + h - ((z - low) / (high - low)) * h;
+    const end = Math.ceil(region[1] / pitch - 1e-6);
+    // Cells next to each other are one area, so that there are no seams.
+    const area = (colour, from, to) => {
+      c.beginPath();
+      for (let i = 0; i < end; i++) {
+        const first = i;
+        const tops = [];
+        for (; i < end; i++) {
+          const z = from(i);
+          if (!Number.isFinite(z)) break;
+          tops.push(z);
+        }
+        if (!tops.length) continue;
+        c.moveTo(px(first), to(first));
+        tops.forEach((z, k) => { c.lineTo(px(first + k), py(z)); c.lineTo(px(first + k + 1), py(z)); });
+        for (let k = i - 1; k >= first; k--) { c.lineTo(px(k + 1), to(k)); c.lineTo(px(k), to(k)); }
+      }
+      c.fillStyle = colour;
+      c.fill();
+    };
     c.save();
     c.beginPath();
     c.rect(left, top, w, h);
     c.clip();
-    const first = Math.min(0, Math.floor(region[0] / pitch));
-    const end = Math.ceil(region[1] / pitch);
-    const runs = (value, draw) => {
-      let run = [];
-      for (let i = first; i <= end; i++) {
-        const z = i < end ? value(i) : undefined;
-        if (z !== undefined && Number.isFinite(Array.isArray(z) ? z[0] : z)) run.push([i, z]);
-        else { if (run.length) draw(run); run = []; }
-      }
-    };
-    const fill = (b, colour, edge) => runs((i) => at(b, i), (run) => {
-      c.beginPath();
-      c.moveTo(px(run[0][0] * pitch), edge);
-      for (const [i, z] of run) { c.lineTo(px(i * pitch), py(z)); c.lineTo(px((i + 1) * pitch), py(z)); }
-      c.lineTo(px((run.at(-1)[0] + 1) * pitch), edge);
-      c.fillStyle = colour;
-      c.fill();
-    });
-    fill(0, "rgba(0,114,178,0.75)", top + h + 1);
-    fill(1, "rgba(192,64,64,0.7)", top - 1);
-    c.fillStyle = "#e69f00";
-    for (let i = Math.max(first, 0); i < Math.min(end, nx); i++) {
-      const [z1, z2] = [at(0, i), at(1, i)];
-      if (z2 < z1) c.fillRect(px(i * pitch), py(z1), px((i + 1) * pitch) - px(i * pitch) + 0.5, Math.max(1.2, py(z2) - py(z1)));
-    }
+    area("rgba(0,114,178,0.75)", (i) => lower[i], () => top + h + 1);
+    area("rgba(192,64,64,0.7)", facing, () => top - 1);
+    area("#e69f00", (i) => (facing(i) < lower[i] ? lower[i] : NaN), (i) => Math.max(py(facing(i)), py(lower[i]) + 1.2));
     c.restore();
-    c.strokeStyle = css("--line");
-    c.strokeRect(left - 0.5, top - 0.5, w + 1, h + 1);
-    c.fillStyle = css("--ink");
-    c.font = FONT;
-    c.textAlign = "center";
-    c.textBaseline = "top";
-    for (const t of ticks(region[0] / length.factor, region[1] / length.factor, w / 60)) c.fillText(digits(t), px(t * length.factor), top + h + 6);
-    c.fillText(`x (${length.symbol})`, left + w / 2, top + h + 22);
-    c.textAlign = "right";
-    c.textBaseline = "middle";
-    for (const t of ticks(low / unit.factor, high / unit.factor, 4)) c.fillText(digits(t), left - 7, py(t * unit.factor));
-    c.save();
-    c.translate(12, top + h / 2);
-    c.rotate(-Math.PI / 2);
-    c.textAlign = "center";
-    c.fillText(`height (${unit.symbol})`, 0, 0);
-    c.restore();
+    drawAxes(c, { frame: [left, top, w, h], region: [region, [low, high]], units: [length, unit], names: ["x", "height"], apart: [60, 43] });
   }
 }
 

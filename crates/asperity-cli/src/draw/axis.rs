@@ -15,6 +15,8 @@ pub(crate) enum Unit {
     Pressure,
     /// Newtons.
     Force,
+    /// Joules.
+    Energy,
     /// Newtons per metre.
     Stiffness,
     /// Seconds.
@@ -56,6 +58,18 @@ impl Unit {
             Self::Volume => (&[(1e-27, "nm³"), (1e-18, "µm³"), (1e-9, "mm³"), (1.0, "m³")], 1e-4),
             Self::Pressure => (&[(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")], 1.0),
             Self::Force => (&[(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN")], 1.0),
+            Self::Energy => (
+                &[
+                    (1e-15, "fJ"),
+                    (1e-12, "pJ"),
+                    (1e-9, "nJ"),
+                    (1e-6, "µJ"),
+                    (1e-3, "mJ"),
+                    (1.0, "J"),
+                    (1e3, "kJ"),
+                ],
+                1.0,
+            ),
             Self::Stiffness => {
                 (&[(1e-3, "mN/m"), (1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")], 1.0)
             }

@@ -1,6 +1,7 @@
 //! The course of a motion: curves over the positions of a pass, and over the passes.
 
 use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
+use serde_json::Value;
 
 use super::Curves;
 use super::running;
@@ -30,8 +31,8 @@ pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) 
         })
         .collect();
     curves.push(Curves::new("roughness", "roughness over the passes", roughness(passes, &done, sq)));
-    let charts = approach(passes, &done);
-    curves.push(Curves::new("approach", "approach and plastic volume over the passes", charts));
+    let what = if yields(passes) { "approach and plastic volume" } else { "approach" };
+    curves.push(Curves::new("approach", format!("{what} over the passes"), approach(passes, &done)));
     curves.push(Curves::new("mean_contact_area", "contact area over the passes", area(passes, &done)));
     curves.extend(running::curves(passes, sq));
     curves
@@ -75,6 +76,11 @@ pub(crate) fn done(passes: &[PassRecord]) -> Vec<usize> {
     done
 }
 
+/// Whether the upper body of a pass is another one than that of the first; how it was before is not kept.
+pub(crate) fn has_new_upper(case: &Value, pass: usize) -> bool {
+    pass > 1 && case["motion"]["counter"] == "fresh"
+}
+
 /// A quantity of the positions in the first, a middle and the last pass.
 fn over_positions(steps: &[StepRecord], done: &[usize], quantity: &str, unit: Unit, value: OfStep) -> Charts {
     let passes = done.len() - 1;
@@ -115,13 +121,22 @@ fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
     let points =
         |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
     let x = Axis::linear("pass", Unit::Count);
-    let series = vec![
-        Series::new("approach", points(|p| p.approach), Mark::LineAndPoints),
-        Series::new("plastic volume, lower body", points(|p| p.lost("plastic")[0]), Mark::LineAndPoints)
-            .on_the_right(),
-        Series::new("plastic volume, upper body", points(|p| p.lost("plastic")[1]), Mark::LineAndPoints)
-            .on_the_right(),
-    ];
-    let chart = Chart::new("", x, Axis::linear("approach", Unit::Length), series);
-    chart.with_right(Axis::linear("plastic volume in the pass", Unit::Volume)).into()
+    let y = Axis::linear("approach", Unit::Length);
+    let mut series = vec![Series::new("approach", points(|p| p.approach), Mark::LineAndPoints)];
+    if !yields(passes) {
+        return Chart::new("", x, y, series).into();
+    }
+    for (name, value) in [
+        ("plastic volume, lower body", (|p| p.lost("plastic")[0]) as fn(&PassRecord) -> f64),
+        ("plastic volume, upper body", |p| p.lost("plastic")[1]),
+    ] {
+        series.push(Series::new(name, points(value), Mark::LineAndPoints).on_the_right());
+    }
+    let right = Axis::linear("plastic volume in the pass", Unit::Volume);
+    Chart::new("", x, y, series).with_right(right).into()
+}
+
+/// Whether a body has yielded.
+fn yields(passes: &[PassRecord]) -> bool {
+    passes.iter().any(|pass| pass.lost("plastic") != [0.0; 2])
 }

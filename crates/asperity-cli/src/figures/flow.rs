@@ -1,12 +1,14 @@
 //! The figures of bodies that flow below their surfaces: plastic strain and residual stress on a section, and the surface that is left.
 
 use asperity::io::fields::{Attribute, Fields};
+use asperity::motion::IncrementRecord;
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
+use super::Curves;
 use super::sheet::Sheet;
 use super::stored::Stored;
-use crate::draw::{Colours, Map, Maps, Quantity, Unit};
+use crate::draw::{Axis, Chart, Charts, Colours, Map, Maps, Mark, Quantity, Series, Unit};
 use crate::report::{Failure, Outcome};
 
 /// Rows into which the thinnest layer is drawn.
@@ -16,52 +18,99 @@ const MAX_ROWS: usize = 400;
 
 /// Draws them, of each body that has flowed.
 pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
-    let names = fields.names()?;
-    for body in ["lower", "upper"] {
-        let name = |quantity: &str| format!("{quantity}_{body}");
-        if !names.contains(&name("accumulated")) {
-            continue;
+    for Flowed { body, y, extent, strain, stress, surface } in flowed(fields)? {
+        let section = format!("{of}, section at y = {}", format(y, Dimension::Length));
+        let ends = extent.map(|length| [0.0, length]);
+        let map = |field, name, unit, colours| {
+            Ok(Maps::new(vec![Map::section("", field, ends, Quantity::new(name, unit), colours)]))
+        };
+        let title = format!("accumulated plastic strain in the {body} body");
+        sheet.add(&format!("plastic_strain_{body}"), &title, &section, || {
+            map(&strain, "plastic strain", Unit::Number, Colours::Pressure)
+        })?;
+        if let Some(stress) = &stress {
+            let title = format!("residual stress along x in the {body} body");
+            sheet.add(&format!("residual_stress_{body}"), &title, &section, || {
+                map(stress, "residual stress", Unit::Pressure, Colours::Heights)
+            })?;
         }
-        let accumulated = Layered::read(fields, &name("accumulated"), body)?;
-        let stress = Layered::read(fields, &name("residual_stress_xx"), body)?;
-        let row = accumulated.row_of_largest();
-        let section =
-            format!("{of}, section at y = {}", format(accumulated.grid.centre(1, row), Dimension::Length));
-        let [strain, residual] = [&accumulated, &stress].map(|layered| layered.section(row));
-        sheet.add(
-            &name("plastic_strain"),
-            &format!("accumulated plastic strain in the {body} body"),
-            &section,
-            || {
-                let ends = accumulated.ends();
-                Ok(Maps::new(vec![Map::section(
-                    "",
-                    &strain,
-                    ends,
-                    Quantity::new("plastic strain", Unit::Number),
-                    Colours::Pressure,
-                )]))
-            },
-        )?;
-        sheet.add(
-            &name("residual_stress"),
-            &format!("residual stress along x in the {body} body"),
-            &section,
-            || {
-                let quantity = Quantity::new("residual stress", Unit::Pressure);
-                Ok(Maps::new(vec![Map::section("", &residual, stress.ends(), quantity, Colours::Heights)]))
-            },
-        )?;
-        let left = Stored::read(fields, &name("residual_displacement"))?;
-        let surface = left.with(-&left.field);
-        sheet.add(
-            &name("residual_surface"),
-            &format!("what flow leaves of the surface of the {body} body"),
-            of,
-            || Ok(Maps::new(vec![surface.heights("")])),
-        )?;
+        if let Some(surface) = &surface {
+            let title = format!("what flow leaves of the surface of the {body} body");
+            sheet.add(&format!("residual_surface_{body}"), &title, of, || {
+                Ok(Maps::new(vec![surface.heights("")]))
+            })?;
+        }
     }
     Ok(())
+}
+
+/// What has flowed over increments, or whatever `x` counts: the largest plastic strain and the plastic work so far; none
+/// where nothing has.
+pub(crate) fn curves(x: &str, steps: &[[f64; 3]]) -> Option<Curves> {
+    if steps.iter().all(|[_, strain, _]| *strain == 0.0) {
+        return None;
+    }
+    let over = |value: &dyn Fn(usize) -> f64| (0..steps.len()).map(|k| [steps[k][0], value(k)]).collect();
+    let chart = |label, unit, points| {
+        let series = vec![Series::new("", points, Mark::LineAndPoints)];
+        Chart::new("", Axis::linear(x, Unit::Count), Axis::linear(label, unit), series)
+    };
+    let work = |k: usize| steps[..=k].iter().map(|[.., work]| work).sum();
+    let charts = vec![
+        chart("largest plastic strain", Unit::Of("%"), over(&|k| 100.0 * steps[k][1])),
+        chart("plastic work so far", Unit::Energy, over(&work)),
+    ];
+    let title = format!("plastic strain and work over the {x}s");
+    Some(Curves::new("plastic_flow", title, Charts { charts, columns: 2, aspect: 0.8 }))
+}
+
+/// Those of a loading.
+pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
+    let steps = increments.iter().filter_map(|increment| {
+        let flow = increment.flow?;
+        Some([increment.increment as f64, flow.max_plastic_strain, flow.plastic_work])
+    });
+    curves("increment", &steps.collect::<Vec<_>>())
+}
+
+/// A body that flows, on a section along x through its largest plastic strain.
+pub(crate) struct Flowed {
+    /// `lower` or `upper`.
+    pub(crate) body: &'static str,
+    /// Where the section is.
+    pub(crate) y: f64,
+    /// Length of the section and its depth.
+    pub(crate) extent: [f64; 2],
+    /// Accumulated plastic strain, evenly spaced along both.
+    pub(crate) strain: Field,
+    /// Residual stress along x, where it is kept.
+    pub(crate) stress: Option<Field>,
+    /// Heights that flow leaves of a flat surface, where they are kept.
+    pub(crate) surface: Option<Stored>,
+}
+
+/// The bodies that flow.
+pub(crate) fn flowed(fields: &Fields) -> Outcome<Vec<Flowed>> {
+    let names = fields.names()?;
+    let of = |body: &'static str| -> Outcome<Option<Flowed>> {
+        let layered = |quantity: &str| -> Outcome<Option<Layered>> {
+            let name = format!("{quantity}_{body}");
+            if names.contains(&name) { Layered::read(fields, &name, body).map(Some) } else { Ok(None) }
+        };
+        let Some(accumulated) = layered("accumulated")? else { return Ok(None) };
+        let row = accumulated.row_of_largest();
+        let left = format!("residual_displacement_{body}");
+        let left = if names.contains(&left) { Some(Stored::read(fields, &left)?) } else { None };
+        Ok(Some(Flowed {
+            body,
+            y: accumulated.grid.centre(1, row),
+            extent: [accumulated.grid.extent()[0], accumulated.faces[accumulated.faces.len() - 1]],
+            strain: accumulated.section(row),
+            stress: layered("residual_stress_xx")?.map(|stress| stress.section(row)),
+            surface: left.map(|left| left.with(-&left.field)),
+        }))
+    };
+    ["lower", "upper"].into_iter().map(of).filter_map(Outcome::transpose).collect()
 }
 
 /// Values in the layers of a body, `[ix, iy, iz]`.
@@ -106,9 +155,5 @@ impl Layered {
             let layer = self.faces[1..].iter().take_while(|face| **face <= z).count().min(self.shape[2] - 1);
             self.at([ix, row, layer])
         })
-    }
-
-    fn ends(&self) -> [[f64; 2]; 2] {
-        [[0.0, self.grid.extent()[0]], [0.0, self.faces[self.faces.len() - 1]]]
     }
 }

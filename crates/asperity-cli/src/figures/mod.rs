@@ -25,13 +25,15 @@ use asperity::study::Results;
 use crate::draw::{Charts, Paper};
 use crate::report::Outcome;
 
-pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, solution as of_solution};
+pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper, solution as of_solution};
+pub(crate) use flow::{Flowed, curves as of_flow, flowed, of_increments as of_flowing};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, Stored, in_frame_of};
+pub(crate) use subsurface::columns as stress_columns;
 pub(crate) use surfaces::{as_measured, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
 
@@ -92,7 +94,11 @@ fn gather<'a>(
     if !points.is_empty() {
         sweep::draw(&points, &results.case()?, &mut sheet)?;
     }
-    if results.case()?.get("subsurface").is_some() {
+    let case = results.case()?;
+    if !case["plasticity"].is_null() {
+        flow::draw(&results.flow_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
+    }
+    if !case["subsurface"].is_null() {
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;
     }

@@ -8,7 +8,6 @@ use asperity::study::{Results, cap_name, pressure_name, temperature_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
-use serde_json::Value;
 
 use super::course;
 use super::pressure;
@@ -43,8 +42,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         _ => format!("{}, passes 1 to {all}", load(&passes[0])),
     };
     let after_pass = format!("{}, after pass {all}", load(&passes[pass - 1]));
-    // How the upper body of a later pass was before is not kept.
-    let is_fresh = pass > 1 && is_fresh(&results.case()?);
+    let is_fresh = course::has_new_upper(&results.case()?, pass);
 
     sheet.add("topographies", "topographies before and after", &throughout, || {
         Ok(topographies(&before, &after, all, is_fresh))
@@ -72,6 +70,16 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         true => "wear of the lower body since the beginning, of the upper body in its pass",
         false => "wear since the beginning",
     };
+    if worn.is_some() || film.is_some() {
+        let mut lost = vec![
+            before[0].with(&before[0].field - &after[0].field),
+            before[1].with(&after[1].field - &before[1].field),
+        ];
+        lost.truncate(if is_fresh { 1 } else { 2 });
+        sheet.add("lost", "depth lost since the beginning, less what has grown", &throughout, || {
+            Ok(on_bodies(&lost, "depth"))
+        })?;
+    }
     if cap.is_finite() {
         // What other laws have not taken, but for the rounding of the heights.
         let flown = |body: usize, lost: Field| {
@@ -107,11 +115,6 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         parameters(results, &done)
     })?;
     Ok(of)
-}
-
-/// Whether each pass has an upper body of its own.
-fn is_fresh(case: &Value) -> bool {
-    case["motion"]["counter"] == "fresh"
 }
 
 /// Both bodies before and after, each on one scale, so that its change shows.
@@ -263,7 +266,7 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     // Without end where it is a word.
     let yields = |body: &str| !case[body]["hardness"].is_string();
     let step_by_step = case["motion"]["plastic_update"] == "step" && (yields("lower") || yields("upper"));
-    let unknown = step.pass > 1 && is_fresh(&case);
+    let unknown = course::has_new_upper(&case, step.pass);
     if step_by_step || unknown || (!case["friction"].is_null() && couples) {
         return Ok(None);
     }

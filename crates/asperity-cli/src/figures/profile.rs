@@ -77,7 +77,8 @@ impl Profile {
                 along(&|i| below(i) - sunk(i) - plastic * w(i)),
                 along(&|i| above(i) + u(i) - sunk(i) + (1.0 - plastic) * w(i)),
             ],
-            gap: along(&|i| above(i) - below(i) + u(i) + w(i)),
+            // Where they touch there is none, and no rounding of one.
+            gap: along(&|i| if row[i] > 0.0 { 0.0 } else { above(i) - below(i) + u(i) + w(i) }),
             pressure: along(&|i| row[i]),
         }))
     }

@@ -58,15 +58,13 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     if fields.names()?.iter().any(|name| name == "stick") {
         friction::draw(&fields, &p, &of, sheet)?;
     }
-    if results.case()?.get("plasticity").is_some() {
-        flow::draw(&results.flow_fields(None)?, &of, sheet)?;
-    }
     let increments = results.increments()?;
     course::solution(&[], &increments, &[])
         .into_iter()
         .try_for_each(|curves| sheet.add_curves(curves, &of))?;
     if increments.len() > 1 {
-        loading::curves(&increments).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
+        let curves = loading::curves(&increments).into_iter().chain(flow::of_increments(&increments));
+        curves.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
     }
     Ok(of)
 }

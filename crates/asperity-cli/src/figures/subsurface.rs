@@ -1,11 +1,12 @@
-//! The figure of the stress under a surface.
+//! The figures of the stress under a surface.
 
 use asperity::Field;
 use asperity::io::fields::{Attribute, Fields};
 use asperity::units::{Dimension, format};
 
+use super::Curves;
 use super::sheet::Sheet;
-use crate::draw::{Colours, Map, Maps, Quantity, Unit};
+use crate::draw::{Axis, Chart, Charts, Colours, Map, Maps, Mark, Quantity, Series, Unit};
 use crate::report::{Failure, Outcome};
 
 /// Von Mises' stress on the section; the most stressed point is marked if it lies there.
@@ -48,5 +49,37 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
         let on_it = at[1] == y;
         let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
         Ok(Maps::new(vec![map]))
-    })
+    })?;
+    columns(fields)?.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// The six stresses down each column that was kept; none where there is none.
+pub(crate) fn columns(fields: &Fields) -> Outcome<Option<Curves>> {
+    let names = fields.names()?;
+    let mut charts = Vec::new();
+    for number in 1.. {
+        let of = |component: &str| format!("column_{number:02}_{component}");
+        if !names.contains(&of("xx")) {
+            break;
+        }
+        let mut series = Vec::new();
+        for component in ["xx", "yy", "zz", "yz", "xz", "xy"] {
+            let stored = fields.read(&of(component))?;
+            let points = stored.values.iter().enumerate();
+            let points = points.map(|(k, stress)| [stored.origin[0] + k as f64 * stored.pitch[0], *stress]);
+            series.push(Series::new(format!("σ {component}"), points.collect(), Mark::Line));
+        }
+        let x = Axis::linear("depth", Unit::Length);
+        charts.push(Chart::new(
+            format!("column {number}"),
+            x,
+            Axis::linear("stress", Unit::Pressure),
+            series,
+        ));
+    }
+    if charts.is_empty() {
+        return Ok(None);
+    }
+    let charts = Charts { charts, columns: 2, aspect: 0.8 };
+    Ok(Some(Curves::new("stress_columns", "stress below chosen places", charts)))
 }

@@ -164,6 +164,41 @@ fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
     assert!(read("topographies").contains("after pass 200"));
 }
 
+#[test]
+fn curves_below_the_surface_are_figures_of_their_own() {
+    let body = |keys: &str, form: &str| {
+        format!(
+            "{{ young = 210e9, poisson = 0.3, {keys}topography = {{ {form}, shape = [16, 16], pitch = 4e-6 }} }}"
+        )
+    };
+    let ball = body("", "form = \"sphere\", radius = 1e-3");
+    let flowing = format!(
+        "lower = {}\nupper = {ball}\ncontact = {{ load = 5 }}\nplasticity = {{ depth = 30e-6, layers = 6, increments = 3 }}\n",
+        body("plasticity = { yield_stress = 1e9 }, ", "form = \"flat\"")
+    );
+    let elastic = format!(
+        "lower = {}\nupper = {ball}\ncontact = {{ load = 5 }}\n\
+         subsurface = {{ to = 40e-6, layers = 8, columns = [[32e-6, 32e-6], [0, 0]] }}\n",
+        body("", "form = \"flat\"")
+    );
+    for (text, name, words) in [
+        (&flowing, "plastic_flow", ["plastic work so far (nJ)", "largest plastic strain (%)"]),
+        (&elastic, "stress_columns", ["column 2", "σ zz"]),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let case = Case::parse(text, Path::new("case.toml"), folder.path()).unwrap();
+        let directory = folder.path().join("results");
+        study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).unwrap();
+        let format = crate::draw::Format::Svg;
+        let wanted = Wanted { paper: Paper { format, ..Paper::default() }, only: vec![name.to_owned()] };
+        let paths = draw(&Results::open(&directory).unwrap(), &wanted, &|| false).unwrap();
+        let figure = std::fs::read_to_string(&paths[0]).unwrap();
+        for words in words {
+            assert!(figure.contains(words), "no {words} in {name}");
+        }
+    }
+}
+
 fn case_of(seed: u64) -> String {
     // SplitMix64.
     let bytes: Vec<u8> = (1..=32)

@@ -2,14 +2,15 @@
 
 use asperity::io::fields::{Attribute, Fields};
 use asperity::units::{Dimension, format};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::curves;
 use super::found::Found;
 use super::html::{escaped, facts};
 use super::packed::Packed;
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
-use crate::figures::Curves;
+use super::plane::{self, Plane, Shades};
+use crate::draw::Unit;
+use crate::figures;
 use crate::report::{Failure, Outcome};
 
 /// The section, and the data that it shows; none where no stress was wanted.
@@ -24,17 +25,14 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     }
     let fields = found.fields(found.results.subsurface_fields(pass))?;
     let shown = stress(&fields);
-    let (map, rows, columns) = found.kept(shown)?;
-    data["below"] = map;
-    let mut html = facts(rows) + "<div class=\"maps\" id=\"below\"></div>";
-    if !columns.charts.is_empty() {
-        let title = "stress below chosen places".to_owned();
-        html += &curves::html(vec![Curves { name: "stress_columns", title, charts: columns }], charts);
-    }
+    let (map, rows) = found.kept(shown)?;
+    let mut html = facts(rows) + &plane::html(vec![map], data);
+    let columns = found.kept(figures::stress_columns(&fields)).flatten();
+    html += &curves::html(columns.into_iter().collect(), charts);
     Some(html)
 }
 
-type Shown = (Value, Vec<(String, String)>, Charts);
+type Shown = (Plane, Vec<(String, String)>);
 
 fn stress(fields: &Fields) -> Outcome<Shown> {
     let stored = fields.read("section_von_mises")?;
@@ -73,43 +71,20 @@ fn stress(fields: &Fields) -> Outcome<Shown> {
         ),
         ("section at y".to_owned(), escaped(&format(number("section"), Dimension::Length))),
     ];
-    let largest = section.iter().copied().fold(0.0, f64::max);
-    let depth = (section.ncols().saturating_sub(1)) as f64 * pitch[1];
-    let map = json!({
-        "map": Packed::positive(&section, pitch),
-        "x": x,
-        "title": format!("von Mises stress in the {body} body, section at y = {}", format(number("section"), Dimension::Length)),
-        "unit": curves::unit(Unit::Pressure, largest),
-        "length": curves::unit(Unit::Length, depth.max(section.nrows() as f64 * pitch[0])),
-        "range": [0.0, largest],
-        "mark": if at[1] == number("section") { json!([at[0], at[2]]) } else { Value::Null },
-    });
-    Ok((map, rows, columns(fields)?))
-}
-
-/// The six stresses down each column that was kept.
-fn columns(fields: &Fields) -> Outcome<Charts> {
-    let names = fields.names()?;
-    let mut charts = Vec::new();
-    for number in 1.. {
-        let of = |component: &str| format!("column_{number:02}_{component}");
-        if !names.contains(&of("xx")) {
-            break;
-        }
-        let mut series = Vec::new();
-        for component in ["xx", "yy", "zz", "yz", "xz", "xy"] {
-            let stored = fields.read(&of(component))?;
-            let points = stored.values.iter().enumerate();
-            let points = points.map(|(k, stress)| [stored.origin[0] + k as f64 * stored.pitch[0], *stress]);
-            series.push(Series::new(format!("σ {component}"), points.collect(), Mark::Line));
-        }
-        let x = Axis::linear("depth", Unit::Length);
-        charts.push(Chart::new(
-            format!("column {number}"),
-            x,
-            Axis::linear("stress", Unit::Pressure),
-            series,
-        ));
-    }
-    Ok(Charts { charts, columns: 2, aspect: 0.8 })
+    let on_it = at[1] == number("section");
+    let map = Plane {
+        file: "subsurface".to_owned(),
+        title: format!(
+            "von Mises stress in the {body} body, section at y = {}",
+            format(number("section"), Dimension::Length)
+        ),
+        map: Packed::positive(&section, pitch),
+        x,
+        down: true,
+        quantity: "von Mises stress",
+        unit: Unit::Pressure,
+        shades: Shades::FromZero,
+        mark: on_it.then_some(([at[0], at[2]], "most stressed point")),
+    };
+    Ok((map, rows))
 }

@@ -2,12 +2,13 @@
 
 use asperity::study::Results;
 use asperity::surface::{Parameter, Parameters, Topography};
+use asperity::units::{Dimension, format};
 use serde_json::{Value, json};
 
 use super::curves;
 use super::found::Found;
 use super::html::{details, escaped};
-use super::packed::Packed;
+use super::packed::{self, Packed};
 use crate::draw::{Unit, range_of_heights};
 use crate::figures::{self, Stored};
 use crate::report::Outcome;
@@ -25,15 +26,13 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     let mut shown = Vec::new();
     for (index, (key, title)) in BODIES.into_iter().enumerate() {
         // A counter-body that is new in each pass has nothing to compare with.
-        let compares = index == 0 || !found.has_new_upper();
+        let compares = index == 0 || !figures::has_new_upper(&found.case, found.passes.len());
         let now = after.as_ref().map(|after| &after[index]).filter(|_| compares);
-        let body = body(key, title, &before[index], now);
-        html += &format!(
-            "<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>\
-             <p class=\"remark\">{}</p>",
-            escaped(body["remark"].as_str().unwrap_or_default())
-        );
-        let mut body = body;
+        let (mut body, remarks) = body(key, title, &before[index], now);
+        html += &format!("<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>");
+        for remark in remarks {
+            html += &format!("<p class=\"remark\">{}</p>", escaped(&remark));
+        }
         body["kept"] = kept(found, key).into();
         shown.push(body);
     }
@@ -76,30 +75,47 @@ pub(super) fn has_rest(results: &Results) -> bool {
     results.directory().join("fields.h5").exists()
 }
 
-/// One body: its heights before, and the depth that it has lost since.
-fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> Value {
+/// One body, its heights before and the depth that it has lost since, and what is to be said of it.
+fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Value, Vec<String>) {
     let fields: Vec<_> = std::iter::once(before).chain(after).map(|stored| &stored.field).collect();
     let (range, remark) = range_of_heights(fields).unwrap_or(([0.0, 1.0], None));
+    let mut remarks: Vec<String> = remark.into_iter().map(str::to_owned).collect();
     let pitch = before.grid.pitch;
     // Positive where material is gone, on either side.
     let sign = if key == "lower" { 1.0 } else { -1.0 };
     let lost = after.filter(|after| after.field.dim() == before.field.dim());
     let lost = lost.map(|after| (&before.field - &after.field) * sign);
+    if lost.as_ref().is_some_and(|lost| lost.iter().all(|depth| *depth == 0.0)) {
+        remarks.push("The last pass leaves it as it was before the first.".to_owned());
+    }
+    let lost = lost.filter(|lost| lost.iter().any(|depth| *depth != 0.0));
+    let heights = Packed::even(&before.field, pitch);
+    let block = packed::block(&before.field);
+    if block > 1 {
+        remarks.push(format!("Shown in blocks of {block} × {block} cells, each at its mean height."));
+    }
+    // A map and profiles of one height show nothing.
+    let flat = heights.low == heights.high && before.field.iter().all(|z| z.is_finite());
+    if flat {
+        let [lx, ly] = before.grid.extent().map(|side| format(side, Dimension::Length));
+        remarks.push(format!("Flat, {lx} × {ly}, at the height {}.", format(heights.low, Dimension::Length)));
+    }
     let size = |field: &asperity::Field| {
         field.iter().filter(|z| z.is_finite()).fold(0.0, |m: f64, z| m.max(z.abs()))
     };
-    json!({
+    let body = json!({
         "name": key,
         "title": title,
         "sign": sign,
-        "before": Packed::even(&before.field, pitch),
+        "flat": flat,
+        "before": heights,
         "lost": lost.as_ref().map(|lost| Packed::even(lost, pitch)),
         "range": range,
         "unit": curves::unit(Unit::Length, range[0].abs().max(range[1].abs())),
         "lost_unit": lost.as_ref().map(|lost| curves::unit(Unit::Length, size(lost))),
         "length": curves::unit(Unit::Length, before.grid.extent()[0].max(before.grid.extent()[1])),
-        "remark": remark,
-    })
+    });
+    (body, remarks)
 }
 
 /// What laws keep of a body at the end: the depth of its wear where the surface before is not there to compare with, its film.
@@ -147,18 +163,18 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Stri
         }
     }
     let mut html = String::from(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"ISO 25178 parameters\"><table><thead><tr>\
+        "<div class=\"scroll whole\" tabindex=\"0\" role=\"region\" aria-label=\"ISO 25178 parameters\"><table><thead><tr>\
          <th scope=\"col\">parameter</th>",
     );
     for (title, _) in &columns {
         html += &format!("<th scope=\"col\">{title}</th>");
     }
-    html += "<th scope=\"col\">meaning</th></tr></thead><tbody>";
+    html += "<th scope=\"col\" class=\"words\">meaning</th></tr></thead><tbody>";
     for row in 0..columns[0].1.len() {
         let of = &columns[0].1[row];
         html += &format!("<tr><th scope=\"row\">{}</th>", escaped(of.symbol));
         for (_, values) in &columns {
-            html += &format!("<td>{}</td>", escaped(&of.unit.format(values[row].value)));
+            html += &format!("<td>{}</td>", escaped(&of.unit.format(values[row].value).replace('-', "−")));
         }
         html += &format!("<td class=\"words\">{}</td></tr>", escaped(of.meaning));
     }

@@ -11,15 +11,15 @@ use serde_json::{Map, Value, json};
 use super::bodies::has_rest;
 use super::curves;
 use super::found::Found;
-use super::html::escaped;
-use super::packed::Packed;
+use super::html::{escaped, minus};
+use super::packed::{self, Packed};
 use super::table::evenly;
 use crate::draw::{Colours, Unit};
 use crate::figures::{self, Cap, Curves, Stored};
 use crate::report::Outcome;
 
 /// Bytes that all maps of a page take together, at most.
-const MAX_BYTES: usize = 3 << 20;
+const MAX_BYTES: usize = 11 << 18;
 /// Passes whose positions are shown, at most.
 const MAX_PASSES: usize = 20;
 /// Positions that a pass shows at least, before passes are left out.
@@ -90,17 +90,30 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
         return None;
     }
     let groups = vec![json!({ "label": "" })];
-    data["contact"] = shown(&packed(frames), groups);
-    let mut html = SCRUBBER.to_owned();
+    let mut html = SCRUBBER.to_owned() + &blocks(&frames);
+    data["contact"] = shown(&all_packed(frames), groups);
     if has_rest(found.results)
         && let Some(fields) = found.kept(found.results.static_fields())
         && let Some(Some(profile)) = found.kept(figures::profile_at_rest(&fields, &found.case))
     {
-        let charts_of = Curves { charts: profile, name: "profile", title: "section".to_owned() };
-        html += "<h3>Section through the most loaded spot</h3>";
-        html += &curves::html(vec![charts_of], charts);
+        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
+        let places = curves::html(vec![charts_of], charts);
+        if !places.is_empty() {
+            html += &format!("<h3>Section through the most loaded spot</h3>{places}");
+        }
     }
     Some(html)
+}
+
+/// That large fields are shown in blocks, and how.
+fn blocks(frames: &[Frame]) -> String {
+    match frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1) {
+        1 => String::new(),
+        block => format!(
+            "<p class=\"remark\">Shown in blocks of {block} × {block} cells, of each the largest pressure, gaps by their mean. \
+             The files hold all.</p>"
+        ),
+    }
 }
 
 /// Where the maps are drawn.
@@ -127,6 +140,7 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
     let mut frames = Vec::new();
     let mut groups = Vec::new();
     let mut histogram = None;
+    let mut remark = String::new();
     for pass in passes {
         let opened = if pass == last { None } else { Some(found.fields(found.results.fields_after(pass))) };
         let Some(fields) = opened.as_ref().map_or(Some(&fields), Option::as_ref) else { continue };
@@ -136,17 +150,18 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
             let cap = found.kept(Cap::read(fields))?;
             histogram = Some(figures::histogram(read.iter().map(Frame::pressure), &cap));
         }
-        frames.extend(packed(read));
+        remark = blocks(&read);
+        frames.extend(all_packed(read));
         groups.push(json!({
             "label": format!("pass {}", found.done[pass]),
             "lost": found.kept(lost_before(found, pass)),
-            "known": pass == 1 || !found.has_new_upper(),
+            "known": !figures::has_new_upper(&found.case, pass),
         }));
     }
     let count = groups.len();
     data["contact"] = shown(&frames, groups);
     data["contact"]["wraps"] = (found.case["motion"]["strategy"] == "shift").into();
-    let mut html = SCRUBBER.to_owned();
+    let mut html = SCRUBBER.to_owned() + &remark;
     if count < last || positions.len() < kept.len() {
         html += &format!(
             "<p class=\"remark\">Shown: {} of {} kept positions of {count} of {last} passes, evenly chosen, so that \
@@ -236,7 +251,7 @@ fn of_step(step: &StepRecord) -> String {
 
 /// What both bodies had lost before a pass; none before the first, and of a counter-body that is new in each.
 fn lost_before(found: &Found, pass: usize) -> asperity::Result<Option<[Packed; 2]>> {
-    if pass == 1 || found.has_new_upper() {
+    if pass == 1 || figures::has_new_upper(&found.case, pass) {
         return Ok(None);
     }
     let [before, now] = [found.results.surfaces_after(0)?, found.results.surfaces_after(pass - 1)?];
@@ -336,10 +351,11 @@ impl Frame {
         let about = json!({
             "group": self.group,
             "label": self.label,
-            "text": escaped(&self.text),
+            "text": escaped(&minus(&self.text)),
             "offset": self.offset,
             "across": self.across,
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
+            "together": minus(&format(self.approach, Dimension::Length)),
         });
         let map = |(name, Stored { field, grid: Grid { pitch, .. }, place, .. }): (&'static str, Stored)| {
             let layer = LAYERS.iter().find(|layer| layer.name == name)?;
@@ -354,7 +370,7 @@ impl Frame {
     }
 }
 
-fn packed(frames: Vec<Frame>) -> Vec<Shown> {
+fn all_packed(frames: Vec<Frame>) -> Vec<Shown> {
     frames.into_par_iter().map(Frame::packed).collect()
 }
 

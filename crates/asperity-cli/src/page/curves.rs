@@ -8,17 +8,18 @@ use super::html::escaped;
 use crate::draw::{Axis, Chart, Charts, Unit};
 use crate::figures::Curves;
 
-/// HTML with a place for each chart, whose numbers go to `data`.
+/// HTML with a place for each chart that shows something, whose numbers go to `data`; nothing where none does.
 pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
-    let mut html = String::from("<div class=\"charts\">");
+    let mut html = String::new();
     for Curves { name, title, charts } in curves {
         let Charts { charts, .. } = charts;
         let several = charts.len() > 1;
-        for chart in charts.into_iter().filter(|chart| chart.series.iter().any(|s| s.points.len() > 1)) {
-            let title = match (several, chart.title.is_empty()) {
-                (false, _) => title.clone(),
-                (true, true) => chart.y.label.clone(),
-                (true, false) => chart.title.clone(),
+        for chart in charts.into_iter().filter(shows) {
+            let title = match (several, chart.title.as_str(), title.as_str()) {
+                (false, ..) => title.clone(),
+                (true, "", _) => chart.y.label.clone(),
+                (true, of, "") => of.to_owned(),
+                (true, of, title) => format!("{title}, {of}"),
             };
             let _ = write!(
                 html,
@@ -29,7 +30,13 @@ pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
             data.push(of_chart(name, &title, &chart));
         }
     }
-    html + "</div>"
+    if html.is_empty() { html } else { format!("<div class=\"charts\">{html}</div>") }
+}
+
+/// Whether there is anything but zeros on a chart, and more than a point.
+fn shows(chart: &Chart) -> bool {
+    let points = || chart.series.iter().flat_map(|series| &series.points);
+    chart.series.iter().any(|series| series.points.len() > 1) && points().any(|[_, y]| *y != 0.0)
 }
 
 fn of_chart(name: &str, title: &str, chart: &Chart) -> Value {

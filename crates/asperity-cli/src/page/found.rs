@@ -29,7 +29,7 @@ pub(super) struct Found<'a> {
 
 impl<'a> Found<'a> {
     /// Reads the records; an error only without a case that can be read.
-    pub(super) fn in_results(results: &'a Results) -> Outcome<Self> {
+    pub(super) fn in_results(results: &'a Results) -> asperity::Result<Self> {
         let mut missing = Vec::new();
         let case = results.case()?;
         let finished = results.directory().join("summary.json").exists();
@@ -71,11 +71,6 @@ impl<'a> Found<'a> {
 
     pub(super) fn moves(&self) -> bool {
         !self.case["motion"].is_null()
-    }
-
-    /// Whether the upper body before the last pass is another one than at the beginning, and not kept.
-    pub(super) fn has_new_upper(&self) -> bool {
-        self.case["motion"]["counter"] == "fresh" && self.passes.len() > 1
     }
 
     pub(super) fn directory(&self) -> &Path {

@@ -5,7 +5,7 @@ use asperity::units::{Dimension, format, format_number, format_time};
 use serde_json::{Map, Value};
 
 use super::found::Found;
-use super::html::{details, escaped, facts, number};
+use super::html::{details, escaped, facts, minus, number};
 use super::table::text_of;
 
 /// The title of the case.
@@ -18,8 +18,11 @@ pub(super) fn title(found: &Found) -> String {
 
 /// Everything above the sections.
 pub(super) fn html(found: &Found) -> String {
-    let mut html =
-        format!("<h1>{}</h1><p class=\"verdict\">{}</p>", escaped(&title(found)), escaped(&verdict(found)));
+    let mut html = format!(
+        "<h1>{}</h1><p class=\"verdict\">{}</p>",
+        escaped(&title(found)),
+        escaped(&minus(&verdict(found)))
+    );
     html += &unfinished(found);
     let told = found.summary.iter().flat_map(|summary| &summary.warnings);
     let warnings: Vec<String> = told.map(|warning| escaped(warning)).collect();
@@ -84,6 +87,12 @@ fn verdict(found: &Found) -> String {
                     ", tangential force {} of the load, {stick} % sticks",
                     format_number(shear.force_ratio)
                 );
+            }
+            if let Some(flow) = &record.flow {
+                text += &match flow.max_plastic_strain {
+                    0.0 => ", nothing flows below the surfaces".to_owned(),
+                    strain => format!(", plastic strain up to {} %", format_number(100.0 * strain)),
+                };
             }
             if let Some(last) = found.updates.last() {
                 let deepest = format(last.max_wear_lower.max(last.max_wear_upper), Dimension::Length);
@@ -179,9 +188,13 @@ pub(super) fn numbers(key: &str, record: &Map<String, Value>) -> Vec<(String, St
                     .collect::<Vec<_>>()
                     .join(", ")
             }
+            Value::String(word) => escaped(word),
             value => shown(value, &path, 0.0),
         };
-        (name.replace('_', " "), text)
+        // What stands there twice, under the load and without it.
+        let unloaded = name.strip_prefix("residual_").filter(|under_load| record.contains_key(*under_load));
+        let label = unloaded.map_or(name.to_owned(), |under_load| format!("unloaded: {under_load}"));
+        (label.replace('_', " "), text)
     };
     names.map(row).collect()
 }

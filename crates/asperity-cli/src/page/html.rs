@@ -26,11 +26,16 @@ pub(super) fn script_data(data: &serde_json::Value) -> String {
     data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
+/// Text about numbers with the sign that they have in print.
+pub(super) fn minus(text: &str) -> String {
+    text.replace('-', "−")
+}
+
 /// A number with its value, SI, for programs that read the page; `key` says where it stands in `summary.json`.
 pub(super) fn number(key: &str, value: &serde_json::Value, text: &str) -> String {
     match value {
         serde_json::Value::Number(value) => {
-            format!("<data data-key=\"{}\" value=\"{value}\">{}</data>", escaped(key), escaped(text))
+            format!("<data data-key=\"{}\" value=\"{value}\">{}</data>", escaped(key), escaped(&minus(text)))
         }
         _ => escaped(text),
     }

@@ -8,11 +8,13 @@ mod bodies;
 mod contact;
 mod course;
 mod curves;
+mod flow;
 mod found;
 mod head;
 mod html;
 mod live;
 mod packed;
+mod plane;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -39,10 +41,19 @@ const FILE: &str = "report.html";
 
 /// Writes the page of a results directory and prints its path.
 pub(crate) fn report(arguments: &Report) -> Outcome {
-    let results = Results::open(&arguments.directory)?;
-    let path = arguments.out.clone().unwrap_or_else(|| of(&results));
-    write(&results, &path)?;
+    let path = make(&arguments.directory, arguments.out.as_deref())?;
     print(&format!("{}\n", path.display()))
+}
+
+/// Writes the page of the results in `directory`, finished or under way, to `out`, or into the directory, and gives its path.
+///
+/// # Errors
+/// [`asperity::Error::NoResults`] and [`asperity::Error::File`]; what else of the results cannot be read is left out and named.
+pub fn make(directory: &Path, out: Option<&Path>) -> asperity::Result<PathBuf> {
+    let results = Results::open(directory)?;
+    let path = out.map_or_else(|| of(&results), Path::to_owned);
+    write(&results, &path)?;
+    Ok(path)
 }
 
 /// Where the page of a results directory is.
@@ -51,18 +62,18 @@ pub(crate) fn of(results: &Results) -> PathBuf {
 }
 
 /// Writes the page of `results` to `path`; where that fails the one that is there stays.
-pub(crate) fn write(results: &Results, path: &Path) -> Outcome {
+pub(crate) fn write(results: &Results, path: &Path) -> asperity::Result<()> {
     let page = page(results)?;
     // What killed processes have left beside it.
     io::sweep(path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new(".")));
-    Ok(io::replace(path, page.as_bytes())?)
+    io::replace(path, page.as_bytes())
 }
 
 /// A section: its anchor, its title, its HTML.
 type Section = (&'static str, &'static str, Option<String>);
 
 /// The page.
-fn page(results: &Results) -> Outcome<String> {
+fn page(results: &Results) -> asperity::Result<String> {
     let mut found = Found::in_results(results)?;
     let mut data = json!({ "colours": {
         "heights": palette(Colours::Heights),
@@ -70,10 +81,11 @@ fn page(results: &Results) -> Outcome<String> {
     }});
     let mut charts = Vec::new();
     let contact = contact::section(&mut found, &mut data, &mut charts);
-    let sections: [Section; 5] = [
+    let sections: [Section; 6] = [
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
         ("contact", "Contact", contact),
         ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
+        ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
         ("trust", "Trust", Some(trust::section(&mut found, &mut charts))),
     ];

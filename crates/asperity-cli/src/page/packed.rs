@@ -10,7 +10,7 @@ use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
 /// The most cells along a side; larger fields are reduced by blocks.
-pub(super) const MAX_SIDE: usize = 1024;
+const MAX_SIDE: usize = 1024;
 
 /// A field in levels, `[ix, iy]`, the last index fastest.
 #[derive(Debug, Clone, Serialize)]
@@ -97,6 +97,11 @@ impl Packed {
         Self { corner, ..self }
     }
 
+    /// How far it reaches along both axes, m.
+    pub(super) fn extent(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.shape[axis] as f64 * self.pitch[axis])
+    }
+
     /// Bytes that it takes.
     pub(super) fn size(&self) -> usize {
         self.data.len()
@@ -110,9 +115,14 @@ impl Packed {
     }
 }
 
+/// Cells along either side of the blocks that a field is shown in; 1 unless it is large.
+pub(super) fn block(field: &Field) -> usize {
+    field.nrows().max(field.ncols()).div_ceil(MAX_SIDE).max(1)
+}
+
 /// At most [`MAX_SIDE`] cells along a side, each a block of so many along both axes; the last block may be of fewer.
 fn reduced(field: &Field, pitch: [f64; 2], reduction: Reduction) -> (Field, [f64; 2]) {
-    let block = field.nrows().max(field.ncols()).div_ceil(MAX_SIDE).max(1);
+    let block = block(field);
     if block == 1 {
         return (field.clone(), pitch);
     }

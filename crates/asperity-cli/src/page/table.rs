@@ -7,6 +7,8 @@ use asperity::units::{CELSIUS, Dimension, Multiple, format, format_number};
 
 use super::html::escaped;
 
+/// Share of the largest number of a column, or of its vector, below which a number is what rounding has left.
+const ROUNDING: f64 = 1e-8;
 /// Rows of a table on a page, at most.
 const MAX_ROWS: usize = 200;
 
@@ -45,6 +47,12 @@ impl Table {
         self
     }
 
+    /// The numbers of a column, if there is one of that name.
+    pub(super) fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let at = self.columns.iter().position(|column| column == name)?;
+        Some(self.rows.iter().filter_map(|row| row.get(at).copied()).collect())
+    }
+
     /// How many rows there are.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
@@ -64,6 +72,8 @@ impl Table {
              </caption><thead><tr>",
             escaped(caption)
         );
+        let rounding: Vec<f64> =
+            (0..self.columns.len()).map(|column| ROUNDING * self.largest(column)).collect();
         for (name, (_, unit)) in self.columns.iter().zip(&units) {
             let unit = if unit.symbol.is_empty() { String::new() } else { format!("<br>{}", unit.symbol) };
             let _ = write!(html, "<th scope=\"col\">{}{unit}</th>", escaped(&name.replace('_', " ")));
@@ -71,8 +81,10 @@ impl Table {
         html += "</tr></thead><tbody>";
         for index in shown {
             html += "<tr>";
-            for ((value, (kind, unit)), name) in self.rows[index].iter().zip(&units).zip(&self.columns) {
-                let text = shown_in(*value, *kind, unit);
+            for (column, (value, name)) in self.rows[index].iter().zip(&self.columns).enumerate() {
+                let (kind, unit) = &units[column];
+                let is_rounding = value.abs() < rounding[column];
+                let text = shown_in(if is_rounding { 0.0 } else { *value }, *kind, unit);
                 let _ = match key {
                     Some(key) if value.is_finite() => write!(
                         html,
@@ -88,11 +100,21 @@ impl Table {
         html + "</tbody></table></div>"
     }
 
+    /// The largest number of a column; of a component that of its vector.
+    fn largest(&self, column: usize) -> f64 {
+        let name = &self.columns[column];
+        let belongs =
+            |other: &String| other == name || (vector(name).is_some() && vector(other) == vector(name));
+        let together = (0..self.columns.len()).filter(|at| belongs(&self.columns[*at]));
+        let sizes =
+            together.flat_map(|at| self.rows.iter().filter_map(move |row| row.get(at)).map(|v| v.abs()));
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+    }
+
     /// What a column measures, and the unit that suits its largest number.
     fn unit(&self, column: usize) -> (Kind, Multiple) {
         let kind = kind(&self.columns[column]);
-        let sizes = self.rows.iter().filter_map(|row| row.get(column)).map(|value| value.abs());
-        let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let largest = self.largest(column);
         let multiple = match kind {
             Kind::Of(dimension) => dimension.multiple(largest),
             Kind::Celsius => Multiple { factor: 1.0, symbol: "°C".to_owned() },
@@ -129,10 +151,15 @@ fn shown_in(value: f64, kind: Kind, unit: &Multiple) -> String {
     .replace('-', "−")
 }
 
+/// The vector whose component a column is.
+fn vector(column: &str) -> Option<&str> {
+    column.strip_suffix("_x").or(column.strip_suffix("_y"))
+}
+
 /// What the column or key measures, by its name.
 fn kind(name: &str) -> Kind {
     // The first word that a name has; `max_pressure`, `plastic_volume_lower_interior`.
-    const WORDS: [(&str, Kind); 24] = [
+    const WORDS: [(&str, Kind); 27] = [
         ("friction_coefficient", Kind::Number),
         ("fraction", Kind::Number),
         ("ratio", Kind::Number),
@@ -140,11 +167,14 @@ fn kind(name: &str) -> Kind {
         ("columns", Kind::Number),
         ("temperature", Kind::Celsius),
         ("friction_power", Kind::Of(Dimension::Power)),
-        ("friction_work", Kind::Of(Dimension::Energy)),
+        ("work", Kind::Of(Dimension::Energy)),
         ("volume", Kind::Of(Dimension::Volume)),
         ("area", Kind::Of(Dimension::Area)),
         ("pressure", Kind::Of(Dimension::Pressure)),
         ("shear", Kind::Of(Dimension::Pressure)),
+        ("tension", Kind::Of(Dimension::Pressure)),
+        ("strain_position", Kind::Of(Dimension::Length)),
+        ("strain", Kind::Number),
         ("von_mises", Kind::Of(Dimension::Pressure)),
         ("stiffness", Kind::Of(Dimension::Stiffness)),
         ("energy", Kind::Of(Dimension::Energy)),
@@ -193,6 +223,16 @@ mod tests {
                 "{column}: {units:?}, {unit}"
             );
         }
+    }
+
+    #[test]
+    fn what_rounding_leaves_of_a_component_is_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, "tangential_force_x,tangential_force_y\n0.18,-3e-20\n0.09,1e-3\n").unwrap();
+        let html = Table::read(&path).unwrap().html("rows", None);
+        assert!(html.contains("tangential force y<br>mN</th>"), "{html}");
+        assert!(html.contains("<td>180</td><td>0</td>") && html.contains("<td>90</td><td>1</td>"), "{html}");
     }
 
     #[test]

@@ -26,6 +26,14 @@ upper = { young = 210e9, poisson = 0.3, topography = { form = \"sphere\", radius
 contact = { load = 5e-3 }
 ";
 
+/// A ball that leaves a dent in a plane, which flows below its surface.
+const FLOWING: &str = "\
+lower = { young = 210e9, poisson = 0.3, plasticity = { yield_stress = 1e9 }, topography = { form = \"flat\", shape = [16, 16], pitch = 4e-6 } }
+upper = { young = 210e9, poisson = 0.3, topography = { form = \"sphere\", radius = 1e-3, shape = [16, 16], pitch = 4e-6 } }
+contact = { load = 5 }
+plasticity = { depth = 30e-6, layers = 6, increments = 3 }
+";
+
 /// A folder with the results of a case in it.
 struct Computed {
     folder: TempDir,
@@ -175,6 +183,42 @@ fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
 
     let none = Computed::of(&MOVING.replace("pressure_every = 1", "pressure_every = 0"));
     assert!(none.page().contains("<code>pressure_every = 0</code>") && none.data()["contact"].is_null());
+}
+
+#[test]
+fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
+    let computed = Computed::of(FLOWING);
+    let (page, data, summary) = (computed.page(), computed.data(), computed.summary());
+    assert!(page.contains("<section id=\"flow\" ") && page.contains("<th scope=\"col\">unloaded</th>"));
+    assert!(page.contains("unloaded: plastic work") && page.contains("<td>yields</td>"));
+    let planes = data["planes"].as_array().unwrap();
+    let files: Vec<&str> = planes.iter().map(|plane| plane["file"].as_str().unwrap()).collect();
+    assert_eq!(files, ["plastic_strain_lower", "residual_stress_lower", "residual_surface_lower"]);
+    // The section is the one through the largest strain; the dent is as deep as the summary says, but for its rim.
+    assert_eq!(planes[0]["map"]["high"], summary["static"]["max_plastic_strain"]);
+    let [low, high] = ["low", "high"].map(|end| planes[2]["map"][end].as_f64().unwrap());
+    let range = summary["static"]["residual_residual_displacement"].as_f64().unwrap();
+    assert!(low < 0.0 && ((high - low) / range - 1.0).abs() < 1e-12, "{low}, {high}, {range}");
+    let stress = &planes[1]["range"];
+    assert_eq!(stress[0].as_f64().unwrap(), -stress[1].as_f64().unwrap());
+    let mut charts =
+        data["charts"].as_array().unwrap().iter().filter(|chart| chart["name"] == "plastic_flow");
+    let work = charts.next_back().unwrap()["series"][0]["y"].as_array().unwrap().clone();
+    let all = summary["static"]["residual_plastic_work"].as_f64().unwrap();
+    assert!(work.len() == 6 && (work[5].as_f64().unwrap() / all - 1.0).abs() < 1e-12, "{work:?} of {all}");
+
+    fs::remove_file(computed.path("plasticity.h5")).unwrap();
+    let page = computed.page();
+    assert!(page.contains("Not on this page") && page.contains("plasticity.h5"), "nothing is missed");
+    let elastic = Computed::of(&FLOWING.replace("yield_stress = 1e9", "yield_stress = 1e12"));
+    assert!(elastic.page().contains("Nothing has flowed in it."));
+}
+
+#[test]
+fn a_plane_has_no_maps_and_no_number_below_zero() {
+    let page = Computed::of(AT_REST).page();
+    assert!(page.contains("Flat, 24 µm × 24 µm, at the height 0 m."));
+    assert!(!page.contains("−0 ") && !page.contains("-0 m"));
 }
 
 #[test]

@@ -32,7 +32,8 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
     if let (Some(wanted), Some(reached)) = (found.case["contact"]["load"].as_f64(), reached) {
         let off = (reached - wanted).abs() / wanted;
         let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));
-        let text = format!("{reached} of {wanted} wanted, {off:.0e} of it off");
+        let off = if off > 0.0 { format!("{off:.0e} of it off") } else { "to the last digit".to_owned() };
+        let text = format!("{reached} of {wanted} wanted, {off}");
         rows.push(("load reached".to_owned(), escaped(&text)));
     }
     if let Some(asperity::study::RunningIn { computed, represented, error_bound, .. }) =

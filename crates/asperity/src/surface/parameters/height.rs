@@ -54,7 +54,8 @@ impl HeightParameters {
             sku: fourth / count / sq.powi(4),
             sz: highest - lowest,
             sp: highest,
-            sv: -lowest,
+            // Of a plane 0, and not −0.
+            sv: 0.0 - lowest,
         }
     }
 }
@@ -66,6 +67,13 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+
+    #[test]
+    fn a_plane_is_as_deep_as_it_is_high() {
+        let plane = HeightParameters::of_samples(&[3e-6; 4]);
+        assert_eq!((plane.sp, plane.sv, plane.sz), (0.0, 0.0, 0.0));
+        assert!(plane.sv.is_sign_positive());
+    }
     use crate::grid::Grid;
     use crate::surface::Form;
 

@@ -1,0 +1,73 @@
+//! A map that does not change: a place on the page, its field in the data.
+
+use serde_json::{Value, json};
+
+use super::curves;
+use super::packed::Packed;
+use crate::draw::Unit;
+
+/// A field in a plane, as it is shown.
+pub(super) struct Plane {
+    /// Name of the picture when it is saved.
+    pub(super) file: String,
+    pub(super) title: String,
+    pub(super) map: Packed,
+    /// Where its left end is, m.
+    pub(super) x: f64,
+    /// Whether the second axis is a depth.
+    pub(super) down: bool,
+    pub(super) quantity: &'static str,
+    pub(super) unit: Unit,
+    pub(super) shades: Shades,
+    /// A point that is marked, and what it is.
+    pub(super) mark: Option<([f64; 2], &'static str)>,
+}
+
+/// Which values the colours run over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shades {
+    /// From 0 to the highest.
+    FromZero,
+    /// From the lowest to the highest, in the colours of heights.
+    Heights,
+    /// In the same, as far below 0 as above.
+    AroundZero,
+}
+
+/// HTML with a place for each plane, which go to `data`.
+pub(super) fn html(planes: Vec<Plane>, data: &mut Value) -> String {
+    if data["planes"].is_null() {
+        data["planes"] = json!([]);
+    }
+    let all = data["planes"].as_array_mut().expect("it has been made one");
+    let mut html = String::from("<div class=\"maps\">");
+    for plane in planes {
+        html += &format!("<div data-plane=\"{}\"></div>", all.len());
+        all.push(plane.data());
+    }
+    html + "</div>"
+}
+
+impl Plane {
+    fn data(self) -> Value {
+        let [low, high] = match (self.shades, [self.map.low, self.map.high]) {
+            (Shades::FromZero, [_, high]) => [0.0, high],
+            (Shades::Heights, range) => range,
+            (Shades::AroundZero, [low, high]) => [-high.max(-low), high.max(-low)],
+        };
+        let [along, down] = self.map.extent();
+        json!({
+            "file": self.file,
+            "title": self.title,
+            "x": self.x,
+            "length": curves::unit(Unit::Length, along.max(down)),
+            "down": self.down,
+            "quantity": self.quantity,
+            "unit": curves::unit(self.unit, high.max(-low)),
+            "kind": if self.shades == Shades::FromZero { "positive" } else { "heights" },
+            "range": [low, high],
+            "mark": self.mark.map(|(at, what)| json!({ "at": at, "what": what })),
+            "map": self.map,
+        })
+    }
+}
