@@ -1,5 +1,6 @@
 from _typeshed import Incomplete, SupportsGetItem, SupportsLenAndGetItem
 from os import PathLike
+from pathlib import Path
 from typing import Any, SupportsFloat, SupportsIndex, final
 
 @final
@@ -92,6 +93,10 @@ class Results:
         """
     def passes(self, /) -> Any: ...
     def read(self, /, kind: str, number: SupportsIndex | None, name: str) -> tuple[Incomplete, str, list[str], list[float], list[float]]: ...
+    def report(self, /, out: str | PathLike[str] | None) -> Path:
+        """
+        Writes the page and gives its path.
+        """
     def steps(self, /) -> Any: ...
     def summary(self, /) -> Any | None:
         """

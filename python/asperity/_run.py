@@ -174,6 +174,18 @@ class Run(Comparable):
 
         return run(self, quantity, **options)
 
+    def report(self, out: str | os.PathLike[str] | None = None) -> pathlib.Path:
+        """Write a page of the run, maps, curves and tables in one HTML file, and give its path.
+
+        It opens in any browser without a network. What of the results cannot be read is left out, and named on it.
+
+        Parameters
+        ----------
+        out : path, optional
+            The file; by default `report.html` beside the results, which goes with them where no `out` was given to keep them.
+        """
+        return _path(self._core.report(out))
+
     def animate(self, number: int | None = None, **options: Any) -> Any:
         """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays.
 

@@ -163,6 +163,21 @@ class AtPoint(Failed):
     cause: AsperityError
 
 
+class AtIncrement(Failed):
+    """An increment of a load could not be solved: `increment`, from 1, and `cause`, what is wrong there."""
+
+    increment: int
+    cause: AsperityError
+
+
+class FlowNotConverged(Failed):
+    """Plastic strain and stress did not come to agree: `products`, `mismatch` over the yield stress, `tolerance`."""
+
+    products: int
+    mismatch: float
+    tolerance: float
+
+
 class Memory(Failed):
     """A computation takes more memory than there is: `needed`, `available`, bytes."""
 

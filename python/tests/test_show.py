@@ -167,6 +167,19 @@ def test_a_run_draws_its_columns(run):
         run.plot("sq")
 
 
+def test_a_run_writes_its_page(run, tmp_path):
+    path = run.report(tmp_path / "page.html")
+    assert path == tmp_path / "page.html"
+    page = path.read_text(encoding="utf-8")
+    assert page.startswith("<!doctype html>") and "2 passes, mean load" in page
+    for column in ("mean_load", "max_pressure", "sq_lower"):
+        told = re.search(rf'data-key="passes\.1\.{column}" value="([^"]+)"', page)
+        assert told is not None and float(told[1]) == run.passes[column][1], column
+    assert run.report() == run.directory / "report.html" and (run.directory / "report.html").read_text(encoding="utf-8") == page
+    with pytest.raises(asp.errors.FileProblem, match=r"no/page\.html"):
+        run.report(tmp_path / "no" / "page.html")
+
+
 def test_an_animation_shows_each_pressure_on_the_lower_body(run):
     film = run.animate(1, interval=50.0)
     fields = run.fields(1)

@@ -96,11 +96,14 @@ fn code(error: &Error) -> u8 {
         Error::BeyondPlasticLimit { .. }
         | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
+        | Error::FlowNotConverged { .. }
         | Error::Memory { .. }
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. } => 1,
-        Error::AtPosition { source, .. } | Error::AtPoint { source, .. } => code(source),
+        Error::AtPosition { source, .. }
+        | Error::AtPoint { source, .. }
+        | Error::AtIncrement { source, .. } => code(source),
         Error::Interrupted => 130,
         Error::File { source, .. } => code_of_io(source),
         _ => 2,
@@ -263,7 +266,12 @@ fn hint(error: &Error) -> Option<String> {
                 LoadLimit::FullContact => "`control = \"step-load\"` in [motion], the load at every position",
             }
         )),
-        Error::AtPosition { source, .. } | Error::AtPoint { source, .. } => hint(source),
+        Error::AtPosition { source, .. }
+        | Error::AtPoint { source, .. }
+        | Error::AtIncrement { source, .. } => hint(source),
+        Error::FlowNotConverged { .. } => {
+            Some("raise `increments` in [plasticity], so that each of them flows less".to_owned())
+        }
         Error::ResultsExist { results: true, .. } => Some(
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),

@@ -101,6 +101,14 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
             a.set_item("cause", raised(py, source)?)?;
             variant!(a, "AtPoint", point = point, points = points)
         }
+        Error::AtIncrement { increment, source } => {
+            hint = hint.or(source.hint());
+            a.set_item("cause", raised(py, source)?)?;
+            variant!(a, "AtIncrement", increment = increment)
+        }
+        Error::FlowNotConverged { products, mismatch, tolerance } => {
+            variant!(a, "FlowNotConverged", products = products, mismatch = mismatch, tolerance = tolerance)
+        }
         Error::Memory { needed, available } => variant!(a, "Memory", needed = needed, available = available),
         Error::Interrupted => "Interrupted",
         Error::ResultsExist { path, results } => {

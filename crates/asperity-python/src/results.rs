@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{object, ok, record};
+use crate::work;
 
 /// An array as it is stored: values, unit, names of the axes, pitch and origin along each.
 type Stored<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
@@ -36,6 +37,12 @@ impl CoreResults {
             Err(Error::File { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Ok(None),
             summary => record(py, &ok(summary, py)?).map(Some),
         }
+    }
+
+    /// Writes the page and gives its path.
+    fn report(&self, py: Python<'_>, out: Option<PathBuf>) -> PyResult<PathBuf> {
+        let directory = self.results.directory();
+        work::run(py, 0, None, |_| asperity_cli::write_report(directory, out.as_deref()))
     }
 
     fn passes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
