@@ -122,7 +122,14 @@ class MapView extends Drawing {
     let w = Math.max(60, width - MARGIN.left - (this.hasBar() ? MARGIN.right : 16));
     const most = Math.max(220, Math.min(520, window.innerHeight * 0.62));
     if (w / aspect > most) w = most * aspect;
-    return [MARGIN.left, MARGIN.top, w, w / aspect];
+    return [MARGIN.left, MARGIN.top + this.spare(w / aspect), w, w / aspect];
+  }
+
+  /** Room above and below a plane of a height that the words of its bar need. */
+  spare(height) {
+    const { bar } = this.scene;
+    const letters = this.hasBar() ? bar.label.length + bar.unit.symbol.length + 3 : 0;
+    return Math.max(0, (6.8 * letters - height) / 2);
   }
 
   /** A bar of one value says nothing. */
@@ -135,12 +142,13 @@ class MapView extends Drawing {
     const { region, length, bar, down, names = ["x", "y"] } = this.scene;
     const frame = this.frame(width);
     const [left, top, w, h] = frame;
-    const c = this.context(canvas, width, top + h + MARGIN.bottom, ratio);
+    const height = top + h + Math.max(MARGIN.bottom, this.spare(h));
+    const c = this.context(canvas, width, height, ratio);
     // Around the plane nothing changes from one position to the next.
     const around = JSON.stringify([width, ratio, frame, region, length, bar, names, style("--paper")]);
     if (canvas !== this.canvas || around !== this.around) {
       c.fillStyle = style("--paper");
-      c.fillRect(0, 0, width, top + h + MARGIN.bottom);
+      c.fillRect(0, 0, width, height);
       drawAxes(c, { frame, region, down, units: [length, length], names, apart: [60, 40] });
       if (this.hasBar()) paintBar(c, bar, [left + w + 12, top, 12, h]);
       if (canvas === this.canvas) this.around = around;

@@ -30,7 +30,7 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
         let now = after.as_ref().map(|after| &after[index]).filter(|_| compares);
         let (mut body, remarks) = body(key, title, &before[index], now);
         html += &format!("<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>");
-        for remark in remarks {
+        for remark in remarks.into_iter().chain(as_it_is(found, key)) {
             html += &format!("<p class=\"remark\">{}</p>", escaped(&remark));
         }
         body["kept"] = kept(found, key).into();
@@ -116,6 +116,20 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
         "length": curves::unit(Unit::Length, before.grid.extent()[0].max(before.grid.extent()[1])),
     });
     (body, remarks)
+}
+
+/// What a body at rest has been through when its heights are kept.
+fn as_it_is(found: &Found, body: &str) -> Option<String> {
+    match (found.moves(), found.updates.last()) {
+        (false, Some(last)) => {
+            let distance = format(last.distance, Dimension::Length);
+            Some(format!("As it is after {distance} of sliding."))
+        }
+        (false, None) if !found.case[body]["plasticity"].is_null() => {
+            Some("As plastic flow below it leaves it, without the elastic displacement.".to_owned())
+        }
+        _ => None,
+    }
 }
 
 /// What laws keep of a body at the end: the depth of its wear where the surface before is not there to compare with, its film.

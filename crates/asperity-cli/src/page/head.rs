@@ -168,7 +168,9 @@ pub(super) fn numbers(key: &str, record: &Map<String, Value>) -> Vec<(String, St
     const FIRST: [&str; 6] =
         ["load", "approach", "contact_area", "apparent_area", "max_pressure", "mean_gap"];
     let rest = record.keys().map(String::as_str).filter(|name| !FIRST.contains(name));
-    let names = FIRST.into_iter().filter(|name| record.contains_key(*name)).chain(rest);
+    let mut names: Vec<&str> =
+        FIRST.into_iter().filter(|name| record.contains_key(*name)).chain(rest).collect();
+    names.sort_by_key(|name| unloaded(name, record).is_some());
     let load = record.get("load").and_then(Value::as_f64).unwrap_or(0.0);
     let row = |name: &str| {
         let shown = |value: &Value, path: &str, scale: f64| match value.as_f64() {
@@ -191,12 +193,16 @@ pub(super) fn numbers(key: &str, record: &Map<String, Value>) -> Vec<(String, St
             Value::String(word) => escaped(word),
             value => shown(value, &path, 0.0),
         };
-        // What stands there twice, under the load and without it.
-        let unloaded = name.strip_prefix("residual_").filter(|under_load| record.contains_key(*under_load));
-        let label = unloaded.map_or(name.to_owned(), |under_load| format!("unloaded: {under_load}"));
+        let label =
+            unloaded(name, record).map_or(name.to_owned(), |under_load| format!("unloaded: {under_load}"));
         (label.replace('_', " "), text)
     };
-    names.map(row).collect()
+    names.into_iter().map(row).collect()
+}
+
+/// The name under the load of what a record has twice, where `name` is that without it.
+fn unloaded<'a>(name: &'a str, record: &Map<String, Value>) -> Option<&'a str> {
+    name.strip_prefix("residual_").filter(|under_load| record.contains_key(*under_load))
 }
 
 /// The case as a file that can be computed again.

@@ -40,7 +40,7 @@ pub(super) fn html(planes: Vec<Plane>, data: &mut Value) -> String {
         data["planes"] = json!([]);
     }
     let all = data["planes"].as_array_mut().expect("it has been made one");
-    let mut html = String::from("<div class=\"maps\">");
+    let mut html = String::from("<div class=\"split\">");
     for plane in planes {
         html += &format!("<div data-plane=\"{}\"></div>", all.len());
         all.push(plane.data());

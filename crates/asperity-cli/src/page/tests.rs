@@ -191,6 +191,7 @@ fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
     let (page, data, summary) = (computed.page(), computed.data(), computed.summary());
     assert!(page.contains("<section id=\"flow\" ") && page.contains("<th scope=\"col\">unloaded</th>"));
     assert!(page.contains("unloaded: plastic work") && page.contains("<td>yields</td>"));
+    assert_eq!(page.matches("As plastic flow below it leaves it").count(), 1, "the upper body does not flow");
     let planes = data["planes"].as_array().unwrap();
     let files: Vec<&str> = planes.iter().map(|plane| plane["file"].as_str().unwrap()).collect();
     assert_eq!(files, ["plastic_strain_lower", "residual_stress_lower", "residual_surface_lower"]);
