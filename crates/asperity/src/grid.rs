@@ -1,5 +1,9 @@
 //! Regular grids and the fields on them.
 
+mod seat;
+
+pub use seat::Seat;
+
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Metre, SquareMetre};
 

@@ -4,7 +4,7 @@ use crate::error::{Error, LoadLimit, Result};
 use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
-/// Largest residual η to which the positions of a trial are solved.
+/// Largest residual η to which the positions of a trial are solved roughly.
 pub(super) const MAX_RESIDUAL: f64 = 0.1;
 /// Approaches tried, after which the search is given up.
 const MAX_TRIALS: usize = 100;
@@ -35,6 +35,8 @@ pub(super) struct Search {
     pub(super) tolerance: f64,
     /// Residual η of the accepted answer.
     pub(super) residual: f64,
+    /// Largest residual η to which the positions of a trial are solved.
+    pub(super) roughest: f64,
     /// Approach at which the bodies first touch: there is no load below it.
     pub(super) touch: Metre,
     /// Length below which approaches do not differ: the rounding of the heights.
@@ -91,7 +93,7 @@ impl Search {
             let is_rough = residual > self.residual;
             if std::mem::replace(&mut was_rough, is_rough) != is_rough {
                 (least_excess, stalled) = (f64::INFINITY, 0);
-                if !is_rough && excess.abs() > MAX_RESIDUAL {
+                if !is_rough && excess.abs() > self.roughest {
                     // The rough answers before it promised that this one meets the load: from here on without them.
                     (rough_misled, before, below) = (true, None, 0.0);
                     (bracket, slope) = (Bracket::beyond(self.touch), first.slope);
@@ -164,7 +166,7 @@ impl Search {
         if SECANT_ERROR * (excess * before).abs() <= self.tolerance {
             return self.residual;
         }
-        excess.abs().clamp(self.residual, MAX_RESIDUAL.max(self.residual))
+        excess.abs().clamp(self.residual, self.roughest.max(self.residual))
     }
 }
 
@@ -245,7 +247,15 @@ mod tests {
 
     fn limited(tolerance: f64, approach: f64) -> Search {
         let limit = Limit { approach, cause: LoadLimit::Yielded };
-        Search { load: 2.0, tolerance, residual: 1e-6, touch: 0.0, resolution: 0.0, limit }
+        Search {
+            load: 2.0,
+            tolerance,
+            residual: 1e-6,
+            roughest: MAX_RESIDUAL,
+            touch: 0.0,
+            resolution: 0.0,
+            limit,
+        }
     }
 
     #[test]

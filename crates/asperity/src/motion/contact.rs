@@ -1,12 +1,11 @@
 //! The contact at one position, kept in proportion to the real area of contact.
 
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{Field, Seat};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
-use crate::motion::seat::Seat;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{AtRest, OneOfMany, Watch};
 use crate::operator::{Boundary, Operators};
@@ -201,6 +200,7 @@ impl Contact {
             convolutions: self.stats.convolutions,
             residual: self.residual,
             heat: None,
+            flow: None,
         }
     }
 }

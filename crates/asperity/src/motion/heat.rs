@@ -8,7 +8,6 @@ use crate::motion::contact::Contact;
 use crate::motion::law::Heat;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::seat::Seat;
 use crate::temperature::FlashTemperature;
 use crate::units::Kelvin;
 
@@ -42,7 +41,7 @@ impl PassHeat {
             body.state.get(FLASH).map_or(CellValues::Uniform(0.0), |state| state.values.clone().into())
         });
         Box::new(move |cells: [&[u32]; 2], position: &Position, _: &[f64]| {
-            let seats = Seat::of_bodies(position, shapes);
+            let seats = position.seats(shapes);
             // Both surfaces of a contact have one temperature.
             let of_body = |body: usize, cell: u32| bulk[body] + seats[body].value(&rise[body], cell as usize);
             let both = cells[0].iter().zip(cells[1]);

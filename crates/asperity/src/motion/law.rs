@@ -1,14 +1,13 @@
 //! The laws by which a pass changes the bodies.
 
 use crate::error::Result;
-use crate::grid::{CellValues, Field};
+use crate::grid::{CellValues, Field, Seat};
 use crate::math::gathered;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
-use crate::motion::seat::Seat;
 use crate::solver::Sliding;
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 

@@ -10,8 +10,8 @@ use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    self, Bounds, Control, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution, Solution,
-    Tangential, solve_frictional_watched, solve_normal_watched, solve_rolling_watched,
+    self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
+    RollingSolution, Tangential, solve_frictional_watched, solve_normal_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Metre, Newton, SquareMetre};
 
@@ -42,15 +42,6 @@ pub struct LoadedContact {
     /// How far the energy that friction took may be from what the record says, but for what the first increment brings:
     /// see [`FrictionalSolution::dissipation_error`].
     pub dissipation_error: Joule,
-}
-
-/// A contact in equilibrium.
-#[derive(Debug, Clone)]
-pub enum Equilibrium {
-    /// The solution of a contact without friction.
-    Frictionless(Box<Solution>),
-    /// The solution of a contact with friction.
-    Frictional(Box<FrictionalSolution>),
 }
 
 /// A loading under way: all that its next increment depends on.
@@ -140,7 +131,7 @@ pub fn load_in_stages(
         let origin = match &state {
             Some(state) if step > 1 => state.origin,
             Some(state) => Origin::of(&state.contact),
-            None => Origin::apart(&bodies.gap),
+            None => Origin::apart(bodies.gap.iter().copied().fold(f64::INFINITY, f64::min)),
         };
         let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
         let done = state.as_ref().map_or(0, |state| state.increments.len());
@@ -225,31 +216,6 @@ impl LoadedContact {
         let solution = Equilibrium::Frictional(Box::new(solution));
         let record = StaticRecord { shear: Some(shear), ..static_record(&solution, &plastic) };
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
-    }
-}
-
-impl Equilibrium {
-    /// The normal problem: pressure, displacement and approach.
-    pub fn normal(&self) -> &Solution {
-        match self {
-            Self::Frictionless(solution) => solution,
-            Self::Frictional(solution) => &solution.normal,
-        }
-    }
-
-    /// The solution with its tangential problem; none without friction.
-    pub fn frictional(&self) -> Option<&FrictionalSolution> {
-        match self {
-            Self::Frictionless(_) => None,
-            Self::Frictional(solution) => Some(solution),
-        }
-    }
-
-    fn elastic_energy(&self) -> Joule {
-        match self {
-            Self::Frictionless(solution) => solution.elastic_energy(),
-            Self::Frictional(solution) => solution.elastic_energy(),
-        }
     }
 }
 
@@ -340,30 +306,14 @@ impl<'a> Bodies<'a> {
             (_, solution) => solution.map(|solution| solution.slip.clone()),
         };
         let [dissipation, more_error] = of_friction.unwrap_or_default();
-        let normal = contact.normal();
-        let shear = contact.frictional();
-        let force = shear.map_or([0.0; 2], FrictionalSolution::force);
-        let displacement = shear.map_or([0.0; 2], |solution| solution.rigid_displacement);
         increments.push(IncrementRecord {
             increment: increments.len() + 1,
             stage,
-            load: normal.load(),
-            approach: normal.approach,
-            tangential_force_x: force[0],
-            tangential_force_y: force[1],
-            tangential_displacement_x: displacement[0],
-            tangential_displacement_y: displacement[1],
-            contact_area: self.area * normal.contact_cells() as f64,
-            stick_area: self.area * shear.map_or(0.0, |solution| solution.stick.sum()),
-            max_pressure: normal.max_pressure(),
-            max_shear: shear.map_or(0.0, FrictionalSolution::max_shear),
             plastic_volume: self.area * flattening.whole(plastic).sum(),
-            elastic_energy: contact.elastic_energy(),
             dissipation,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
-            residual: normal.residual,
-            flow: None,
+            ..IncrementRecord::of(&contact)
         });
         let dissipation_error = error + more_error;
         Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error })
@@ -477,14 +427,13 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Bodies that just do not touch over this gap.
-    fn apart(gap: &Field) -> Self {
-        let approach = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    /// Bodies that just do not touch at this approach.
+    pub(super) fn apart(approach: Metre) -> Self {
         Self { load: 0.0, approach, force: [0.0; 2], displacement: [0.0; 2] }
     }
 
     /// The state of a contact in equilibrium.
-    fn of(contact: &Equilibrium) -> Self {
+    pub(super) fn of(contact: &Equilibrium) -> Self {
         let (normal, shear) = (contact.normal(), contact.frictional());
         Self {
             load: normal.load(),
@@ -514,8 +463,36 @@ impl Origin {
     }
 }
 
+impl IncrementRecord {
+    /// What is known of an increment by the contact at its end.
+    pub(super) fn of(contact: &Equilibrium) -> Self {
+        let (normal, shear) = (contact.normal(), contact.frictional());
+        let area = normal.grid.cell_area();
+        let [tangential_force_x, tangential_force_y] = shear.map_or([0.0; 2], FrictionalSolution::force);
+        let [tangential_displacement_x, tangential_displacement_y] =
+            shear.map_or([0.0; 2], |solution| solution.rigid_displacement);
+        Self {
+            load: normal.load(),
+            approach: normal.approach,
+            tangential_force_x,
+            tangential_force_y,
+            tangential_displacement_x,
+            tangential_displacement_y,
+            contact_area: area * normal.contact_cells() as f64,
+            stick_area: area * shear.map_or(0.0, |solution| solution.stick.sum()),
+            max_pressure: normal.max_pressure(),
+            max_shear: shear.map_or(0.0, FrictionalSolution::max_shear),
+            elastic_energy: contact.elastic_energy(),
+            iterations: normal.stats.iterations,
+            convolutions: normal.stats.convolutions,
+            residual: normal.residual,
+            ..Self::default()
+        }
+    }
+}
+
 /// The numbers of a contact that has flowed so far, but for its shear.
-fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
+pub(super) fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     StaticRecord {
         elastic_energy: contact.elastic_energy(),
         plastic_volume: contact.normal().grid.cell_area() * plastic.sum(),
@@ -523,7 +500,7 @@ fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     }
 }
 
-fn shear_record(solution: &FrictionalSolution, dissipation: Joule) -> ShearRecord {
+pub(super) fn shear_record(solution: &FrictionalSolution, dissipation: Joule) -> ShearRecord {
     let force = solution.force();
     let load = solution.normal.load();
     let force_ratio = if load > 0.0 { force[0].hypot(force[1]) / load } else { 0.0 };

@@ -4,6 +4,7 @@ mod approach;
 mod body;
 mod contact;
 mod film;
+mod flowed;
 mod flowing;
 mod heat;
 mod implicit;
@@ -15,14 +16,15 @@ mod pass;
 mod path;
 mod plastic;
 mod record;
+mod regime;
 mod report;
 mod rim;
-mod seat;
 mod simulation;
 mod sliding;
 mod spot;
 mod sweep;
 mod together;
+mod volumes;
 mod warm_start;
 mod watch;
 mod wear;
@@ -30,12 +32,13 @@ mod wear;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
-pub use flowing::{FlowPath, Flowed, FlowedContact, FlowedVolume, press_flowing};
+pub use flowed::FlowedVolume;
+pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};
 pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
 pub use loading::{
-    Equilibrium, Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
+    Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
 };
 pub use pair::Pair;
 #[cfg(feature = "study")]
@@ -44,9 +47,10 @@ use path::shift_positions_after;
 pub use path::{OffsetY, Path, Position, Way, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
 pub use record::{
-    FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassRecord, ResidualRecord,
-    RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassFlowRecord, PassRecord,
+    ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
+pub use regime::Regime;
 pub use report::{Output, PassReport};
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};

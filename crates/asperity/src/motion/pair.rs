@@ -1,12 +1,11 @@
 //! Two bodies that face each other.
 
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid};
+use crate::grid::{CellValues, Field, Grid, Seat};
 use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
 use crate::motion::body::Body;
 use crate::motion::path::Position;
-use crate::motion::seat::Seat;
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
@@ -200,7 +199,7 @@ impl Pair {
 
     /// How the cells of the contact at `position` lie on the lower and on the upper body.
     pub(super) fn seats(&self, position: &Position) -> [Seat; 2] {
-        Seat::of_bodies(position, [self.lower_grid().shape, self.upper_grid().shape])
+        position.seats([self.lower_grid().shape, self.upper_grid().shape])
     }
 
     /// The flat cells of the lower and of the upper body under a flat cell of the contact at `position`: of the two that it may lie
@@ -221,7 +220,7 @@ pub(crate) fn facing_values(
         return CellValues::Uniform(of(*lower, *upper));
     }
     let shape = [position.columns, shapes[0][1]];
-    let [lower, upper] = Seat::of_bodies(position, shapes);
+    let [lower, upper] = position.seats(shapes);
     let mut facing = Field::zeros(shape);
     let mut above = vec![0.0; shape[1]];
     for (j, mut row) in facing.outer_iter_mut().enumerate() {
@@ -235,8 +234,7 @@ pub(crate) fn facing_values(
 
 /// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.
 pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
-    let [lower, upper] =
-        Seat::of_bodies(position, surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
+    let [lower, upper] = position.seats(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
     let mut gap = Field::zeros([position.columns, surfaces[0].ncols()]);
     for (j, mut row) in gap.outer_iter_mut().enumerate() {
         let row = row.as_slice_mut().expect("standard layout");

@@ -12,6 +12,7 @@ use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
+use crate::motion::volumes::FlowedPass;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::{Motion, PlasticUpdate};
 use crate::operator::Operators;
@@ -28,6 +29,8 @@ pub(super) struct Pass {
     pub(super) has_changed: bool,
     /// The volumes that each law took from the bodies.
     pub(super) lost: Vec<LostVolume>,
+    /// What it has made of bodies that flow below their surfaces; none of others.
+    pub(super) flowed: Option<FlowedPass>,
 }
 
 impl Pass {
@@ -126,13 +129,13 @@ impl Solver<'_> {
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
                 contacts.push(contact);
             }
-            return Ok(Pass { contacts, pair: after, lost, has_changed: true });
+            return Ok(Pass { contacts, pair: after, lost, has_changed: true, flowed: None });
         }
         let contacts: Vec<Contact> = (0..self.positions.len())
             .into_par_iter()
             .map(|index| solve(pair, index))
             .collect::<Result<_>>()?;
-        Ok(Pass { contacts, pair: after, lost, has_changed: false })
+        Ok(Pass { contacts, pair: after, lost, has_changed: false, flowed: None })
     }
 }
 

@@ -4,6 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::choice::choice;
+use crate::grid::Seat;
 use crate::units::MetrePerSecond;
 
 /// What a pass of a motion is.
@@ -97,6 +98,15 @@ impl Position {
     /// The same position on the way back.
     pub(super) fn back(self) -> Self {
         Self { way: Way::Back, ..self }
+    }
+
+    /// How the contact lies on bodies of these shapes, lower one first.
+    pub(crate) fn seats(&self, shapes: [[usize; 2]; 2]) -> [Seat; 2] {
+        let row = (shapes[1][1] - self.across) % shapes[1][1];
+        [
+            Seat::new(shapes[0], [self.lower, 0], self.fraction[0]),
+            Seat::new(shapes[1], [self.upper, row], self.fraction[1]),
+        ]
     }
 
     /// Where the contact begins on the lower and on the upper body, in columns.

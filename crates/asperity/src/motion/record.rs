@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::motion::regime::Regime;
 use crate::units::{
     CubicMetre, Joule, Kelvin, Metre, Newton, NewtonPerMetre, Pascal, Second, SquareMetre, Watt,
 };
@@ -66,8 +67,11 @@ pub struct FlowRecord {
     pub products: usize,
     /// Largest mismatch of the stress over the yield stress that an increment has ended with.
     pub mismatch: f64,
-    /// `elastic` where nothing has flowed, else `yields`.
-    pub regime: String,
+    /// What becomes of the bodies.
+    pub regime: Regime,
+    /// By how much the surface of the body where it moves more moves along x in a pass, where the bodies ratchet; none elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<Metre>,
     /// What is left once the load is taken off; none where it is not.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub residual: Option<ResidualRecord>,
@@ -106,6 +110,35 @@ pub struct ResidualRecord {
     pub residual_max_residual_tension: Pascal,
     /// As [`FlowRecord::residual_displacement`].
     pub residual_residual_displacement: Metre,
+}
+
+/// What has flowed below the surfaces in a pass: further columns of its row. 0 of a body that may not flow.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct PassFlowRecord {
+    /// Largest accumulated plastic strain of the lower body after the pass.
+    pub max_plastic_strain_lower: f64,
+    /// Largest accumulated plastic strain of the upper body after the pass.
+    pub max_plastic_strain_upper: f64,
+    /// Plastic work in the lower body in the pass.
+    pub plastic_work_lower: Joule,
+    /// Plastic work in the upper body in the pass.
+    pub plastic_work_upper: Joule,
+    /// The part of the plastic work under the two columns at either end of what faces, along a boundary that is free.
+    pub plastic_work_rim: Joule,
+    /// By how much the surface of the lower body has moved along +x against its depths in the pass, in the mean over it.
+    pub surface_shift_lower: Metre,
+    /// By how much the surface of the upper body has moved along +x against its depths in the pass, in the mean over it.
+    pub surface_shift_upper: Metre,
+    /// Range of the inward displacement r of the lower surface by the plastic strain after the pass.
+    pub residual_displacement_lower: Metre,
+    /// Range of the inward displacement r of the upper surface by the plastic strain after the pass.
+    pub residual_displacement_upper: Metre,
+    /// Net strain of the lower body in the pass over what has accumulated in it, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1 where each cell flows one
+    /// way, 0 where flow comes and goes.
+    pub net_strain_lower: f64,
+    /// The same of the upper body.
+    pub net_strain_upper: f64,
 }
 
 /// What has flowed below the surfaces in a step: further columns of its row.
@@ -358,6 +391,9 @@ pub struct StepRecord {
     /// The heat of friction; none where the temperature is not computed.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub heat: Option<HeatRecord>,
+    /// What has flowed below the surfaces; none of bodies that do not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<FlowStepRecord>,
 }
 
 /// One pass: a row of `passes.csv`.
@@ -396,6 +432,9 @@ pub struct PassRecord {
     /// What wear and films add; none without them.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub running: Option<RunningRecord>,
+    /// What has flowed below the surfaces; none of bodies that do not.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<PassFlowRecord>,
     /// Rms height of the lower surface after the pass.
     pub sq_lower: Metre,
     /// Rms height of the upper surface after the pass.

@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::Motion;
 use crate::motion::contact::Contact;
+use crate::motion::flowed::FlowedVolume;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
@@ -23,6 +24,8 @@ pub struct PassReport<'a> {
     pub motion: &'a Motion,
     /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
     pub warm: &'a WarmStart,
+    /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
+    pub flowed: &'a [FlowedVolume],
 }
 
 impl PassReport<'_> {

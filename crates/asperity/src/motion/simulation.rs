@@ -10,6 +10,7 @@ use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::film::FILM;
+use crate::motion::flowed::FlowedVolume;
 use crate::motion::heat::PassHeat;
 use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
 use crate::motion::law::{self, Heat, Law, Sums, Warmth};
@@ -21,11 +22,13 @@ use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::{Output, PassReport};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
+use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::{Guess, WarmStart};
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::wear::WEAR;
 use crate::motion::{LoadControl, Motion, PlasticUpdate, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
+use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
 use crate::solver::{Control, Coupling, Params};
 use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{CubicMetre, Dimension, Metre, Newton, Second};
@@ -53,6 +56,8 @@ pub struct Simulation {
     heat: Option<PassHeat>,
     /// What gives the upper body of each pass after the first, where they are not the same.
     counter: Option<Counter>,
+    /// What flows below the surfaces, where bodies do.
+    volumes: Option<Volumes>,
     /// Passes that are computed.
     passes_done: usize,
     /// The state in which the next pass begins.
@@ -96,6 +101,11 @@ impl SolvedPass {
         &self.steps
     }
 
+    /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
+    pub fn flowed(&self) -> &[FlowedVolume] {
+        self.outcome.flowed.as_ref().map_or(&[], |flowed| &flowed.volumes)
+    }
+
     /// The bodies as the pass leaves them.
     pub fn pair(&self) -> &Pair {
         &self.outcome.pair
@@ -108,6 +118,7 @@ impl SolvedPass {
             outer_iterations: self.trials,
             wall_time_s: self.wall_time,
             running: self.running,
+            flow: self.outcome.flowed.as_ref().map(|flowed| flowed.record),
             ..record
         }
     }
@@ -161,6 +172,7 @@ impl Simulation {
             softness: None,
             heat: None,
             counter: None,
+            volumes: None,
             passes_done: 0,
             warm: WarmStart::default(),
         })
@@ -172,7 +184,7 @@ impl Simulation {
     /// # Panics
     /// If `warm` has not as many positions as are solved of a pass, or any where passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
-        let kept = if self.repeats() { self.distinct } else { 0 };
+        let kept = if self.repeats() && self.volumes.is_none() { self.distinct } else { 0 };
         assert_eq!(warm.positions.len(), kept, "positions of the warm start");
         let mut resumed = Self { passes_done: passes, warm, ..self };
         resumed.positions = resumed.next_positions();
@@ -266,9 +278,59 @@ impl Simulation {
         Ok(Self { acceleration, ..self })
     }
 
-    /// Whether the laws change the bodies position by position.
+    /// Whether the bodies change position by position.
     fn changes_at_every_step(&self) -> bool {
-        self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields()
+        let by_laws = self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields();
+        by_laws || self.volumes.is_some()
+    }
+
+    /// The same motion of bodies that flow below their surfaces: those that are given, lower one first. Plastic strain stays with the
+    /// material, position after position; each pass ends with the load taken off. No other law changes such bodies, and
+    /// [`Simulation::pair`] has their surfaces as flow has left them.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for bodies that have a hardness, heat, a pass that stands for others, an upper body that flows and is another
+    /// in each pass, and a shift under a boundary that is free along x.
+    ///
+    /// # Panics
+    /// If none is given, or one has another grid than its surface.
+    pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
+        let refused = if self.pair.yields() {
+            "bodies that flow below their surfaces have no hardness"
+        } else if self.laws.len() > 1 {
+            "bodies that flow below their surfaces neither wear nor grow films"
+        } else if self.heat.is_some() {
+            "a flash temperature is that of bodies that stay as they are in a pass"
+        } else if self.acceleration.max_jump > 1 {
+            "a pass in which bodies flow stands for itself"
+        } else if self.counter.is_some() && bodies[1].is_some() {
+            "an upper body that is another in each pass does not keep what has flowed"
+        } else if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
+            "plastic strain goes round with the surfaces of a shift: their boundary is periodic along x"
+        } else {
+            ""
+        };
+        if !refused.is_empty() {
+            return Err(Error::Unsupported(refused));
+        }
+        let Self { pair, operators, positions, params, boundary, .. } = &self;
+        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (flow, *params));
+        Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
+    }
+
+    /// The same motion, in which so much has flowed in the passes that are done, of each body that may flow, lower one first; the
+    /// surfaces of the pair are those that it has left.
+    ///
+    /// # Panics
+    /// If the bodies do not flow.
+    pub fn with_flowed(self, states: Vec<PlasticState>) -> Self {
+        let volumes = self.volumes.expect("bodies that flow").with_states(states);
+        Self { volumes: Some(volumes), ..self }
+    }
+
+    /// What has flowed in the passes that are done; nothing in bodies that do not.
+    pub fn flowed(&self) -> Vec<FlowedVolume> {
+        self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
     }
 
     /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
@@ -345,6 +407,11 @@ impl Simulation {
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
+        if self.volumes.is_some() && self.laws.len() > 1 {
+            return Err(Error::Unsupported(
+                "bodies that flow below their surfaces neither wear nor grow films",
+            ));
+        }
         let (mut outcome, guess, trials) = self.solve_pass(&*self.next_pair()?, watch)?;
         self.come_back(&mut outcome.contacts);
         let wear = self.solve_with_wear(&mut outcome, watch)?;
@@ -355,6 +422,9 @@ impl Simulation {
             StepRecord { offset_y: offset_y(contact.position.across), ..record }
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
+        if let Some(flowed) = &outcome.flowed {
+            steps.iter_mut().zip(&flowed.steps).for_each(|(step, flow)| step.flow = Some(*flow));
+        }
         let (running, jump) = match outcome.has_changed {
             true => (None, None),
             false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
@@ -527,9 +597,12 @@ impl Simulation {
         outputs: &mut [&mut dyn Output],
     ) -> Result<()> {
         let record = pass.record();
-        let SolvedPass { outcome: Pass { contacts, pair, .. }, steps, guess, jump, represented, .. } = pass;
+        let SolvedPass { outcome, steps, guess, jump, represented, .. } = pass;
+        let Pass { contacts, pair, flowed, .. } = outcome;
         // Bodies that meet elsewhere begin anew.
         let (guess, again) = match self.repeats() {
+            // Each pass in which they flow begins with bodies that are apart.
+            true if self.volumes.is_some() => (guess, &[][..]),
             true => (guess, &contacts[..self.distinct]),
             false => (None, &[][..]),
         };
@@ -537,7 +610,11 @@ impl Simulation {
         for output in outputs.iter_mut() {
             let motion = &self.motion;
             let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);
-            output.pass(&PassReport { record, steps, contacts, pair, motion, warm })?;
+            let flowed = flowed.as_ref().map_or(&[][..], |flowed| &flowed.volumes);
+            output.pass(&PassReport { record, steps, contacts, pair, motion, warm, flowed })?;
+        }
+        if let (Some(volumes), Some(flowed)) = (&mut self.volumes, flowed) {
+            volumes.take(flowed.volumes);
         }
         self.warm = warm;
         self.pair = pair;
@@ -576,11 +653,16 @@ impl Simulation {
         let positions = &self.positions[..self.distinct];
         let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
         let mut solver = self.solver(watch);
-        let load = match (self.motion.control, self.motion.load_control) {
-            (Control::Load(load), LoadControl::Pass) => load,
-            (control, _) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
+        let load = match (self.motion.control, self.motion.load_control, &self.volumes) {
+            (Control::Load(load), LoadControl::Pass, _) => load,
+            (control, _, Some(volumes)) => {
+                return Ok((solver.solve_flowing(volumes, pair, control)?, None, 1));
+            }
+            (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
-        let mut residual = MAX_RESIDUAL;
+        // Flow takes most of the time of a trial: no contact is solved roughly beside it.
+        let roughest = if self.volumes.is_some() { self.params.tolerance } else { MAX_RESIDUAL };
+        let mut residual = roughest;
         let mut guess = self.warm.guess;
         if self.together {
             let accuracy = self.motion.load_tolerance;
@@ -605,6 +687,7 @@ impl Simulation {
             load,
             tolerance: self.motion.load_tolerance,
             residual: self.params.tolerance,
+            roughest,
             touch: self.touch(pair),
             resolution: resolution(pair),
             limit: self.limit(pair),
@@ -612,7 +695,10 @@ impl Simulation {
         let mut closed = false;
         let found = search.run(guess, residual, |approach, residual| {
             let control = Control::Approach(approach);
-            let outcome = solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?;
+            let outcome = match &self.volumes {
+                Some(volumes) => solver.solve_flowing(volumes, pair, control)?,
+                None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
+            };
             solver.progress.trial += 1;
             closed |= outcome.contacts.iter().any(|contact| self.leaves_mean_free(contact));
             earlier.insert(0, outcome.contacts.clone());
@@ -788,6 +874,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         max_pressure: most(|s| s.max_pressure),
         lost: outcome.lost.clone(),
         running: None,
+        flow: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),
         sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),

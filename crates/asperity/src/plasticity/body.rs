@@ -27,18 +27,37 @@ pub enum Action {
     Stress(Arc<TensorField>),
 }
 
+/// What plastic strain displaces a surface by.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct SurfaceDisplacement {
+    /// Into the body, m.
+    pub inward: Field,
+    /// Along +x and +y, m; none of a body whose surface is [followed](PlasticBody::followed_along) inward only.
+    pub along: Option<[Field; 2]>,
+}
+
+/// What flow has left in a body: all that its further course depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlasticState {
+    /// Plastic strain ε.
+    pub strain: TensorField,
+    /// Accumulated plastic strain p̄.
+    pub accumulated: VolumeField,
+    /// Back stress X, Pa, of a law that has one.
+    pub back_stress: Option<TensorField>,
+}
+
 /// An elasto-plastic half-space: the volume under its surface, its flow law, and what flow has left in it so far.
 pub struct PlasticBody {
     volume: Volume,
     law: Arc<dyn FlowLaw>,
-    strain: TensorField,
-    accumulated: VolumeField,
-    back: Option<TensorField>,
+    state: PlasticState,
     /// What acts on it, and the stress under that.
     action: Option<Action>,
     stress: TensorField,
-    /// The inward displacement of the surface by the strain.
-    displacement: Field,
+    /// The displacement of the surface by the strain.
+    displacement: SurfaceDisplacement,
     /// What the last increment added to the strain of the cells that flowed.
     increment: Vec<(usize, Tensor)>,
     trial: Trial,
@@ -57,13 +76,15 @@ struct Trial {
 }
 
 /// What an increment has done to a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BodyFlow {
     /// Cells of all layers that have flowed.
     pub flowing_cells: usize,
     /// Plastic work ∫ ½ (σ₀ + σ₁) : Δε, J.
     pub plastic_work: Joule,
+    /// The part of it under each column of the body, J.
+    pub work_of_columns: Vec<Joule>,
 }
 
 /// A flat place in the layers: the layer, and the cell in it.
@@ -75,12 +96,14 @@ impl PlasticBody {
         let zeros = || volume.zeros();
         let shape = [volume.layers().count(), volume.grid().shape[0], volume.grid().shape[1]];
         Self {
-            strain: zeros(),
-            accumulated: VolumeField::zeros(shape),
-            back: law.is_kinematic().then(zeros),
+            state: PlasticState {
+                strain: zeros(),
+                accumulated: VolumeField::zeros(shape),
+                back_stress: law.is_kinematic().then(zeros),
+            },
             action: None,
             stress: zeros(),
-            displacement: volume.grid().zeros(),
+            displacement: SurfaceDisplacement { inward: volume.grid().zeros(), along: None },
             increment: Vec::new(),
             trial: Trial {
                 predictor: zeros(),
@@ -91,6 +114,45 @@ impl PlasticBody {
             volume,
             law,
         }
+    }
+
+    /// The same body, whose surface is followed along itself, too, as friction needs it.
+    pub fn followed_along(mut self) -> Self {
+        let zeros = || self.volume.grid().zeros();
+        self.displacement.along = Some([zeros(), zeros()]);
+        self
+    }
+
+    /// What flow has left in it.
+    pub fn state(&self) -> &PlasticState {
+        &self.state
+    }
+
+    /// Brings it, while nothing acts on it, to what flow has left in a `state`: to the same bits however it came there. A product.
+    ///
+    /// # Panics
+    /// If the state is that of another volume or law.
+    pub fn restore(&mut self, state: &PlasticState) {
+        assert_eq!(state.strain.dim(), self.state.strain.dim(), "shape of the strain");
+        assert_eq!(state.back_stress.is_some(), self.law.is_kinematic(), "back stress of the law");
+        self.state.strain.assign(&state.strain);
+        self.state.accumulated.assign(&state.accumulated);
+        if let (Some(back), Some(known)) = (&mut self.state.back_stress, &state.back_stress) {
+            back.assign(known);
+        }
+        self.volume.take(&self.state.strain);
+        self.displacement = self.surface();
+        self.volume.stress(None, &mut self.stress);
+        self.action = Some(Action::Tractions(Tractions::frictionless(self.volume.grid().zeros())));
+        self.increment.clear();
+    }
+
+    /// The displacement of the surface by the strain that the volume has taken up.
+    fn surface(&mut self) -> SurfaceDisplacement {
+        let inward = self.volume.surface(Traction::Pressure);
+        let follows = self.displacement.along.is_some();
+        let along = follows.then(|| [Traction::X, Traction::Y].map(|traction| self.volume.surface(traction)));
+        SurfaceDisplacement { inward, along }
     }
 
     /// The volume and its operators.
@@ -105,17 +167,17 @@ impl PlasticBody {
 
     /// Plastic strain ε.
     pub fn strain(&self) -> &TensorField {
-        &self.strain
+        &self.state.strain
     }
 
     /// Accumulated plastic strain p̄.
     pub fn accumulated(&self) -> &VolumeField {
-        &self.accumulated
+        &self.state.accumulated
     }
 
     /// Back stress X, Pa, of a law that has one.
     pub fn back_stress(&self) -> Option<&TensorField> {
-        self.back.as_ref()
+        self.state.back_stress.as_ref()
     }
 
     /// The stress under what acts on the body and its plastic strain, Pa.
@@ -125,23 +187,23 @@ impl PlasticBody {
 
     /// The inward displacement r of the surface by the plastic strain, m.
     pub fn displacement(&self) -> &Field {
-        &self.displacement
+        &self.displacement.inward
     }
 
     /// The stress that the plastic strain alone leaves, Pa: a product.
     pub fn residual_stress(&mut self) -> TensorField {
-        self.volume.residual(&self.strain)
+        self.volume.residual(&self.state.strain)
     }
 
     /// Stored energy −½ ∫ ε : K ε ≥ 0 of the residual stress, J: a product.
     pub fn stored_energy(&mut self) -> Joule {
         let residual = self.residual_stress();
-        -0.5 * self.volume.inner_product(&residual, &self.strain)
+        -0.5 * self.volume.inner_product(&residual, &self.state.strain)
     }
 
     /// Volume of the cells that have ever flowed, m³.
     pub fn yielded_volume(&self) -> CubicMetre {
-        let layers = self.accumulated.outer_iter().enumerate();
+        let layers = self.state.accumulated.outer_iter().enumerate();
         let cells = |layer: ndarray::ArrayView2<f64>| layer.iter().filter(|p| **p > 0.0).count() as f64;
         let height: f64 = layers.map(|(n, layer)| self.volume.layers().thickness(n) * cells(layer)).sum();
         self.volume.grid().cell_area() * height
@@ -156,7 +218,7 @@ impl PlasticBody {
     // ---- an increment, step by step ----------------------------------------------------------------------
 
     /// The displacement that the loading meets first.
-    pub(super) fn displacement_before(&self) -> Field {
+    pub(super) fn displacement_before(&self) -> SurfaceDisplacement {
         self.displacement.clone()
     }
 
@@ -182,18 +244,18 @@ impl PlasticBody {
                 false
             }
             _ => {
-                self.volume.take(&self.strain);
+                self.volume.take(&self.state.strain);
                 self.respond(action);
                 true
             }
         };
-        self.trial.strain.assign(&self.strain);
+        self.trial.strain.assign(&self.state.strain);
         self.predict();
         product
     }
 
     fn is_virgin(&self) -> bool {
-        self.accumulated.iter().all(|p| *p == 0.0)
+        self.state.accumulated.iter().all(|p| *p == 0.0)
     }
 
     /// Whether the body has flowed in the last increment.
@@ -206,7 +268,7 @@ impl PlasticBody {
     pub(super) fn guess(&mut self, shift: [isize; 2]) -> bool {
         let [nx, ny] = self.volume.grid().shape;
         let wraps = self.volume.boundary().leaves_mean_free();
-        self.trial.strain.assign(&self.strain);
+        self.trial.strain.assign(&self.state.strain);
         let mut any = false;
         for (place, increment) in &self.increment {
             let (layer, cell) = (place / (nx * ny), place % (nx * ny));
@@ -229,9 +291,9 @@ impl PlasticBody {
     }
 
     /// Takes up the trial strain: the displacement of the surface by it.
-    pub(super) fn take_trial(&mut self) -> Field {
+    pub(super) fn take_trial(&mut self) -> SurfaceDisplacement {
         self.volume.take(&self.trial.strain);
-        self.volume.surface(Traction::Pressure)
+        self.surface()
     }
 
     /// The stress of the strain that was taken up under an `action`.
@@ -260,15 +322,15 @@ impl PlasticBody {
     /// The strain of the predictor. Returns how far it lies from `start`, as a stress over the yield stress.
     pub(super) fn flow(&mut self, start: Start) -> f64 {
         let stiffness = self.stiffness();
-        let Self { law, strain, accumulated, back, trial, .. } = self;
+        let cells = self.cells();
+        let Self { law, state, trial, .. } = self;
         let Trial { predictor, strain: trial, flows, .. } = trial;
-        let cells = accumulated.shape()[1] * accumulated.shape()[2];
         let yields = law.yield_stress();
         let moved = layers_mut(trial)
             .zip(flows.as_slice_mut().expect("standard layout").par_chunks_exact_mut(cells))
             .enumerate()
             .map(|(layer, (trial, flows))| {
-                let before = Before::new(layer, strain, accumulated, back.as_ref());
+                let before = Before::new(layer, state);
                 let y = layer_of(predictor, layer);
                 let mut moved = 0.0f64;
                 for (cell, flows) in flows.iter_mut().enumerate() {
@@ -317,10 +379,10 @@ impl PlasticBody {
     pub(super) fn candidates(&self) -> Vec<Place> {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let least = MAY_FLOW * self.law.yield_stress();
-        let per_layer: Vec<Vec<Place>> = (0..self.accumulated.shape()[0])
+        let per_layer: Vec<Vec<Place>> = (0..self.volume.layers().count())
             .into_par_iter()
             .map(|layer| {
-                let before = Before::new(layer, &self.strain, &self.accumulated, self.back.as_ref());
+                let before = Before::new(layer, &self.state);
                 let y = layer_of(&self.trial.predictor, layer);
                 let may = |cell: usize| {
                     let (y, state) = (tensor(y, cell, cells), before.at(cell));
@@ -368,30 +430,34 @@ impl PlasticBody {
     }
 
     /// Ends the increment: what the trial has come to is the body's state under an `action`.
-    pub(super) fn commit(&mut self, action: Action, displacement: Field) -> BodyFlow {
+    pub(super) fn commit(&mut self, action: Action, displacement: SurfaceDisplacement) -> BodyFlow {
         let (cells, stiffness) = (self.cells(), self.stiffness());
-        let mut flow = BodyFlow { flowing_cells: 0, plastic_work: 0.0 };
+        let [columns, width] = self.volume.grid().shape;
+        let mut flow = BodyFlow { flowing_cells: 0, plastic_work: 0.0, work_of_columns: vec![0.0; columns] };
         self.increment.clear();
-        for layer in 0..self.accumulated.shape()[0] {
+        for layer in 0..self.volume.layers().count() {
             let volume = self.volume.grid().cell_area() * self.volume.layers().thickness(layer);
             for cell in 0..cells {
                 if !self.trial.flows.as_slice().expect("standard layout")[layer * cells + cell] {
                     continue;
                 }
-                let state = Before::new(layer, &self.strain, &self.accumulated, self.back.as_ref()).at(cell);
+                let state = Before::new(layer, &self.state).at(cell);
                 let y = tensor(layer_of(&self.trial.predictor, layer), cell, cells);
                 let Some(next) = self.law.flow(&y, stiffness, &state) else { continue };
                 let change = std::array::from_fn(|c| next.strain[c] - state.strain[c]);
                 let before = tensor(layer_of(&self.stress, layer), cell, cells);
                 let after = tensor(layer_of(&self.trial.stress, layer), cell, cells);
-                flow.plastic_work += 0.5 * volume * (contract(&before, &change) + contract(&after, &change));
+                let work = 0.5 * volume * (contract(&before, &change) + contract(&after, &change));
+                let at = [cell / width, cell % width];
+                flow.plastic_work += work;
+                flow.work_of_columns[at[0]] += work;
                 flow.flowing_cells += 1;
                 self.increment.push((layer * cells + cell, change));
-                let at = [cell / self.displacement.ncols(), cell % self.displacement.ncols()];
-                self.accumulated[[layer, at[0], at[1]]] = next.accumulated;
+                let PlasticState { strain, accumulated, back_stress } = &mut self.state;
+                accumulated[[layer, at[0], at[1]]] = next.accumulated;
                 for c in 0..COMPONENTS {
-                    self.strain[[layer, c, at[0], at[1]]] = next.strain[c];
-                    if let Some(back) = &mut self.back {
+                    strain[[layer, c, at[0], at[1]]] = next.strain[c];
+                    if let Some(back) = back_stress {
                         back[[layer, c, at[0], at[1]]] = next.back[c];
                     }
                 }
@@ -405,13 +471,13 @@ impl PlasticBody {
 
     /// Cells of a layer.
     fn cells(&self) -> usize {
-        self.displacement.len()
+        self.volume.grid().cells()
     }
 
     /// The largest plastic strain, and the layer and cell where it is.
     pub fn max_accumulated(&self) -> (f64, [usize; 3]) {
         let mut largest = (0.0, [0; 3]);
-        for ((layer, ix, iy), value) in self.accumulated.indexed_iter() {
+        for ((layer, ix, iy), value) in self.state.accumulated.indexed_iter() {
             if *value > largest.0 {
                 largest = (*value, [layer, ix, iy]);
             }
@@ -421,7 +487,11 @@ impl PlasticBody {
 
     /// Shear of the body's layers: the mean of 2 ε_xz over the cells of each.
     pub fn mean_shear(&self) -> Vec<f64> {
-        self.strain.outer_iter().map(|layer| 2.0 * layer.slice(s![4, .., ..]).mean().unwrap_or(0.0)).collect()
+        self.state
+            .strain
+            .outer_iter()
+            .map(|layer| 2.0 * layer.slice(s![4, .., ..]).mean().unwrap_or(0.0))
+            .collect()
     }
 }
 
@@ -442,18 +512,14 @@ struct Before<'a> {
 }
 
 impl<'a> Before<'a> {
-    fn new(
-        layer: usize,
-        strain: &'a TensorField,
-        accumulated: &'a VolumeField,
-        back: Option<&'a TensorField>,
-    ) -> Self {
+    fn new(layer: usize, state: &'a PlasticState) -> Self {
+        let PlasticState { strain, accumulated, back_stress } = state;
         let cells = accumulated.shape()[1] * accumulated.shape()[2];
         let accumulated = accumulated.as_slice().expect("standard layout");
         Self {
             strain: layer_of(strain, layer),
             accumulated: &accumulated[layer * cells..][..cells],
-            back: back.map(|back| layer_of(back, layer)),
+            back: back_stress.as_ref().map(|back| layer_of(back, layer)),
         }
     }
 

@@ -1,137 +1,188 @@
-//! A contact at rest between bodies of which one or both may flow.
+//! A contact between bodies of which one or both may flow.
 
-use super::body::{Action, PlasticBody};
-use super::increment::{FlowParams, Increment, Loading, advance};
+use super::body::{Action, PlasticBody, PlasticState, SurfaceDisplacement};
+use super::increment::{self, FlowParams, Increment, advance};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
-use crate::operator::Operator;
-use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal_watched};
+use crate::grid::{Field, Grid, Seat};
+use crate::operator::{CoupledOperator, Operator};
+use crate::solver::{
+    Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Sliding, Solution, Start,
+    Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
+};
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
 
-/// A contact that is loaded and unloaded increment by increment, of one body that may flow, or of two, which may move over each
-/// other in between.
+/// A contact that is loaded and unloaded increment by increment, of two bodies of which one or both may flow, and which may move
+/// over each other in between.
 ///
-/// The gap is that of the undeformed bodies; their plastic strain opens it by r: g = h − δ + C p + r_lower + r_upper. A contact
-/// lies on a part of each body, or on all of it; plastic strain stays with the material.
+/// The gap is that of the undeformed bodies; their plastic strain opens it by r: g = h − δ + C p + r₁ + r₂, and moves their surfaces
+/// along each other. A contact lies on a part of each body, or on all of it; plastic strain stays with the material.
 pub struct PlasticContact {
-    operator: Box<dyn Operator>,
-    initial_gap: Field,
+    facing: Facing,
     bodies: Vec<PlasticBody>,
-    /// Where the contact begins on each body.
-    places: Vec<[usize; 2]>,
-    /// By how many cells the load has moved over each body since the last increment.
-    shifts: Vec<[isize; 2]>,
+    /// Which of the two each of the bodies is: 0 the lower, 1 the upper one.
+    sides: Vec<usize>,
+    /// By how many cells the load has moved over the lower and over the upper body since the last increment.
+    shifts: [[isize; 2]; 2],
     flow: FlowParams,
     contact: Params,
     increments: usize,
-    /// Pressure of the last increment, and what it was found with; no solution before the first, and where the bodies are apart.
+    /// Pressure of the last increment, and what it was found with; nothing before the first, and where the bodies are apart.
     pressure: Field,
-    solution: Option<Solution>,
+    equilibrium: Option<Equilibrium>,
+    /// By how much plastic strain had displaced the surfaces along each other after the last increment, where that is followed.
+    along: Option<[Field; 2]>,
+}
+
+/// How two bodies face each other.
+pub struct Facing {
+    /// What acts between them, on the cells of the contact.
+    pub interface: Interface,
+    /// Gap h of the undeformed bodies, m.
+    pub initial_gap: Field,
+    /// How the contact lies on the lower and on the upper body.
+    pub seats: [Seat; 2],
+}
+
+/// What acts between two bodies.
+pub enum Interface {
+    /// Pressure alone.
+    Frictionless(Box<dyn Operator>),
+    /// Pressure, and the shear of bodies that slide, which displaces their surfaces along themselves alone.
+    Sliding(Box<dyn Operator>, Sliding),
+    /// Pressure, and the shear of bodies that slide, which displaces their surfaces normally, too.
+    SlidingCoupled(Box<dyn CoupledOperator>, Sliding),
+    /// Pressure and friction, by which the bodies stick or slip.
+    Frictional(Box<dyn CoupledOperator>, Friction),
+}
+
+impl Interface {
+    /// The grid of the contact.
+    pub fn grid(&self) -> &Grid {
+        match self {
+            Self::Frictionless(operator) | Self::Sliding(operator, _) => operator.grid(),
+            Self::SlidingCoupled(operator, _) | Self::Frictional(operator, _) => operator.grid(),
+        }
+    }
 }
 
 impl PlasticContact {
-    /// Bodies that do not touch yet, and face each other with all of their cells. The operator is that of the pair; the `bodies`
-    /// are those of the pair that may flow.
+    /// Bodies that do not touch yet; given are those that may flow, the lower and the upper one.
     ///
     /// # Panics
-    /// If the gap, the operator and the bodies are not on one grid.
-    pub fn new(
-        operator: Box<dyn Operator>,
-        initial_gap: Field,
-        mut bodies: Vec<PlasticBody>,
-        flow: FlowParams,
-        contact: Params,
-    ) -> Self {
-        let shape = operator.grid().shape;
-        assert_eq!(initial_gap.shape(), shape, "shape of the initial gap");
-        assert!(bodies.iter_mut().all(|body| body.volume().grid() == operator.grid()), "grid of the bodies");
-        let zeros = operator.grid().zeros();
-        Self {
-            operator,
-            initial_gap,
-            places: vec![[0; 2]; bodies.len()],
-            shifts: vec![[0; 2]; bodies.len()],
+    /// If none of them may, the gap is not on the grid of the interface, or a contact reaches beyond a body.
+    pub fn new(facing: Facing, bodies: [Option<PlasticBody>; 2], flow: FlowParams, contact: Params) -> Self {
+        let follows = matches!(facing.interface, Interface::Frictional(..));
+        let follow = |body: PlasticBody| if follows { body.followed_along() } else { body };
+        let given = bodies.into_iter().enumerate();
+        let (sides, bodies): (Vec<_>, Vec<_>) =
+            given.filter_map(|(side, body)| Some((side, follow(body?)))).unzip();
+        assert!(!bodies.is_empty(), "a body that may flow");
+        let zeros = facing.interface.grid().zeros();
+        let mut contact = Self {
+            facing,
             bodies,
+            sides,
+            shifts: [[0; 2]; 2],
             flow,
             contact,
             increments: 0,
             pressure: zeros,
-            solution: None,
-        }
+            equilibrium: None,
+            along: None,
+        };
+        contact.check();
+        contact
     }
 
-    /// Brings the bodies to another position, which the next increment will meet: its undeformed gap, on cells that the `operator`
-    /// is for, of which the first is `places` of each body (counted cyclically under a periodic boundary), and by how many whole
-    /// cells the load moves over each of them.
+    /// Brings the bodies to another position, which the next increment will meet, and to which the load moves over the lower and over
+    /// the upper body by so many whole cells as `shifts` says. Between the positions the bodies slide freely: a history of
+    /// sticking is that of one position.
     ///
     /// # Panics
-    /// If the gap is not on the operator's grid, a contact reaches beyond a body, or there are not as many places and shifts
-    /// as bodies.
-    pub fn move_to(
-        &mut self,
-        operator: Box<dyn Operator>,
-        initial_gap: Field,
-        places: &[[usize; 2]],
-        shifts: &[[isize; 2]],
-    ) {
-        let shape = operator.grid().shape;
-        assert_eq!(initial_gap.shape(), shape, "shape of the initial gap");
-        assert!(places.len() == self.bodies.len() && shifts.len() == places.len(), "a place for each body");
-        for (body, place) in self.bodies.iter_mut().zip(places) {
-            let volume = body.volume();
-            let fits = (0..2).all(|axis| place[axis] + shape[axis] <= volume.grid().shape[axis]);
-            assert!(fits || volume.boundary().leaves_mean_free(), "a contact on the body");
-        }
-        // The pressure goes with the load over the first body.
-        let (body, [dx, dy]) = (self.bodies[0].displacement(), shifts[0]);
-        let [nx, ny] = [body.nrows(), body.ncols()];
-        let before = on_body(&self.pressure, self.places[0], [nx, ny]);
+    /// If the gap is not on the grid of the interface, or a contact reaches beyond a body.
+    pub fn move_to(&mut self, facing: Facing, shifts: [[isize; 2]; 2]) {
+        // The pressure goes with the load over the first of the bodies.
+        let side = self.sides[0];
+        let before = self.facing.seats[side].onto(&self.pressure);
+        let ([nx, ny], [dx, dy]) = (facing.seats[side].shape(), shifts[side]);
         let moved = Field::from_shape_fn([nx, ny], |(i, j)| {
             let back =
                 |index: usize, by: isize, n: usize| (index as isize - by).rem_euclid(n as isize) as usize;
             before[[back(i, dx, nx), back(j, dy, ny)]]
         });
-        self.pressure = on_contact(&moved, places[0], shape);
-        self.operator = operator;
-        self.initial_gap = initial_gap;
-        self.places = places.to_vec();
-        self.shifts = shifts.to_vec();
+        self.pressure = facing.seats[side].under(&moved, facing.interface.grid().shape[0]);
+        self.facing = facing;
+        self.shifts = shifts;
+        self.equilibrium = None;
+        self.along = None;
+        self.check();
     }
 
-    /// Goes on to a load (0: the bodies are taken apart) or an approach in one increment.
+    fn check(&mut self) {
+        let grid = *self.facing.interface.grid();
+        assert_eq!(self.facing.initial_gap.shape(), grid.shape, "shape of the initial gap");
+        for (body, side) in self.bodies.iter_mut().zip(&self.sides) {
+            let volume = body.volume();
+            let (seat, of_body) = (&self.facing.seats[*side], volume.grid());
+            assert_eq!(seat.shape(), of_body.shape, "grid of the bodies");
+            assert_eq!(of_body.pitch, grid.pitch, "grid of the bodies");
+            let fits = seat.cell(0) / of_body.shape[1] + grid.shape[0] <= of_body.shape[0];
+            assert!(fits || volume.boundary().leaves_mean_free(), "a contact on the body");
+        }
+    }
+
+    /// Takes the bodies apart, and brings those that may flow to what flow has left in these `states`: to the same bits however they
+    /// came there. A product for each.
+    ///
+    /// # Panics
+    /// If there are not as many states as bodies, or one is that of another body.
+    pub fn restore(&mut self, states: &[PlasticState]) {
+        assert_eq!(states.len(), self.bodies.len(), "a state for each body");
+        self.bodies.iter_mut().zip(states).for_each(|(body, state)| body.restore(state));
+        self.pressure.fill(0.0);
+        self.equilibrium = None;
+        self.along = None;
+        self.increments = 0;
+    }
+
+    /// Goes on to a load (0: the bodies are taken apart) or an approach in one increment, while nothing is held in the plane.
     ///
     /// # Errors
     /// [`Error::AtIncrement`] with what is wrong there: [`Error::FlowNotConverged`], or what [`crate::solver::solve_normal`] finds.
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
-        self.go_to_watched(control, &())
+        self.load(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, &())
     }
 
-    /// As [`PlasticContact::go_to`], while somebody looks on.
-    pub(crate) fn go_to_watched(&mut self, control: Control, watch: &dyn Watch) -> Result<Increment> {
+    /// Goes on to what is prescribed in one increment, while somebody looks on. What is prescribed in the plane counts where the bodies
+    /// may stick alone.
+    ///
+    /// # Errors
+    /// Those of [`PlasticContact::go_to`], and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
+    pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
-        let Self { operator, initial_gap, bodies, flow, contact, pressure, places, .. } = self;
-        let shapes = bodies.iter().map(|body| [body.displacement().nrows(), body.displacement().ncols()]);
         let mut pressing = Pressing {
-            operator: operator.as_mut(),
-            initial_gap,
-            control,
-            params: contact,
+            facing: &mut self.facing,
+            sides: &self.sides,
+            loading,
+            params: &self.contact,
             watch,
-            pressure: pressure.clone(),
-            solution: None,
-            facing: places.iter().copied().zip(shapes).collect(),
+            before: self.equilibrium.as_ref().and_then(Equilibrium::frictional),
+            along_before: self.along.clone(),
+            pressure: self.pressure.clone(),
+            equilibrium: None,
+            along: None,
         };
-        let mut flowing: Vec<&mut PlasticBody> = bodies.iter_mut().collect();
+        let shifts: Vec<_> = self.sides.iter().map(|side| self.shifts[*side]).collect();
+        let mut flowing: Vec<&mut PlasticBody> = self.bodies.iter_mut().collect();
         let at = |source| match source {
             Error::Interrupted => source,
             source => Error::AtIncrement { increment: self.increments, source: Box::new(source) },
         };
-        let increment = advance(&mut flowing, &mut pressing, Some(&self.shifts), flow).map_err(at)?;
-        let Pressing { pressure, solution, .. } = pressing;
-        self.solution = solution;
-        self.pressure = pressure;
-        self.shifts.fill([0; 2]);
+        let increment = advance(&mut flowing, &mut pressing, Some(&shifts), &self.flow).map_err(at)?;
+        let Pressing { pressure, equilibrium, along, .. } = pressing;
+        (self.pressure, self.equilibrium, self.along) = (pressure, equilibrium, along);
+        self.shifts = [[0; 2]; 2];
         Ok(increment)
     }
 
@@ -140,7 +191,7 @@ impl PlasticContact {
     /// # Errors
     /// Those of [`PlasticContact::go_to`].
     pub fn load_to(&mut self, load: Newton, increments: usize) -> Result<Vec<Increment>> {
-        let from = self.load();
+        let from = self.normal_force();
         (1..=increments)
             .map(|n| self.go_to(Control::Load(from + (load - from) * n as f64 / increments as f64)))
             .collect()
@@ -152,29 +203,34 @@ impl PlasticContact {
     }
 
     /// The load W, N.
-    pub fn load(&self) -> Newton {
-        self.operator.grid().cell_area() * self.pressure.sum()
+    pub fn normal_force(&self) -> Newton {
+        self.grid().cell_area() * self.pressure.sum()
     }
 
     /// The approach δ of the undeformed bodies, m; none before the first contact, and where they have been taken apart.
     pub fn approach(&self) -> Option<Metre> {
-        self.solution.as_ref().map(|solution| solution.approach)
+        self.solution().map(|solution| solution.approach)
     }
 
     /// The elastic contact of the bodies as they are, with what has flowed; none before the first, and where they have been taken
-    /// apart.
+    /// apart or moved.
+    pub fn equilibrium(&self) -> Option<&Equilibrium> {
+        self.equilibrium.as_ref()
+    }
+
+    /// The normal part of [`PlasticContact::equilibrium`].
     pub fn solution(&self) -> Option<&Solution> {
-        self.solution.as_ref()
+        self.equilibrium().map(Equilibrium::normal)
     }
 
     /// The grid of the contact.
     pub fn grid(&self) -> &Grid {
-        self.operator.grid()
+        self.facing.interface.grid()
     }
 
     /// The approach at which the bodies as they are now first touch, m.
     pub fn first_touch(&self) -> Metre {
-        self.with_residual(self.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
+        self.with_residual(self.facing.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// The bodies that may flow.
@@ -182,85 +238,174 @@ impl PlasticContact {
         &mut self.bodies
     }
 
+    /// Which of the two each of these bodies is: 0 the lower, 1 the upper one.
+    pub fn sides(&self) -> &[usize] {
+        &self.sides
+    }
+
     /// What the surfaces have moved apart by, C p + r, m; under a periodic boundary the mean of C p is zero.
     pub fn displacement(&self) -> Field {
         let zeros = || Field::zeros(self.pressure.raw_dim());
-        let elastic = self.solution.as_ref().map_or_else(zeros, |solution| solution.displacement.clone());
-        self.with_residual(elastic)
+        self.with_residual(self.solution().map_or_else(zeros, |solution| solution.displacement.clone()))
     }
 
     /// A field on the cells of the contact with the displacements of both surfaces by their plastic strain.
     fn with_residual(&self, field: Field) -> Field {
-        let shape = self.operator.grid().shape;
-        let bodies = self.bodies.iter().zip(&self.places);
-        bodies.fold(field, |sum, (body, place)| sum + on_contact(body.displacement(), *place, shape))
+        let columns = self.grid().shape[0];
+        let bodies = self.bodies.iter().zip(&self.sides);
+        bodies.fold(field, |sum, (body, side)| {
+            sum + self.facing.seats[*side].under(body.displacement(), columns)
+        })
     }
 
-    /// Elastic energy ½ ΔA Σ p C p under the pressure, J: without that of the residual stress.
+    /// Elastic energy under the tractions, J: without that of the residual stress.
     pub fn elastic_energy(&self) -> Joule {
-        self.solution.as_ref().map_or(0.0, Solution::elastic_energy)
+        self.equilibrium.as_ref().map_or(0.0, Equilibrium::elastic_energy)
     }
 }
 
-/// Presses bodies together under one load or at one approach.
+/// Presses bodies together by what is prescribed.
 struct Pressing<'a> {
-    operator: &'a mut dyn Operator,
-    initial_gap: &'a Field,
-    control: Control,
+    facing: &'a mut Facing,
+    sides: &'a [usize],
+    loading: Loading,
     params: &'a Params,
     watch: &'a dyn Watch,
+    /// The last increment, and by how much plastic strain had then displaced the surfaces along each other.
+    before: Option<&'a FrictionalSolution>,
+    along_before: Option<[Field; 2]>,
     /// The last pressure: a start for the next.
     pressure: Field,
-    solution: Option<Solution>,
-    /// Where the contact begins on each body, and the body's shape.
-    facing: Vec<([usize; 2], [usize; 2])>,
+    equilibrium: Option<Equilibrium>,
+    along: Option<[Field; 2]>,
 }
 
-impl Loading for Pressing<'_> {
-    fn act(&mut self, residual: &[Field]) -> Result<Vec<Action>> {
+impl increment::Loading for Pressing<'_> {
+    fn act(&mut self, residual: &[SurfaceDisplacement]) -> Result<Vec<Action>> {
         if self.watch.stop() {
             return Err(Error::Interrupted);
         }
-        if self.control == Control::Load(0.0) {
-            self.pressure.fill(0.0);
-            self.solution = None;
-        } else {
-            let shape = self.operator.grid().shape;
-            let facing = residual.iter().zip(&self.facing);
-            let gap = facing
-                .fold(self.initial_gap.clone(), |gap, (r, (place, _))| gap + on_contact(r, *place, shape));
-            let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
-            let (control, params) = (self.control, self.params);
-            let solution = solve_normal_watched(
-                self.operator,
-                &gap,
-                &Bounds::ELASTIC,
-                control,
-                start,
-                params,
-                self.watch,
-            )?;
-            self.pressure.assign(&solution.pressure);
-            self.solution = Some(solution);
+        let Facing { initial_gap, seats, .. } = &*self.facing;
+        let columns = initial_gap.nrows();
+        let on_bodies = || residual.iter().zip(self.sides.iter().map(|side| (*side, &seats[*side])));
+        let gap =
+            on_bodies().fold(initial_gap.clone(), |gap, (r, (_, seat))| gap + seat.under(&r.inward, columns));
+        // Lower minus upper body, as the tangential displacement of tractions.
+        let along = on_bodies().fold(None, |sum: Option<[Field; 2]>, (r, (side, seat))| {
+            let sign = [1.0, -1.0][side];
+            let of_body = r.along.as_ref()?.each_ref().map(|along| sign * seat.under(along, columns));
+            Some(match sum {
+                None => of_body,
+                Some([x, y]) => {
+                    let [more_x, more_y] = of_body;
+                    [x + more_x, y + more_y]
+                }
+            })
+        });
+        // Of bodies that did not touch it is where they are now.
+        if self.along_before.is_none() {
+            self.along_before.clone_from(&along);
         }
-        let on = |(place, shape): &([usize; 2], [usize; 2])| on_body(&self.pressure, *place, *shape);
-        Ok(self.facing.iter().map(|facing| Action::Tractions(Tractions::frictionless(on(facing)))).collect())
+        let shear = self.press(&gap, along.as_ref())?;
+        self.along = along;
+        let seats = &self.facing.seats;
+        let actions = self.sides.iter().map(|side| {
+            let seat = &seats[*side];
+            let shear = match &shear {
+                None => [None, None],
+                Some(shear) => shear.each_ref().map(|shear| Some(seat.onto(shear))),
+            };
+            let tractions = Tractions { pressure: seat.onto(&self.pressure), shear };
+            Action::Tractions(if *side == 0 { tractions } else { tractions.on_upper() })
+        });
+        Ok(actions.collect())
     }
 }
 
-/// Of a field on a body the part on a contact that begins at `place`, counted cyclically.
-fn on_contact(field: &Field, place: [usize; 2], shape: [usize; 2]) -> Field {
-    let [nx, ny] = [field.nrows(), field.ncols()];
-    Field::from_shape_fn(shape, |(i, j)| field[[(place[0] + i) % nx, (place[1] + j) % ny]])
+impl Pressing<'_> {
+    /// Presses surfaces over a `gap` together, which plastic strain displaces `along` each other; the shear on the lower one.
+    fn press(&mut self, gap: &Field, along: Option<&[Field; 2]>) -> Result<Option<[Field; 2]>> {
+        let (control, params, watch) = (self.loading.normal, self.params, self.watch);
+        if control == Control::Load(0.0) {
+            self.pressure.fill(0.0);
+            self.equilibrium = None;
+            return Ok(None);
+        }
+        let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
+        // What this increment has cost so far.
+        let spent = self.equilibrium.as_ref().map_or(0.0, |last| last.normal().stats.convolutions);
+        let bounds = &Bounds::ELASTIC;
+        let sheared = |sliding: &Sliding, pressure: &Field| {
+            Some([0, 1].map(|axis| pressure.mapv(|p| sliding.shear(p)[axis])))
+        };
+        let (equilibrium, shear) = match &mut self.facing.interface {
+            Interface::Frictionless(operator) => {
+                let operator = operator.as_mut();
+                let mut solution =
+                    solve_normal_watched(operator, gap, bounds, control, start, params, watch)?;
+                solution.stats.convolutions += spent;
+                (Equilibrium::Frictionless(Box::new(solution)), None)
+            }
+            Interface::Sliding(operator, sliding) => {
+                let operator = operator.as_mut();
+                let mut solution =
+                    solve_normal_watched(operator, gap, bounds, control, start, params, watch)?;
+                let shear = sheared(sliding, &solution.pressure);
+                solution.stats.convolutions += spent;
+                (Equilibrium::Frictionless(Box::new(solution)), shear)
+            }
+            Interface::SlidingCoupled(operator, sliding) => {
+                let operator = operator.as_mut();
+                let sliding_contact =
+                    solve_sliding(operator, gap, bounds, sliding, control, start, params, watch)?;
+                let mut solution = sliding_contact.normal;
+                let shear = sheared(sliding, &solution.pressure);
+                solution.stats.convolutions += spent;
+                (Equilibrium::Frictionless(Box::new(solution)), shear)
+            }
+            Interface::Frictional(operator, friction) => {
+                let latest = self.equilibrium.as_ref().and_then(Equilibrium::frictional).or(self.before);
+                let slip = slip_before(self.before, along, self.along_before.as_ref());
+                let start = Start { slip, ..latest.map_or_else(Start::default, Start::after) };
+                let operator = operator.as_mut();
+                let mut solution = solve_frictional_from(
+                    operator,
+                    gap,
+                    bounds,
+                    friction,
+                    self.loading,
+                    start,
+                    params,
+                    watch,
+                )?;
+                let shear = Some(solution.shear.clone());
+                solution.normal.stats.convolutions += spent;
+                (Equilibrium::Frictional(Box::new(solution)), shear)
+            }
+        };
+        self.pressure.assign(&equilibrium.normal().pressure);
+        self.equilibrium = Some(equilibrium);
+        Ok(shear)
+    }
 }
 
-/// A field on a contact that begins at `place` of a body of this `shape`, counted cyclically; 0 elsewhere.
-fn on_body(field: &Field, place: [usize; 2], shape: [usize; 2]) -> Field {
-    let mut on = Field::zeros(shape);
-    for ((i, j), value) in field.indexed_iter() {
-        on[[(place[0] + i) % shape[0], (place[1] + j) % shape[1]]] = *value;
-    }
-    on
+/// The slip s₀ before an increment in which plastic strain moves the surfaces `along` each other from where it had moved them before:
+/// that part of the rigid displacement is no slip.
+fn slip_before(
+    before: Option<&FrictionalSolution>,
+    along: Option<&[Field; 2]>,
+    along_before: Option<&[Field; 2]>,
+) -> Option<[Field; 2]> {
+    let slip = before.and_then(|before| Start::after(before).slip);
+    let (Some(along), Some(along_before)) = (along, along_before) else { return slip };
+    let moved = [0, 1].map(|axis| &along[axis] - &along_before[axis]);
+    Some(match slip {
+        None => moved,
+        Some([x, y]) => {
+            let [dx, dy] = moved;
+            [x + dx, y + dy]
+        }
+    })
 }
 
 #[cfg(test)]

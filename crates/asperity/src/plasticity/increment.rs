@@ -1,18 +1,17 @@
 //! An increment: plastic strain and contact pressure that go together.
 
 use super::anderson::Anderson;
-use super::body::{Action, BodyFlow, PlasticBody, Start};
+use super::body::{Action, BodyFlow, PlasticBody, Start, SurfaceDisplacement};
 use crate::error::{Error, Result, check};
-use crate::grid::Field;
 use crate::units::Joule;
 
 /// What the surfaces of the bodies meet, which may move with them.
 pub trait Loading {
-    /// What acts on each body where plastic strain has displaced their surfaces inward by `residual`, each on its own grid, m.
+    /// What acts on each body where plastic strain has displaced their surfaces by `residual`, each on its own grid.
     ///
     /// # Errors
     /// What the loading has of its own.
-    fn act(&mut self, residual: &[Field]) -> Result<Vec<Action>>;
+    fn act(&mut self, residual: &[SurfaceDisplacement]) -> Result<Vec<Action>>;
 }
 
 /// What an increment may cost, and when it is done.
@@ -174,7 +173,7 @@ struct Trial<'a, 'b> {
     bodies: &'a mut [&'b mut PlasticBody],
     products: usize,
     actions: Vec<Action>,
-    residual: Vec<Field>,
+    residual: Vec<SurfaceDisplacement>,
 }
 
 impl Trial<'_, '_> {

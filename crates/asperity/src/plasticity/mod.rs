@@ -48,8 +48,8 @@ mod sweep;
 mod volume;
 mod waves;
 
-pub use body::{Action, BodyFlow, PlasticBody};
-pub use contact::PlasticContact;
+pub use body::{Action, BodyFlow, PlasticBody, PlasticState, SurfaceDisplacement};
+pub use contact::{Facing, Interface, PlasticContact};
 pub use flow::{CellState, FlowLaw, Tensor};
 pub use hardening::Hardening;
 pub use increment::{FlowParams, Increment, Loading, advance};

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::solver::active_set::{self, Equilibrium};
+use crate::solver::active_set::{self, Answer};
 use crate::solver::site::Site;
 use crate::solver::watch::Within;
 use crate::solver::{Residual, Terms, attraction};
@@ -29,7 +29,7 @@ pub(super) fn solve(
     start: Option<Vec<Field>>,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
-) -> Result<Equilibrium> {
+) -> Result<Answer> {
     if start.is_some() {
         return active_set::solve(sites, terms, start, COMPLIANCE_FACTOR, tolerance, max_convolutions);
     }

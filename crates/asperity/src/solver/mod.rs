@@ -5,6 +5,7 @@ mod bounds;
 mod cascade;
 mod coarse_correction;
 mod direct;
+mod equilibrium;
 mod feasible;
 mod friction;
 mod polonsky_keer;
@@ -17,11 +18,14 @@ mod together;
 mod watch;
 
 pub use bounds::Bounds;
+pub use equilibrium::Equilibrium;
 pub use friction::{
     Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,
     solve_frictional, solve_rolling,
 };
-pub(crate) use friction::{solve_frictional_watched, solve_rolling_watched, solve_sliding};
+pub(crate) use friction::{
+    Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
+};
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;

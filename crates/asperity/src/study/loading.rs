@@ -17,8 +17,8 @@ use super::tables;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::io::fields::{Attribute, FieldFile, Fields};
-use crate::motion::{Equilibrium, Flattening, IncrementRecord, LoadingOutput, LoadingState, Origin, Pair};
-use crate::solver::{Bounds, FrictionalSolution, Solution, Stats};
+use crate::motion::{Flattening, IncrementRecord, LoadingOutput, LoadingState, Origin, Pair};
+use crate::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
 
 /// Keeps each increment of a loading on the disk.
 pub struct LoadingWriter {

@@ -6,15 +6,16 @@ use serde_json::Value;
 use web_time::Instant;
 
 use crate::error::{Error, Result};
-use crate::motion::{Body, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
+use crate::motion::{Body, FlowRecord, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
 use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
+use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::identity;
 use crate::study::prepare::{bodies, fresh_heights};
 use crate::study::results::{Existing, PassWriter, Writer};
 use crate::study::review;
-use crate::study::run::{conclude, pair, params};
+use crate::study::run::{Computed, conclude, pair, params};
 use crate::study::summary::{Outcome, Summary};
 
 /// A motion under way. [`Passes::solve`] and [`Passes::finish`] take turns until there is no pass left, and
@@ -57,16 +58,23 @@ impl Passes {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
                 simulation
             }
-            // Where nothing is left to do the bodies are not missed.
-            _ if represented >= motion.passes => simulation,
+            // Where nothing is left to do the bodies are not missed, but for what has flowed in them.
+            _ if represented >= motion.passes && case.plasticity.is_none() => simulation,
             done => {
                 let mut pair = simulation.pair().clone();
                 let [lower, upper] = writer.results().surfaces_after(done)?;
                 (pair.lower.heights, pair.upper.heights) = (lower.into_heights(), upper.into_heights());
                 [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
-                let warm = writer.results().warm_start_after(done)?;
                 let virgin = &simulation.pair().upper;
-                self::simulation(case, pair, motion, Some(virgin))?.resumed(done, warm)
+                let resumed = self::simulation(case, pair, motion, Some(virgin))?;
+                let resumed = match case.plasticity {
+                    Some(_) => resumed.with_flowed(writer.results().flowed_after(done)?),
+                    None => resumed,
+                };
+                match represented >= motion.passes {
+                    true => resumed,
+                    false => resumed.resumed(done, writer.results().warm_start_after(done)?),
+                }
             }
         };
         let (case, done) = (case.clone(), passes.len());
@@ -122,8 +130,16 @@ impl Passes {
         let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
         let passes = self.done()?;
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
+        let left = self.simulation.flowed();
+        let flow = (!left.is_empty()).then(|| -> Result<FlowRecord> {
+            let steps = self.writer.results().steps()?;
+            let pitch = pair.pitch()[0];
+            self.warnings.extend(review::rolled(&self.case, pitch, &steps, &passes, &left));
+            Ok(FlowRecord::of_passes(&left, &steps, &passes))
+        });
         let subsurface = self.output.subsurface(passes.len())?;
-        let outcome = (Outcome::Passes(passes), subsurface, None);
+        let outcome =
+            Computed { outcome: Outcome::Passes(passes), subsurface, sliding: None, flow: flow.transpose()? };
         let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
         Ok((summary, self.writer))
     }
@@ -133,6 +149,13 @@ impl Passes {
 fn simulation(case: &Case, pair: Pair, motion: Motion, virgin: Option<&Body>) -> Result<Simulation> {
     let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
     let simulation = case.running(simulation.with_rim(case.output.rim)?)?;
+    let simulation = match &case.plasticity {
+        None => simulation,
+        Some(spec) => {
+            let bodies = flow::bodies(case, spec, simulation.pair())?;
+            simulation.with_flow(bodies, spec.params())?
+        }
+    };
     if case.motion.is_none_or(|motion| motion.counter == CounterBody::Same) {
         return Ok(simulation);
     }

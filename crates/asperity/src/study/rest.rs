@@ -3,11 +3,10 @@
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::motion::{
-    Equilibrium, FILM, Flowed, FlowedContact, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState,
-    State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press,
-    press_flowing, roll, sweep,
+    FILM, Flowed, FlowedContact, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState, State,
+    StaticContact, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, press_flowing, roll, sweep,
 };
-use crate::solver::{Friction, Params, Solution};
+use crate::solver::{Equilibrium, Friction, Params, Solution};
 use crate::study::case::{Case, LoadingPath};
 use crate::study::estimate::estimate;
 use crate::study::flow;
@@ -111,7 +110,7 @@ pub(super) enum Solved {
     /// Worn in place.
     Slid(Box<WornContact>, Option<Friction>, Option<Box<SlidingWriter>>),
     /// Of bodies that flow below their surfaces: the contact, and what has flowed until that is taken.
-    Flowed(Box<StaticRecord>, Box<Solution>, Option<Box<Flowed>>),
+    Flowed(Box<FlowedContact>),
 }
 
 /// What has kept the course of a contact.
@@ -162,12 +161,11 @@ pub(super) fn solve(
     Ok(match (case.loading_path(apparent_area), law, &case.plasticity) {
         (Some(LoadingPath::Stages(stages)), _, Some(spec)) => {
             let (bodies, path) = (flow::bodies(case, spec, pair)?, flow::path(spec, stages));
-            let FlowedContact { record, solution, flowed } =
-                press_flowing(pair, boundary, bodies, &path, params, watch)?;
+            let contact = press_flowing(pair, boundary, law, bodies, &path, params, watch)?;
             begin()?;
-            let warnings =
-                [review::flowed(case, pair, &record, &flowed), at_rest(pair, case, &solution)].concat();
-            (Solved::Flowed(Box::new(record), Box::new(solution), Some(Box::new(flowed))), warnings)
+            let of_answer = at_rest(pair, case, contact.solution.normal());
+            let warnings = [review::flowed(case, pair, &contact), of_answer].concat();
+            (Solved::Flowed(Box::new(contact)), warnings)
         }
         (Some(LoadingPath::Sweep(points)), law, _) => {
             begin()?;
@@ -225,7 +223,7 @@ impl Solved {
             Self::Loaded(contact, _) => Outcome::Static(Box::new(contact.record.clone())),
             Self::Swept(outcome, _) => outcome.clone(),
             Self::Slid(contact, ..) => Outcome::Static(Box::new(contact.record.clone())),
-            Self::Flowed(record, ..) => Outcome::Static(record.clone()),
+            Self::Flowed(contact) => Outcome::Static(Box::new(contact.record.clone())),
         }
     }
 
@@ -244,15 +242,15 @@ impl Solved {
     fn increments(&self) -> &[IncrementRecord] {
         match self {
             Self::Loaded(contact, _) => &contact.increments,
-            Self::Flowed(_, _, Some(flowed)) => &flowed.increments,
-            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) | Self::Flowed(_, _, None) => &[],
+            Self::Flowed(contact) => &contact.flowed.increments,
+            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) => &[],
         }
     }
 
     /// What has flowed below the surfaces.
     pub(super) fn take_flowed(&mut self) -> Option<Flowed> {
         match self {
-            Self::Flowed(_, _, flowed) => flowed.take().map(|flowed| *flowed),
+            Self::Flowed(contact) => Some(std::mem::take(&mut contact.flowed)),
             Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) | Self::Slid(..) => None,
         }
     }
@@ -276,9 +274,9 @@ impl Solved {
                 let plastic = solution.plastic_interference();
                 (Equilibrium::Frictionless(Box::new(solution)), plastic, None)
             }
-            Self::Flowed(_, solution, _) => {
-                let plastic = Field::zeros(solution.pressure.raw_dim());
-                (Equilibrium::Frictionless(solution), plastic, None)
+            Self::Flowed(contact) => {
+                let FlowedContact { solution, slip, .. } = *contact;
+                (solution, grid.zeros(), slip)
             }
             Self::Loaded(contact, _) | Self::Swept(_, contact) => {
                 let LoadedContact { solution, plastic, slip, .. } = *contact;

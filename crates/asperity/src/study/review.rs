@@ -5,9 +5,12 @@ use ndarray::Axis;
 use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
-use crate::motion::{Flowed, Interior, LoadedContact, Pair, PassRecord, StaticRecord, SweepRecord};
+use crate::motion::{
+    FlowedContact, FlowedVolume, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, ShearRecord,
+    StaticRecord, StepRecord, SweepRecord,
+};
 use crate::operator::Boundary;
-use crate::units::{self, Dimension, Metre, SquareMetre};
+use crate::units::{self, Dimension, Joule, Metre, SquareMetre};
 
 /// The warnings of a static contact, by its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
@@ -30,18 +33,9 @@ pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String>
 
 /// What to be wary of in a static contact that was loaded in stages, or rolls.
 pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
-    /// Dissipation that is known less accurately than this is warned of.
-    const ACCURATE: f64 = 0.1;
     let mut warnings = Vec::new();
     let Some(shear) = &contact.record.shear else { return warnings };
-    let error = contact.dissipation_error / shear.dissipation;
-    if error > ACCURATE {
-        warnings.push(format!(
-            "cells slip while what they bear changes: `dissipation` is known within {:.0} % only; give more `increments` \
-             where the load and what acts in the plane change together",
-            (100.0 * error).ceil()
-        ));
-    }
+    warnings.extend(inaccurate(contact.dissipation_error, shear));
     let plastic = contact.record.plastic_cells;
     if shear.creepage.is_some() && plastic > 0 {
         warnings.push(format!("{plastic} cells yield {NOT_FLATTENED}"));
@@ -49,56 +43,29 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
     warnings
 }
 
+/// The warning that the energy which friction took is known roughly.
+fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
+    /// Dissipation that is known less accurately than this is warned of.
+    const ACCURATE: f64 = 0.1;
+    let error = error / shear.dissipation;
+    (error > ACCURATE).then(|| {
+        format!(
+            "cells slip while what they bear changes: `dissipation` is known within {:.0} % only; give more `increments` \
+             where the load and what acts in the plane change together",
+            (100.0 * error).ceil()
+        )
+    })
+}
+
 /// What to be wary of in a static contact of bodies that flow below their surfaces.
-pub(super) fn flowed(case: &Case, pair: &Pair, record: &StaticRecord, flowed: &Flowed) -> Vec<String> {
-    /// Plastic strain beyond which strains are not small, and slope of the surface that it leaves.
-    const SMALL: [f64; 2] = [0.1, 0.3];
+pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<String> {
     /// Step of the load, of the load reached, beyond which the path of a flowing contact is followed roughly.
     const STEP: f64 = 0.15;
-    let mut warnings = Vec::new();
+    let FlowedContact { record, flowed, .. } = contact;
+    let mut warnings = volumes(case.contact.boundary, &flowed.volumes);
     let Some(flow) = &record.flow else { return warnings };
-    let grid = pair.lower_grid();
-    for volume in &flowed.volumes {
-        let name = if volume.body == 0 { "lower" } else { "upper" };
-        let flows = |layer: ndarray::ArrayView2<f64>| layer.iter().any(|strain| *strain > 0.0);
-        let strain = &volume.accumulated;
-        if strain.outer_iter().next_back().is_some_and(flows) {
-            warnings.push(format!(
-                "the {name} body flows in the deepest layer, below which it is elastic: give a larger `depth`"
-            ));
-        }
-        let at_edge = |axis: usize| {
-            let last = strain.shape()[axis] - 1;
-            [0, last].iter().any(|at| strain.index_axis(Axis(axis), *at).iter().any(|strain| *strain > 0.0))
-        };
-        if [0, 1].iter().any(|axis| !case.contact.boundary.repeats(*axis) && at_edge(axis + 1)) {
-            warnings.push(format!(
-                "the {name} body flows at the edge of the grid, beyond which it is elastic: take a larger grid"
-            ));
-        }
-        let steepest = slope(&volume.displacement, grid.pitch);
-        if steepest > SMALL[1] {
-            warnings.push(format!(
-                "flow leaves a slope of {} on the {name} body: strains and slopes are taken to be small",
-                units::format_number(steepest)
-            ));
-        }
-    }
-    if flow.max_plastic_strain > SMALL[0] {
-        warnings.push(format!(
-            "the largest plastic strain is {}: strains are taken to be small, up to {}",
-            units::format_number(flow.max_plastic_strain),
-            SMALL[0]
-        ));
-    }
-    let spot = spot_width(record, grid.cell_area());
-    let first = flowed.volumes.first().map_or(0.0, |volume| volume.faces[1]);
-    if flow.max_plastic_strain > 0.0 && first > 0.25 * spot {
-        warnings.push(format!(
-            "the first layer, {} thick, is more than a quarter of the contact across: give more `layers`, or let them grow",
-            units::format(first, Dimension::Length)
-        ));
-    }
+    let spot = spot_width(record, pair.cell_area());
+    warnings.extend(thick_layers(&flowed.volumes, flow.max_plastic_strain, spot));
     let mut before = 0.0;
     let coarse = flowed.increments.iter().any(|increment| {
         let step = increment.load - std::mem::replace(&mut before, increment.load);
@@ -108,6 +75,115 @@ pub(super) fn flowed(case: &Case, pair: &Pair, record: &StaticRecord, flowed: &F
     if coarse {
         let hint = "a step of the load above 15 % of it while the bodies flow follows their path roughly: give more `increments`";
         warnings.push(hint.to_owned());
+    }
+    warnings.extend(record.shear.as_ref().and_then(|shear| inaccurate(contact.dissipation_error, shear)));
+    warnings
+}
+
+/// What to be wary of in volumes that have flowed under a boundary.
+pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<String> {
+    /// Plastic strain beyond which strains are not small, and slope of the surface that it leaves.
+    const SMALL: [f64; 2] = [0.1, 0.3];
+    let mut warnings = Vec::new();
+    let mut largest = 0.0_f64;
+    for volume in volumes {
+        let name = if volume.body == 0 { "lower" } else { "upper" };
+        let flows = |layer: ndarray::ArrayView2<f64>| layer.iter().any(|strain| *strain > 0.0);
+        let strain = &volume.state.accumulated;
+        if strain.outer_iter().next_back().is_some_and(flows) {
+            warnings.push(format!(
+                "the {name} body flows in the deepest layer, below which it is elastic: give a larger `depth`"
+            ));
+        }
+        let at_edge = |axis: usize| {
+            let last = strain.shape()[axis] - 1;
+            [0, last].iter().any(|at| strain.index_axis(Axis(axis), *at).iter().any(|strain| *strain > 0.0))
+        };
+        if [0, 1].iter().any(|axis| !boundary.repeats(*axis) && at_edge(axis + 1)) {
+            warnings.push(format!(
+                "the {name} body flows at the edge of the grid, beyond which it is elastic: take a larger grid"
+            ));
+        }
+        let steepest = slope(&volume.displacement, volume.grid.pitch);
+        if steepest > SMALL[1] {
+            warnings.push(format!(
+                "flow leaves a slope of {} on the {name} body: strains and slopes are taken to be small",
+                units::format_number(steepest)
+            ));
+        }
+        largest = strain.iter().fold(largest, |most, strain| most.max(*strain));
+    }
+    if largest > SMALL[0] {
+        warnings.push(format!(
+            "the largest plastic strain is {}: strains are taken to be small, up to {}",
+            units::format_number(largest),
+            SMALL[0]
+        ));
+    }
+    warnings
+}
+
+/// The warning that the first layer of bodies that have flowed is too thick for a contact spot so wide.
+fn thick_layers(volumes: &[FlowedVolume], strain: f64, spot: Metre) -> Option<String> {
+    let first = volumes.first().map_or(0.0, |volume| volume.faces[1]);
+    (strain > 0.0 && first > 0.25 * spot).then(|| {
+        format!(
+            "the first layer, {} thick, is more than a quarter of the contact across: give more `layers`, or let them grow",
+            units::format(first, Dimension::Length)
+        )
+    })
+}
+
+/// What to be wary of in a motion of bodies that flow, by its positions and passes, and the volumes that these have left.
+pub(super) fn rolled(
+    case: &Case,
+    pitch: Metre,
+    steps: &[StepRecord],
+    passes: &[PassRecord],
+    left: &[FlowedVolume],
+) -> Vec<String> {
+    /// Step of the load from a position to the next, of the load reached, beyond which the path is followed roughly.
+    const STEP: f64 = 0.15;
+    /// Stride, of the width of a spot, beyond which the path is followed roughly.
+    const STRIDE: f64 = 0.1;
+    /// Share of the plastic work at the rim that is too much.
+    const RIM: f64 = 0.1;
+    let mut warnings = volumes(case.contact.boundary, left);
+    let flows = |step: &StepRecord| step.flow.is_some_and(|flow| flow.yielded_cells > 0);
+    let strain = steps.iter().filter_map(|step| step.flow).fold(0.0, |m: f64, f| m.max(f.max_plastic_strain));
+    let widest = steps.iter().filter(|step| flows(step)).map(|step| step.largest_spot_cells).max();
+    let Some(widest) = widest.map(|cells| cells as f64) else { return warnings };
+    warnings.extend(thick_layers(left, strain, widest * pitch));
+    let largest = passes.iter().map(|pass| pass.max_load).fold(0.0, f64::max);
+    let rough = steps.windows(2).any(|pair| {
+        let [before, now] = pair else { return false };
+        before.pass == now.pass && flows(now) && (now.load - before.load).abs() > STEP * largest
+    });
+    if rough {
+        warnings.push(
+            "a step of the load above 15 % of it while the bodies flow follows their path roughly: give a smaller `stride`"
+                .to_owned(),
+        );
+    }
+    let stride = case.motion.map_or(1, |motion| motion.stride) as f64;
+    if stride > STRIDE * widest {
+        warnings.push(format!(
+            "a step of {stride} cells is {:.0} % of the widest contact spot, {widest} cells: the path of flow is followed to some 4 %              at a tenth, 17 % at a quarter: give a smaller `stride`, or finer grids",
+            100.0 * stride / widest
+        ));
+    }
+    let sum = |value: fn(&PassFlowRecord) -> f64| -> f64 {
+        passes.iter().filter_map(|pass| pass.flow).map(|flow| value(&flow)).sum()
+    };
+    let work = sum(|flow| flow.plastic_work_lower + flow.plastic_work_upper);
+    let rim = sum(|flow| flow.plastic_work_rim);
+    if rim > RIM * work {
+        warnings.push(format!(
+            "{:.0} % of the plastic work is under the outer two columns of the overlap: edges plough; add a sphere or a cylinder to \
+             a body by `[[upper.topography.plus]]`, `taper` it, or let surfaces without ends pass by `strategy = \"shift\"` under \
+             a periodic boundary",
+            100.0 * rim / work
+        ));
     }
     warnings
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use web_time::Instant;
 
 use crate::error::Result;
-use crate::motion::{Pair, UpdateRecord, Watch};
+use crate::motion::{FlowRecord, Pair, UpdateRecord, Watch};
 use crate::solver::Params;
 use crate::study::case::Case;
 use crate::study::estimate::{Estimate, estimate};
@@ -56,14 +56,24 @@ pub fn run(
     let fields = solved.into_fields(rest::displaced(pair, flowed.as_ref()));
     writer.write_rest(&fields)?;
     if let Some(flowed) = flowed {
-        writer.write_flow(&fields.grid, &flowed)?;
+        writer.write_flow(&flowed)?;
     }
     let stress =
         subsurface.map(|plan| writer.write_subsurface(&plan, fields.into_tractions())).transpose()?;
-    let summary =
-        conclude(case, &writer, resolved, began, (outcome, stress.into_iter().collect(), sliding), warnings)?;
+    let computed = Computed { outcome, subsurface: stress.into_iter().collect(), sliding, flow: None };
+    let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     under_way.map_or(Ok(()), |under_way| under_way.done())?;
     Ok((summary, writer))
+}
+
+/// What a run has computed, in numbers.
+pub(super) struct Computed {
+    pub(super) outcome: Outcome,
+    pub(super) subsurface: Vec<SubsurfaceRecord>,
+    /// The last update of a contact that has slid in place.
+    pub(super) sliding: Option<UpdateRecord>,
+    /// What the passes of bodies that flow come to.
+    pub(super) flow: Option<FlowRecord>,
 }
 
 /// Writes what comes at the end of every run.
@@ -72,7 +82,7 @@ pub(super) fn conclude(
     writer: &Writer,
     resolved: serde_json::Value,
     began: Instant,
-    (outcome, subsurface, sliding): (Outcome, Vec<SubsurfaceRecord>, Option<UpdateRecord>),
+    Computed { outcome, subsurface, sliding, flow }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     warnings.extend(writer.warning().map(str::to_owned));
@@ -86,6 +96,7 @@ pub(super) fn conclude(
     let summary = Summary {
         running_in,
         sliding,
+        plasticity: flow,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,

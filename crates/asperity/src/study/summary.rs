@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::atomic;
-use crate::motion::{PassRecord, StaticRecord, SweepRecord, UpdateRecord};
+use crate::motion::{FlowRecord, PassRecord, StaticRecord, SweepRecord, UpdateRecord};
 use crate::units::{CubicMetre, Metre, Second};
 
 /// The content of `summary.json`.
@@ -28,6 +28,10 @@ pub struct Summary {
     /// The last update of a contact that has slid in place: what it has lost and come to; none of others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding: Option<UpdateRecord>,
+    /// What the passes of bodies that flow below their surfaces have left, once the load is taken off, and what becomes of them; none
+    /// of others. What a contact at rest has left stands in its record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<FlowRecord>,
     /// The most stressed point, of a static contact once, of a motion for each pass; none where the stress was not
     /// wanted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -151,6 +155,7 @@ mod tests {
             case: serde_json::json!({"contact": {"load": 2.0}}),
             running_in: None,
             sliding: None,
+            plasticity: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {
                 pass: None,

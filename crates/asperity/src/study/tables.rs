@@ -372,6 +372,7 @@ mod tests {
             largest_spot_cells: 1,
             max_pressure: 4e9,
             heat: None,
+            flow: None,
             plastic_cells: 0,
             plastic_volume: 0.0,
             plastic_volume_interior: 0.0,
@@ -384,6 +385,7 @@ mod tests {
     fn pass() -> PassRecord {
         PassRecord {
             running: None,
+            flow: None,
             pass: 1,
             approach: 1e-7,
             mean_load: 2.0,

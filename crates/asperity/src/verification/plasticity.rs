@@ -7,12 +7,12 @@ use ndarray::s;
 
 use super::{Case, Expected, PARAMS, relative, study};
 use crate::error::Result;
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, Seat};
 use crate::material::Material;
-use crate::operator::{Boundary, FreeFft, PeriodicFft};
+use crate::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use crate::plasticity::{
-    Action, FlowParams, Hardening, J2, Layers, Loading, PlasticBody, PlasticContact, TensorField, Volume,
-    advance,
+    Action, Facing, FlowParams, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact,
+    SurfaceDisplacement, TensorField, Volume, advance,
 };
 use crate::solver::Control;
 use crate::stress::Stress;
@@ -47,12 +47,15 @@ impl Sphere {
         let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
             (from(i).powi(2) + from(j).powi(2)) / (2.0 * self.radius)
         });
-        let body = PlasticBody::new(volume, Arc::new(law));
-        Ok(if self.boundary.leaves_mean_free() {
-            PlasticContact::new(Box::new(PeriodicFft::new(grid, modulus)), gap, vec![body], flow, PARAMS)
+        let operator: Box<dyn Operator> = if self.boundary.leaves_mean_free() {
+            Box::new(PeriodicFft::new(grid, modulus))
         } else {
-            PlasticContact::new(Box::new(FreeFft::new(grid, modulus)), gap, vec![body], flow, PARAMS)
-        })
+            Box::new(FreeFft::new(grid, modulus))
+        };
+        let interface = Interface::Frictionless(operator);
+        let facing = Facing { interface, initial_gap: gap, seats: [Seat::flush(grid.shape); 2] };
+        let body = PlasticBody::new(volume, Arc::new(law));
+        Ok(PlasticContact::new(facing, [Some(body), None], flow, PARAMS))
     }
 }
 
@@ -287,7 +290,7 @@ impl Travelling {
 }
 
 impl Loading for Travelling {
-    fn act(&mut self, _: &[Field]) -> Result<Vec<Action>> {
+    fn act(&mut self, _: &[SurfaceDisplacement]) -> Result<Vec<Action>> {
         let n = self.stress.shape()[2];
         let mut moved = self.stress.clone();
         moved.slice_mut(s![.., .., self.at.., ..]).assign(&self.stress.slice(s![.., .., ..n - self.at, ..]));

@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity::material::{Compliances, Material};
 use asperity::motion::{
-    Equilibrium, LoadedContact, LoadingOutput, LoadingState, Pair, Progress, Stage, Watch, load_in_stages,
+    LoadedContact, LoadingOutput, LoadingState, Pair, Progress, Stage, Watch, load_in_stages,
 };
 use asperity::operator::{Boundary, CoupledSum};
-use asperity::solver::{Control, Coupling, Friction, Loading, Method, Params, Tangential};
+use asperity::solver::{Control, Coupling, Equilibrium, Friction, Loading, Method, Params, Tangential};
 use asperity::study;
 use asperity::study::Existing;
 use asperity::study::case;

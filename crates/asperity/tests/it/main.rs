@@ -22,6 +22,7 @@ mod moving_surfaces;
 mod random_motions;
 mod real_surface;
 mod response;
+mod rolling;
 mod running_in;
 mod sliding;
 mod solver;

@@ -63,7 +63,7 @@ const TOLERANCE_REDUCTION: f64 = 0.3;
 const FIRST_PRESSURE: f64 = 0.3;
 
 /// Contacts in equilibrium under one approach.
-pub(super) struct Equilibrium {
+pub(super) struct Answer {
     /// Pressure and displacement of each contact.
     pub(super) fields: Vec<(Field, Field)>,
     /// Residual of all contacts together.
@@ -85,7 +85,7 @@ pub(super) fn solve(
     compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
-) -> Result<Equilibrium> {
+) -> Result<Answer> {
     let mut iteration = Iteration::new(sites, terms, start, compliance_factor);
     let mut tightening = 1.0;
     let mut state = iteration.residual();
@@ -110,7 +110,7 @@ pub(super) fn solve(
             }
             state.eta += iteration.rounding() / state.scale;
             if state.eta < wanted {
-                return Ok(iteration.into_equilibrium(state));
+                return Ok(iteration.into_answer(state));
             }
             tightening *= TOLERANCE_REDUCTION;
         }
@@ -240,10 +240,10 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    fn into_equilibrium(self, residual: Residual) -> Equilibrium {
+    fn into_answer(self, residual: Residual) -> Answer {
         let stats = self.stats();
         let fields = self.blocks.into_iter().map(Block::into_fields).collect();
-        Equilibrium { fields, residual, stats }
+        Answer { fields, residual, stats }
     }
 
     /// Under approach control a guess is only as good as its size: the multiple of least energy, at no cost.

@@ -35,15 +35,29 @@ const MAX_ROUNDS: usize = 200;
 
 /// The state in which an increment begins.
 #[derive(Default)]
-pub(super) struct Start {
+pub(crate) struct Start {
     /// A pressure near the answer.
-    pub(super) pressure: Option<Field>,
+    pub(crate) pressure: Option<Field>,
     /// The bounds of that pressure.
-    pub(super) bounds: Option<Bounds>,
+    pub(crate) bounds: Option<Bounds>,
     /// The shear beside it.
-    pub(super) shear: Option<[Field; 2]>,
+    pub(crate) shear: Option<[Field; 2]>,
     /// The slip s₀ before the increment, m.
-    pub(super) slip: Option<[Field; 2]>,
+    pub(crate) slip: Option<[Field; 2]>,
+}
+
+impl Start {
+    /// After an increment.
+    pub(crate) fn after(before: &FrictionalSolution) -> Self {
+        Self {
+            pressure: Some(before.normal.pressure.clone()),
+            bounds: Some(before.normal.bounds.clone()),
+            shear: Some(before.shear.clone()),
+            slip: Some(
+                [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.rigid_displacement[axis] - u)),
+            ),
+        }
+    }
 }
 
 /// Solves one increment. The bounds `unsheared` are those of cells without shear, in sliding those that the shear leaves.

@@ -18,7 +18,8 @@ use crate::operator::CoupledOperator;
 use crate::solver::{Bounds, Control, Params, Solution, Watch};
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
-use alternate::{Start, alternate};
+pub(crate) use alternate::Start;
+use alternate::alternate;
 
 /// The displacement, force or direction of sliding that is prescribed in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -176,19 +177,24 @@ pub(crate) fn solve_frictional_watched(
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
+    let start = before.map_or_else(Start::default, Start::after);
+    solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, params, watch)
+}
+
+/// As [`solve_frictional`], from what is known of the contact before it, while somebody looks on.
+#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
+pub(crate) fn solve_frictional_from(
+    operator: &mut dyn CoupledOperator,
+    initial_gap: &Field,
+    bounds: &Bounds,
+    friction: &Friction,
+    loading: Loading,
+    start: Start,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<FrictionalSolution> {
     let friction = friction.checked()?;
     validate(&loading.tangential)?;
-    let start = match before {
-        Some(before) => Start {
-            pressure: Some(before.normal.pressure.clone()),
-            bounds: Some(before.normal.bounds.clone()),
-            shear: Some(before.shear.clone()),
-            slip: Some(
-                [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.rigid_displacement[axis] - u)),
-            ),
-        },
-        None => Start::default(),
-    };
     let bounds = match loading.tangential {
         Tangential::Sliding(_) => friction.sliding_bounds(bounds),
         _ => bounds.clone(),

@@ -101,7 +101,7 @@ const TABLES: [(&str, &[&str]); 19] = [
     ("upper.film", FILM),
     ("lower.plasticity", FLOW),
     ("upper.plasticity", FLOW),
-    ("plasticity", &["depth", "layers", "growth", "increments", "tolerance", "unload"]),
+    ("plasticity", &["depth", "layers", "growth", "increments", "tolerance", "unload", "keep"]),
 ];
 
 /// The keys of a body's wear.

@@ -82,15 +82,17 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     }
     let contact_table = root.required_table("contact")?;
     let contact = contact(&contact_table)?;
-    let motion = root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
+    let mut motion =
+        root.table("motion")?.map(|table| motion(&table, &contact_table, &contact)).transpose()?;
     let sliding = root.table("sliding")?.map(|table| sliding(&table)).transpose()?;
     alone(&root, [&lower, &upper])?;
     let slides = motion.is_some() || sliding.is_some();
     let yields = lower.hardness.yields() || upper.hardness.yields();
-    let friction = root.table("friction")?.map(|table| friction(&table, yields, slides)).transpose()?;
+    let mut friction = root.table("friction")?.map(|table| friction(&table, yields, slides)).transpose()?;
     let stages = root.get("history");
     stands_alone(&contact_table, friction.as_ref(), motion.is_some(), stages.is_some())?;
-    let plasticity = plasticity::plasticity(&root, [&lower, &upper])?;
+    let bodies = [&lower, &upper];
+    let plasticity = plasticity::plasticity(&root, bodies, contact.boundary, &mut motion, &mut friction)?;
     let history = history(stages.as_ref(), motion.is_some(), friction.as_ref(), plasticity.as_ref())?;
     if let (Some(_), Some(motion)) = (&friction, motion)
         && motion.strategy.direction() == 0.0

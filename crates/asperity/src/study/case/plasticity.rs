@@ -4,9 +4,12 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::keys::known_in;
-use super::{Body, Hardness};
+use super::{Body, CounterBody, FrictionSpec, Hardness, MotionSpec};
+use crate::choice::choice;
 use crate::error::Result;
 use crate::material::Coating;
+use crate::motion::{PlasticUpdate, Strategy};
+use crate::operator::Boundary;
 use crate::plasticity::{FlowParams, Hardening, J2, Layers};
 use crate::units::{Dimension, Metre, Pascal};
 
@@ -51,13 +54,26 @@ pub struct PlasticitySpec {
     pub layers: usize,
     /// Thickness of a layer over that of the one above, 1 to 2.
     pub growth: f64,
-    /// Equal steps of the load of a static contact, ≥ 1.
+    /// Equal steps of the load of a static contact without friction, and of taking it off, ≥ 1.
     pub increments: usize,
     /// Largest mismatch of the stress over the yield stress, 0 < tolerance < 1.
     pub tolerance: f64,
     /// Whether the load of a static contact is taken off at the end.
     pub unload: bool,
+    /// Of which passes of a motion the volumes are kept.
+    pub keep: Keep,
 }
+
+/// The passes of a motion whose volumes are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keep {
+    /// The last one.
+    Last,
+    /// All of them.
+    Passes,
+}
+
+choice!(Keep: "last" => Last, "passes" => Passes);
 
 /// `[lower.plasticity]` in the table of a body that is as stiff as `young`.
 pub(super) fn flow(
@@ -152,8 +168,14 @@ fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pascal)>> {
     Ok(points)
 }
 
-/// `[plasticity]`, of bodies of which one flows.
-pub(super) fn plasticity(root: &Table<'_>, bodies: [&Body; 2]) -> Result<Option<PlasticitySpec>> {
+/// `[plasticity]`, of bodies of which one flows; with what it changes in their `motion` and `friction`.
+pub(super) fn plasticity(
+    root: &Table<'_>,
+    bodies: [&Body; 2],
+    boundary: Boundary,
+    motion: &mut Option<MotionSpec>,
+    friction: &mut Option<FrictionSpec>,
+) -> Result<Option<PlasticitySpec>> {
     let flows = ["lower", "upper"].into_iter().zip(bodies).find(|(_, body)| body.plasticity.is_some());
     let table = root.table("plasticity")?;
     let (name, table) = match (flows, table) {
@@ -182,7 +204,16 @@ pub(super) fn plasticity(root: &Table<'_>, bodies: [&Body; 2]) -> Result<Option<
     let growth = table
         .get("growth")
         .map(|entry| entry.number(|value| (1.0..=2.0).contains(&value), "a number from 1 to 2"));
+    if let Some(motion) = motion {
+        moves(root, &table, bodies, boundary, motion)?;
+    } else if let Some(entry) = table.get("keep") {
+        let hint = Some("leave it out: a contact at rest has one volume, that of its end".to_owned());
+        return Err(entry.error("'keep' is that of the passes of a [motion]".to_owned(), hint));
+    }
     let increments = table.get("increments").map_or(Ok(DEFAULT_INCREMENTS), |entry| entry.count(1))?;
+    if let Some(friction) = friction.as_mut().filter(|_| motion.is_none()) {
+        rubs(root, &table, friction, increments)?;
+    }
     let tolerance = table
         .get("tolerance")
         .map(|entry| entry.number(|value| value > 0.0 && value < 1.0, "a number above 0, below 1"));
@@ -193,6 +224,7 @@ pub(super) fn plasticity(root: &Table<'_>, bodies: [&Body; 2]) -> Result<Option<
         increments,
         tolerance: tolerance.transpose()?.unwrap_or(1e-4),
         unload: table.get("unload").map_or(Ok(true), |entry| entry.flag())?,
+        keep: table.choice_or("keep", Keep::Last)?,
     }))
 }
 
@@ -227,25 +259,72 @@ fn suits(root: &Table<'_>, name: &str, bodies: [&Body; 2]) -> Result<()> {
             }
         }
     }
-    if let Some(table) = root.table("friction")? {
-        let hint = Some("leave [friction] or the plasticity out".to_owned());
-        return Err(
-            table.error("shear of bodies that flow below their surfaces is not known yet".to_owned(), hint)
-        );
-    }
-    if let Some(table) = root.table("subsurface")? {
-        let hint = Some("leave [subsurface] out: `plasticity.h5` has the residual stress".to_owned());
-        return Err(table.error("bodies that flow have no [subsurface] yet".to_owned(), hint));
+    if let Some(table) = root.table("temperature")? {
+        let hint = Some("leave [temperature] or the plasticity out".to_owned());
+        let message = "a flash temperature is that of bodies that stay as they are in a pass".to_owned();
+        return Err(table.error(message, hint));
     }
     if let Some(entry) = ["loads", "mean_pressures", "approaches"].iter().find_map(|key| contact.get(key)) {
         let hint = Some("give stages in a [[history]]".to_owned());
         return Err(entry.error("bodies that flow keep what has flowed: they have no sweep".to_owned(), hint));
     }
-    if let Some(table) = root.table("motion")? {
-        let hint = Some("give the bodies a `hardness` in place of the plasticity".to_owned());
-        return Err(table.error("bodies that flow below their surfaces do not move yet".to_owned(), hint));
-    }
     Ok(())
+}
+
+/// A motion of bodies that flow: they do at every position.
+fn moves(
+    root: &Table<'_>,
+    table: &Table<'_>,
+    bodies: [&Body; 2],
+    boundary: Boundary,
+    motion: &mut MotionSpec,
+) -> Result<()> {
+    let of_motion = root.required_table("motion")?;
+    if let Some(entry) = ["increments", "unload"].iter().find_map(|key| table.get(key)) {
+        let message = format!("'{}' is that of a contact at rest", entry.key());
+        let hint = "leave it out: in a [motion] the bodies flow position by position, and each pass ends without load";
+        return Err(entry.error(message, Some(hint.to_owned())));
+    }
+    if let Some(entry) = of_motion.get("plastic_update")
+        && motion.plastic_update == PlasticUpdate::Pass
+    {
+        let hint = Some("leave it out, or set `plastic_update = \"step\"`".to_owned());
+        let message = "bodies that flow below their surfaces do so at every position".to_owned();
+        return Err(entry.error(message, hint));
+    }
+    if motion.counter == CounterBody::Fresh && bodies[1].plasticity.is_some() {
+        let hint = Some("leave the plasticity of the upper body out, or 'counter'".to_owned());
+        let message = "an upper body that is another in each pass does not keep what has flowed".to_owned();
+        return Err(of_motion.required("counter", "\"same\"")?.error(message, hint));
+    }
+    if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
+        let hint = Some("set `boundary = \"periodic\"` in [contact]".to_owned());
+        let message = "plastic strain goes round with the surfaces of a shift: their boundary is periodic";
+        return Err(of_motion.required("strategy", "\"shift\"")?.error(message.to_owned(), hint));
+    }
+    motion.plastic_update = PlasticUpdate::Step;
+    Ok(())
+}
+
+/// Friction of bodies that flow: their load comes in the steps of the volume, unless it has its own.
+fn rubs(root: &Table<'_>, table: &Table<'_>, friction: &mut FrictionSpec, increments: usize) -> Result<()> {
+    let of_friction = root.required_table("friction")?;
+    if friction.rolls() || !friction.creepages.is_empty() {
+        let hint = "move the bodies in a [motion], where one rolls over the other at a speed of 0";
+        let message = "the steady state of rolling is that of bodies that do not flow".to_owned();
+        return Err(of_friction.error(message, Some(hint.to_owned())));
+    }
+    match (of_friction.get("increments"), table.get("increments")) {
+        (Some(_), Some(entry)) => {
+            let hint = Some("leave it out: those of [friction] count".to_owned());
+            Err(entry.error("'increments' is given in [plasticity] and in [friction]".to_owned(), hint))
+        }
+        (Some(_), None) => Ok(()),
+        (None, _) => {
+            friction.increments = increments;
+            Ok(())
+        }
+    }
 }
 
 /// The table of a body's plasticity.

@@ -15,6 +15,7 @@ use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
 use crate::motion::{StepRecord, SweepRecord};
+use crate::study::case::Keep;
 use crate::study::identity;
 use crate::study::sweep::is_kept;
 
@@ -178,6 +179,16 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
             whole(&results.subsurface_path(Some(pass)), &identity, Some(pass))?;
         }
     }
+    // Of bodies that flow the last pass is asked for what it has left, and more passes where all are kept.
+    match case.pointer("/plasticity/keep").and_then(Value::as_str) {
+        Some("passes") => {
+            for pass in 1..=passes.len() {
+                whole(&results.flow_path(Some(pass)), &identity, Some(pass))?;
+            }
+        }
+        Some(_) => whole(&results.flow_path(Some(passes.len())), &identity, Some(passes.len()))?,
+        None => {}
+    }
     // Where nothing is left to do it is not missed.
     let wanted = case.pointer("/motion/passes").and_then(Value::as_u64);
     if wanted.is_some_and(|wanted| wanted > passes.len() as u64) {
@@ -223,8 +234,8 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     fields.verify()
 }
 
-/// Removes what an earlier computation left but what is kept, and nothing else.
-pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
+/// Removes what an earlier computation left but what is kept, of passes in which bodies flow their volumes as told, and nothing else.
+pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
     let at = |name: &str| results.directory.join(name);
     // It tells of all, or is not there.
     results.remove(&at("summary.json"))?;
@@ -244,7 +255,7 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
             }
             Ok(())
         }
-        Kept::Passes(passes) => clear_later(results, passes),
+        Kept::Passes(passes) => clear_later(results, passes, keep),
         Kept::Increments | Kept::Points => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
     }
 }
@@ -252,11 +263,14 @@ pub(super) fn clear(results: &Results, kept: Kept) -> Result<()> {
 /// The fields of a static contact.
 const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti", "plasticity.h5"];
 
-/// The fields of passes that were not finished, and the warm starts of all but the last that was.
-fn clear_later(results: &Results, passes: usize) -> Result<()> {
+/// The fields of passes that were not finished, and the warm starts of all but the last that was; of its volumes those that are
+/// to be kept.
+fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
     names.push(results.warm_start_path(passes));
+    let first = if keep == Keep::Last { passes } else { 1 };
+    names.extend((first..=passes).map(|pass| results.flow_path(Some(pass))));
     let folder = results.fields_folder();
     let failed = |source| Error::File { path: folder.clone(), source };
     for entry in fs::read_dir(&folder).map_err(failed)? {

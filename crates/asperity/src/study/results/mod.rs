@@ -7,6 +7,7 @@
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
 //!     fields/warm-start-0001.h5    where the next pass begins; of the last pass only
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
+//!     fields/plasticity-0001.h5    what has flowed below the surfaces of bodies that do; of the last pass, or of each
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     updates.csv          a contact that slides in place: a row per update
@@ -15,6 +16,7 @@
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
 //!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
+//!     plasticity.h5        what has flowed below the surfaces of bodies that do
 //!     *.vti                beside the fields, for ParaView, where they are wanted
 //!     summary.json         once all is done
 //!     report.html          a page of all of it
@@ -42,6 +44,8 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
 use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart};
+use crate::plasticity::{PlasticState, TensorField, VolumeField};
+use crate::stress::Component;
 use crate::study::summary::Summary;
 use crate::surface::Topography;
 
@@ -305,6 +309,37 @@ impl Results {
         Fields::open(&self.flow_path(pass))
     }
 
+    /// What has flowed in the bodies, lower one first, that may, after so many passes.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub(super) fn flowed_after(&self, passes: usize) -> Result<Vec<PlasticState>> {
+        let fields = self.flow_fields(Some(passes))?;
+        let attributes = fields.attributes()?;
+        let flows = |body: &str| attributes.contains_key(&depths_attribute(body));
+        let layers = |name: &str| -> Result<VolumeField> {
+            let values = fields.read(name)?.values.into_dimensionality::<ndarray::Ix3>();
+            let values = values.map_err(|_| Error::Unsupported("a volume that has no layers"))?;
+            Ok(values.permuted_axes([2, 0, 1]).as_standard_layout().into_owned())
+        };
+        let tensor = |name: &str, body: &str| -> Result<TensorField> {
+            let components = Component::ALL.map(|component| layers(&tensor_name(name, component, body)));
+            let components = components.into_iter().collect::<Result<Vec<_>>>()?;
+            let views: Vec<_> = components.iter().map(|values| values.view()).collect();
+            Ok(ndarray::stack(ndarray::Axis(1), &views).expect("components of one shape"))
+        };
+        let names = fields.names()?;
+        let state = |body: &str| {
+            let kinematic = names.contains(&tensor_name("back_stress", Component::Xx, body));
+            Ok(PlasticState {
+                strain: tensor("strain", body)?,
+                accumulated: layers(&state_name("accumulated", body))?,
+                back_stress: kinematic.then(|| tensor("back_stress", body)).transpose()?,
+            })
+        };
+        BODIES.into_iter().filter(|body| flows(body)).map(state).collect()
+    }
+
     fn flow_path(&self, pass: Option<usize>) -> PathBuf {
         match pass {
             None => self.directory.join("plasticity.h5"),
@@ -330,6 +365,16 @@ const BODIES: [&str; 2] = ["lower", "upper"];
 /// Name of the field of a state of a body.
 fn state_name(state: &str, body: &str) -> String {
     format!("{state}_{body}")
+}
+
+/// Name of a component of a tensor in the layers of a body.
+fn tensor_name(tensor: &str, component: Component, body: &str) -> String {
+    state_name(&format!("{tensor}_{}", component.name()), body)
+}
+
+/// Name of the attribute with the depths of the faces of the layers of a body that may flow.
+fn depths_attribute(body: &str) -> String {
+    format!("depths_{body}")
 }
 
 /// Name of the attribute that lists the states of a body.

@@ -6,16 +6,19 @@ use serde_json::Value;
 
 use super::entry::{self, Existing, Kept, Lock};
 use super::{
-    BODIES, Results, cap_name, pressure_name, state_name, states_attribute, temperature_name, traction_name,
+    BODIES, Results, cap_name, depths_attribute, pressure_name, state_name, states_attribute,
+    temperature_name, tensor_name, traction_name,
 };
+use crate::choice::Choice;
 use crate::error::Result;
 use crate::grid::{CellValues, Field, Grid};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{Flowed, Output, Pair, PassReport, State};
+use crate::motion::{Flowed, FlowedVolume, Output, Pair, PassReport, State};
 use crate::plasticity::TensorField;
 use crate::solver::Friction;
 use crate::stress::Component;
+use crate::study::case::Keep;
 use crate::study::loading::LoadingWriter;
 use crate::study::rest::{NamedField, RestFields};
 use crate::study::sliding::SlidingWriter;
@@ -61,7 +64,7 @@ impl Writer {
     /// [`crate::Error::File`].
     pub fn begin(&self) -> Result<()> {
         let fields = self.results.fields_folder();
-        entry::clear(&self.results, self.kept)?;
+        entry::clear(&self.results, self.kept, self.keep())?;
         for directory in [self.results.directory(), &fields, &self.results.figures_folder()] {
             atomic::sweep(directory);
         }
@@ -100,44 +103,16 @@ impl Writer {
         file.write(&self.results.static_path())
     }
 
-    /// Writes what has flowed below the surfaces of a static contact on a grid.
+    /// Writes what has flowed below the surfaces of a static contact.
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub(in crate::study) fn write_flow(&self, grid: &Grid, contact: &Flowed) -> Result<()> {
+    pub(in crate::study) fn write_flow(&self, contact: &Flowed) -> Result<()> {
         let mut file = self.field_file();
-        for volume in &contact.volumes {
-            let body = BODIES[volume.body];
-            file.set(&format!("depths_{body}"), volume.faces.clone());
-            add_tensor(&mut file, "strain", "1", body, grid, &volume.strain);
-            file.add_layers(
-                &state_name("accumulated", body),
-                "1",
-                grid,
-                &layers_last(volume.accumulated.view()),
-            );
-            if let Some(back) = &volume.back_stress {
-                add_tensor(&mut file, "back_stress", "Pa", body, grid, back);
-            }
-            file.add_field(&state_name("displacement", body), "m", grid, [0.0, 0.0], &volume.displacement);
-        }
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
-        for volume in left {
-            let body = BODIES[volume.body];
-            add_tensor(&mut file, "residual_stress", "Pa", body, grid, &volume.residual_stress);
-            file.add_field(
-                &state_name("residual_displacement", body),
-                "m",
-                grid,
-                [0.0, 0.0],
-                &volume.displacement,
-            );
-        }
+        add_volumes(&mut file, &contact.volumes, left);
         file.write(&self.results.flow_path(None))?;
-        if !contact.increments.is_empty() {
-            tables::write_increments(&self.results.increments_path(), &contact.increments)?;
-        }
-        Ok(())
+        tables::write_increments(&self.results.increments_path(), &contact.increments)
     }
 
     /// What keeps each increment of a loading of so many `increments` here.
@@ -176,8 +151,8 @@ impl Writer {
         file.write(&self.results.fields_path(0))
     }
 
-    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none) and
-    /// the stress under the surface, where there is a plan for it.
+    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
+    /// surface, where there is a plan for it, and the volumes of bodies that flow.
     ///
     /// # Errors
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
@@ -191,6 +166,7 @@ impl Writer {
             identity: self.identity.clone(),
             pressure_every,
             plan,
+            keep: self.keep(),
         })
     }
 
@@ -209,6 +185,12 @@ impl Writer {
         Ok(())
     }
 
+    /// Of which passes the volumes that flow are kept.
+    fn keep(&self) -> Keep {
+        let word = self.case.pointer("/plasticity/keep").and_then(Value::as_str);
+        word.and_then(Keep::of_word).unwrap_or(Keep::Last)
+    }
+
     /// A file of fields that says which run it is of.
     fn field_file(&self) -> FieldFile {
         FieldFile::of_run(&self.identity)
@@ -223,6 +205,7 @@ pub struct PassWriter {
     passes: GrowingTable,
     pressure_every: usize,
     plan: Option<Plan>,
+    keep: Keep,
 }
 
 impl PassWriter {
@@ -279,12 +262,41 @@ impl Output for PassWriter {
             plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?;
         }
         let passes = report.record.pass;
+        if !report.flowed.is_empty() {
+            let mut file = FieldFile::of_run(&self.identity);
+            file.set("pass", passes);
+            add_volumes(&mut file, report.flowed, report.flowed);
+            file.write(&results.flow_path(Some(passes)))?;
+        }
         let file = FieldFile::of_run(&self.identity);
         let grids = [pair.lower_grid(), pair.upper_grid()];
         warm_start::write(file, &results.warm_start_path(passes), passes, &grids, report.warm)?;
         self.steps.add(report.steps)?;
         self.passes.add(std::slice::from_ref(report.record))?;
+        if self.keep == Keep::Last {
+            results.remove(&results.flow_path(Some(passes - 1)))?;
+        }
         results.remove(&results.warm_start_path(passes - 1))
+    }
+}
+
+/// What has flowed below the surfaces, and what of it is `left` once the load is taken off.
+fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
+    for FlowedVolume { body, grid, faces, state, displacement, .. } in volumes {
+        let body = BODIES[*body];
+        file.set(&depths_attribute(body), faces.clone());
+        add_tensor(file, "strain", "1", body, grid, &state.strain);
+        let accumulated = layers_last(state.accumulated.view());
+        file.add_layers(&state_name("accumulated", body), "1", grid, &accumulated);
+        if let Some(back) = &state.back_stress {
+            add_tensor(file, "back_stress", "Pa", body, grid, back);
+        }
+        file.add_field(&state_name("displacement", body), "m", grid, [0.0, 0.0], displacement);
+    }
+    for FlowedVolume { body, grid, residual_stress, displacement, .. } in left {
+        let body = BODIES[*body];
+        add_tensor(file, "residual_stress", "Pa", body, grid, residual_stress);
+        file.add_field(&state_name("residual_displacement", body), "m", grid, [0.0, 0.0], displacement);
     }
 }
 
@@ -292,7 +304,7 @@ impl Output for PassWriter {
 fn add_tensor(file: &mut FieldFile, name: &str, unit: &str, body: &str, grid: &Grid, tensor: &TensorField) {
     for component in Component::ALL {
         let layers = tensor.index_axis(ndarray::Axis(1), component as usize);
-        let name = state_name(&format!("{name}_{}", component.name()), body);
+        let name = tensor_name(name, component, body);
         file.add_layers(&name, unit, grid, &layers_last(layers));
     }
 }

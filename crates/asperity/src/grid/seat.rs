@@ -1,7 +1,6 @@
 //! Where the cells of a contact lie on a body: the one place that maps them to each other.
 
-use crate::grid::{CellValues, Field};
-use crate::motion::path::Position;
+use super::{CellValues, Field};
 
 /// How the cells of a contact lie on those of one of the bodies.
 ///
@@ -9,7 +8,7 @@ use crate::motion::path::Position;
 /// weights. What is done to the cell of the contact comes back to the body by the same weights, whose sum is 1, so that nothing
 /// is lost or gained on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Seat {
+pub struct Seat {
     /// The body's column under the first one of the contact.
     first: usize,
     /// Cells by which the body is displaced along y.
@@ -20,31 +19,60 @@ pub(super) struct Seat {
 }
 
 impl Seat {
-    /// Those of the contact at `position` on the bodies of these shapes, lower one first.
-    pub(super) fn of_bodies(position: &Position, shapes: [[usize; 2]; 2]) -> [Self; 2] {
-        let Position { lower, upper, fraction, across, .. } = *position;
-        [0, 1].map(|body| Self {
-            first: [lower, upper][body],
-            across: [0, across][body],
-            fraction: fraction[body],
-            shape: shapes[body],
-        })
+    /// A contact on a body of this `shape` that begins on its cell `[column, row]`, counted cyclically, and lies by a `fraction` of a
+    /// column, from 0, below 1, beyond it.
+    ///
+    /// # Panics
+    /// If the cell is not one of the body, or the fraction none.
+    pub fn new(shape: [usize; 2], [first, row]: [usize; 2], fraction: f64) -> Self {
+        assert!(first < shape[0] && row < shape[1], "a cell of the body");
+        assert!((0.0..1.0).contains(&fraction), "a fraction of a column");
+        Self { first, across: (shape[1] - row) % shape[1], fraction, shape }
+    }
+
+    /// A contact on all cells of a body of this `shape`.
+    pub fn flush(shape: [usize; 2]) -> Self {
+        Self::new(shape, [0; 2], 0.0)
+    }
+
+    /// Cells of the body.
+    pub(crate) fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// Of a field on the body what lies under a contact of so many `columns`.
+    pub(crate) fn under(&self, field: &Field, columns: usize) -> Field {
+        let mut under = Field::zeros([columns, self.shape[1]]);
+        for (j, mut row) in under.outer_iter_mut().enumerate() {
+            self.for_column(field, j, row.as_slice_mut().expect("standard layout"), |at, value| *at = value);
+        }
+        under
+    }
+
+    /// What a field on the contact is on the body, 0 beside it: the sum is that of the field.
+    pub(crate) fn onto(&self, field: &Field) -> Field {
+        let mut onto = Field::zeros(self.shape);
+        let cells = onto.as_slice_mut().expect("standard layout");
+        for (cell, value) in field.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            self.parts(self.cell(cell)).for_each(|(cell, weight)| cells[cell] += weight * value);
+        }
+        onto
     }
 
     /// The flat cell of the body under a flat cell of the contact, or the first of two.
-    pub(super) fn cell(&self, cell: usize) -> usize {
+    pub(crate) fn cell(&self, cell: usize) -> usize {
         let [columns, width] = self.shape;
         let across = cell % width + width - self.across;
         (self.first + cell / width) % columns * width + if across < width { across } else { across - width }
     }
 
     /// Part of a column by which the contact lies beyond the columns of the body.
-    pub(super) fn fraction(&self) -> f64 {
+    pub(crate) fn fraction(&self) -> f64 {
         self.fraction
     }
 
     /// A flat cell of the body under the contact, and the next one where the contact lies between both, with their weights.
-    pub(super) fn parts(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+    pub(crate) fn parts(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let count = if self.fraction == 0.0 { 1 } else { 2 };
         [(cell, 1.0 - self.fraction), (self.next(cell), self.fraction)].into_iter().take(count)
     }
@@ -56,7 +84,7 @@ impl Seat {
     }
 
     /// The values of a body where a flat cell of it lies under the contact.
-    pub(super) fn value(&self, values: &CellValues, cell: usize) -> f64 {
+    pub(crate) fn value(&self, values: &CellValues, cell: usize) -> f64 {
         match values {
             CellValues::Uniform(value) => *value,
             CellValues::Field(_) if self.fraction == 0.0 => values.at(cell),
@@ -65,7 +93,7 @@ impl Seat {
     }
 
     /// The values of a body on all cells of the contact in its column `j`.
-    pub(super) fn fill(&self, values: &CellValues, j: usize, row: &mut [f64]) {
+    pub(crate) fn fill(&self, values: &CellValues, j: usize, row: &mut [f64]) {
         match values {
             CellValues::Uniform(value) => row.fill(*value),
             CellValues::Field(values) => self.for_column(values, j, row, |at, value| *at = value),
@@ -73,7 +101,7 @@ impl Seat {
     }
 
     /// The values of a body on all cells of the contact in its column `j`, each as `change` makes it of what stands in `row`.
-    pub(super) fn for_column(
+    pub(crate) fn for_column(
         &self,
         values: &Field,
         j: usize,

@@ -1,0 +1,275 @@
+//! What plastic flow has left below the surfaces of bodies.
+
+use crate::grid::{Field, Grid};
+use crate::motion::pair::Pair;
+use crate::motion::record::{FlowRecord, FlowStepRecord, PassFlowRecord, PassRecord, StepRecord};
+use crate::motion::regime::Regime;
+use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, TensorField};
+use crate::stress::{Component, Stress};
+use crate::units::{CubicMetre, Joule, Metre, Pascal};
+
+/// What has flowed below the surface of a body.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct FlowedVolume {
+    /// The body: 0 the lower, 1 the upper one.
+    pub body: usize,
+    /// The grid of its surface.
+    pub grid: Grid,
+    /// Depths of the faces of the layers, from 0 at the surface.
+    pub faces: Vec<Metre>,
+    /// Plastic strain, `[layer, component, ix, iy]`, and what else flow has left.
+    pub state: PlasticState,
+    /// Residual stress K ε, Pa.
+    pub residual_stress: TensorField,
+    /// Inward displacement r of the surface, m.
+    pub displacement: Field,
+}
+
+impl FlowedVolume {
+    /// Those of the bodies of a contact under its load.
+    pub(super) fn loaded(contact: &mut PlasticContact) -> Vec<Self> {
+        let sides = contact.sides().to_vec();
+        let of = |(body, side): (&mut PlasticBody, usize)| {
+            let residual_stress = body.residual_stress();
+            Self::of(body, side, residual_stress)
+        };
+        contact.bodies().iter_mut().zip(sides).map(of).collect()
+    }
+
+    /// Those of the bodies of a contact on which nothing acts: their stress is that which flow has left.
+    pub(super) fn unloaded(contact: &mut PlasticContact) -> Vec<Self> {
+        let sides = contact.sides().to_vec();
+        let of = |(body, side): (&mut PlasticBody, usize)| {
+            let residual_stress = body.stress().clone();
+            Self::of(body, side, residual_stress)
+        };
+        contact.bodies().iter_mut().zip(sides).map(of).collect()
+    }
+
+    fn of(body: &mut PlasticBody, side: usize, residual_stress: TensorField) -> Self {
+        let volume = body.volume();
+        Self {
+            body: side,
+            grid: *volume.grid(),
+            faces: volume.layers().faces().to_vec(),
+            state: body.state().clone(),
+            residual_stress,
+            displacement: body.displacement().clone(),
+        }
+    }
+
+    /// Volume of a cell of a layer.
+    fn cell(&self, layer: usize) -> CubicMetre {
+        self.grid.cell_area() * (self.faces[layer + 1] - self.faces[layer])
+    }
+
+    /// The largest accumulated plastic strain and where it is.
+    fn max_strain(&self) -> (f64, [Metre; 3]) {
+        let mut largest = (0.0, [0.0; 3]);
+        for ((layer, ix, iy), strain) in self.state.accumulated.indexed_iter() {
+            if *strain > largest.0 {
+                let depth = 0.5 * (self.faces[layer] + self.faces[layer + 1]);
+                largest = (*strain, [self.grid.centre(0, ix), self.grid.centre(1, iy), depth]);
+            }
+        }
+        largest
+    }
+
+    fn yielded_volume(&self) -> CubicMetre {
+        let layers = self.state.accumulated.outer_iter().enumerate();
+        layers.map(|(n, layer)| self.cell(n) * layer.iter().filter(|p| **p > 0.0).count() as f64).sum()
+    }
+
+    /// −½ ∫ ε : K ε.
+    fn stored_energy(&self) -> Joule {
+        let layers = self.state.strain.outer_iter().zip(self.residual_stress.outer_iter()).enumerate();
+        let energy = layers.map(|(n, (strain, stress))| {
+            let products = strain.outer_iter().zip(stress.outer_iter()).enumerate().map(|(c, (a, b))| {
+                let sum: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+                if c < 3 { sum } else { 2.0 * sum }
+            });
+            self.cell(n) * products.sum::<f64>()
+        });
+        -0.5 * energy.sum::<f64>()
+    }
+
+    /// Largest principal stress of the residual stress.
+    fn max_tension(&self) -> Pascal {
+        let mut most = 0.0_f64;
+        for layer in self.residual_stress.outer_iter() {
+            for cell in layer.lanes(ndarray::Axis(0)) {
+                let stress =
+                    Stress::from_components(Component::ALL.map(|component| cell[component as usize]));
+                most = most.max(stress.principal()[0]);
+            }
+        }
+        most
+    }
+
+    /// Range of the displacement of the surface.
+    fn range(&self) -> Metre {
+        let (least, most) = self
+            .displacement
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), r| (r.min(least), r.max(most)));
+        most - least
+    }
+
+    /// Displacement of the surface along +x against the depths, in the mean over the grid: −∫ 2 ε_xz dz.
+    fn shift(&self, strain: &TensorField) -> Metre {
+        let shear = strain.index_axis(ndarray::Axis(1), Component::Xz as usize);
+        let layers = shear.outer_iter().zip(self.faces.windows(2));
+        -layers.map(|(shear, faces)| 2.0 * (faces[1] - faces[0]) * shear.mean().unwrap_or(0.0)).sum::<f64>()
+    }
+
+    /// The strain that has come since the state `before` in the net, over that which has accumulated: ∫ √(⅔ Δε:Δε) over ∫ Δp̄.
+    fn net_strain(&self, before: &PlasticState) -> f64 {
+        let [mut net, mut all] = [0.0; 2];
+        for layer in 0..self.faces.len() - 1 {
+            let [now, then] =
+                [&self.state, before].map(|state| state.strain.index_axis(ndarray::Axis(0), layer));
+            let grown = &self.state.accumulated.index_axis(ndarray::Axis(0), layer)
+                - &before.accumulated.index_axis(ndarray::Axis(0), layer);
+            let change = &now - &then;
+            let cells = change.lanes(ndarray::Axis(0)).into_iter().map(|change| {
+                let [xx, yy, zz, yz, xz, xy] = std::array::from_fn(|component| change[component]);
+                let square = xx * xx + yy * yy + zz * zz + 2.0 * (yz * yz + xz * xz + xy * xy);
+                (square / 1.5).sqrt()
+            });
+            net += self.cell(layer) * cells.sum::<f64>();
+            all += self.cell(layer) * grown.sum();
+        }
+        if all > 0.0 { net / all } else { 0.0 }
+    }
+}
+
+/// A `pair` with its surfaces where plastic strain has brought them; with `sign` −1 where they would be without.
+pub(super) fn displaced(mut pair: Pair, volumes: &[FlowedVolume], sign: f64) -> Pair {
+    volumes.iter().for_each(|volume| displace(&mut pair, volume.body, &volume.displacement, sign));
+    pair
+}
+
+/// Moves the surface of a body by an inward displacement, `sign` times.
+pub(super) fn displace(pair: &mut Pair, body: usize, inward: &Field, sign: f64) {
+    match body {
+        0 => pair.lower.heights.scaled_add(-sign, inward),
+        _ => pair.upper.heights.scaled_add(sign, inward),
+    }
+}
+
+/// Increments so far, in sum.
+#[derive(Default)]
+pub(super) struct FlowSums {
+    pub(super) products: usize,
+    /// The largest.
+    pub(super) mismatch: f64,
+    pub(super) plastic_work: Joule,
+}
+
+impl FlowSums {
+    pub(super) fn add(&mut self, increment: &Increment) {
+        self.products += increment.products;
+        self.mismatch = self.mismatch.max(increment.mismatch);
+        self.plastic_work += increment.plastic_work();
+    }
+}
+
+impl FlowStepRecord {
+    /// The `increments` of a step, at whose end the bodies are those of a `contact`.
+    pub(super) fn of(increments: &[Increment], contact: &mut PlasticContact) -> Self {
+        let mut sums = FlowSums::default();
+        increments.iter().for_each(|increment| sums.add(increment));
+        Self {
+            yielded_cells: increments.iter().map(Increment::flowing_cells).max().unwrap_or(0),
+            max_plastic_strain: contact
+                .bodies()
+                .iter()
+                .map(|body| body.max_accumulated().0)
+                .fold(0.0, f64::max),
+            plastic_work: sums.plastic_work,
+            products: sums.products,
+            mismatch: sums.mismatch,
+        }
+    }
+}
+
+impl FlowRecord {
+    /// What these volumes have come to in increments of these sums.
+    pub(super) fn of(volumes: &[FlowedVolume], sums: &FlowSums) -> Self {
+        let (max_plastic_strain, max_plastic_strain_position) = volumes
+            .iter()
+            .map(FlowedVolume::max_strain)
+            .max_by(|(a, _), (b, _)| a.total_cmp(b))
+            .unwrap_or((0.0, [0.0; 3]));
+        let displaced = |volume: &FlowedVolume| {
+            volume.grid.cell_area() * volume.displacement.iter().map(|r| r.max(0.0)).sum::<f64>()
+        };
+        Self {
+            max_plastic_strain,
+            max_plastic_strain_position,
+            yielded_volume: volumes.iter().map(FlowedVolume::yielded_volume).sum(),
+            plastic_work: sums.plastic_work,
+            stored_energy: volumes.iter().map(FlowedVolume::stored_energy).sum(),
+            displaced_volume: volumes.iter().map(displaced).sum(),
+            max_residual_tension: volumes.iter().map(FlowedVolume::max_tension).fold(0.0, f64::max),
+            residual_displacement: volumes.iter().map(FlowedVolume::range).fold(0.0, f64::max),
+            products: sums.products,
+            mismatch: sums.mismatch,
+            regime: if max_plastic_strain > 0.0 { Regime::Yields } else { Regime::Elastic },
+            rate: None,
+            residual: None,
+        }
+    }
+}
+
+impl FlowRecord {
+    /// What a motion of these positions and passes has left, once the load is taken off.
+    pub(crate) fn of_passes(left: &[FlowedVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
+        let steps = steps.iter().filter_map(|step| step.flow);
+        let passes: Vec<PassFlowRecord> = passes.iter().filter_map(|pass| pass.flow).collect();
+        let mut sums = FlowSums::default();
+        for step in steps {
+            sums.products += step.products;
+            sums.mismatch = sums.mismatch.max(step.mismatch);
+        }
+        sums.plastic_work = passes.iter().map(|pass| pass.plastic_work_lower + pass.plastic_work_upper).sum();
+        let (regime, rate) = Regime::of(&passes);
+        Self { regime, rate, ..Self::of(left, &sums) }
+    }
+}
+
+impl PassFlowRecord {
+    /// A pass that has brought bodies from the states `before` to these volumes, by so much plastic work in the lower and in the upper
+    /// body, and under the outer columns of the overlap.
+    pub(super) fn of(
+        volumes: &[FlowedVolume],
+        before: &[PlasticState],
+        [plastic_work_lower, plastic_work_upper]: [Joule; 2],
+        plastic_work_rim: Joule,
+    ) -> Self {
+        let of = |body: usize, value: &dyn Fn(&FlowedVolume, &PlasticState) -> f64| {
+            let mut all = volumes.iter().zip(before);
+            all.find(|(volume, _)| volume.body == body).map_or(0.0, |(volume, before)| value(volume, before))
+        };
+        let both = |value: &dyn Fn(&FlowedVolume, &PlasticState) -> f64| [0, 1].map(|body| of(body, value));
+        let [max_plastic_strain_lower, max_plastic_strain_upper] = both(&|volume, _| volume.max_strain().0);
+        let [surface_shift_lower, surface_shift_upper] =
+            both(&|volume, before| volume.shift(&volume.state.strain) - volume.shift(&before.strain));
+        let [residual_displacement_lower, residual_displacement_upper] = both(&|volume, _| volume.range());
+        let [net_strain_lower, net_strain_upper] = both(&|volume, before| volume.net_strain(before));
+        Self {
+            max_plastic_strain_lower,
+            max_plastic_strain_upper,
+            plastic_work_lower,
+            plastic_work_upper,
+            plastic_work_rim,
+            surface_shift_lower,
+            surface_shift_upper,
+            residual_displacement_lower,
+            residual_displacement_upper,
+            net_strain_lower,
+            net_strain_upper,
+        }
+    }
+}

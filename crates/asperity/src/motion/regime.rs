@@ -1,0 +1,103 @@
+//! What becomes of bodies that flow pass after pass.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::record::PassFlowRecord;
+use crate::units::Metre;
+
+/// What becomes of bodies that may flow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Regime {
+    /// Nothing has flowed.
+    Elastic,
+    /// A contact at rest has flowed.
+    Yields,
+    /// The bodies shake down: the plastic work of a pass is below 10⁻³ of the first's, and falls.
+    ShakesDown,
+    /// The same flow comes and goes in each pass: its net strain is below 5 % of what accumulates.
+    Cyclic,
+    /// Strain accumulates in each pass alike.
+    Ratchets,
+    /// More passes are needed to tell.
+    Undecided,
+}
+
+/// Plastic work of a pass over that of the first, below which bodies have shaken down.
+const SHAKEN_DOWN: f64 = 1e-3;
+/// Relative change of the plastic work from a pass to the next, up to which passes are alike.
+const ALIKE: f64 = 0.05;
+/// Net strain of a pass over what accumulates in it, below which flow is cyclic.
+const CYCLIC: f64 = 0.05;
+
+impl std::fmt::Display for Regime {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Elastic => "elastic",
+            Self::Yields => "yields",
+            Self::ShakesDown => "shakes down",
+            Self::Cyclic => "cyclic",
+            Self::Ratchets => "ratchets",
+            Self::Undecided => "undecided: more passes",
+        })
+    }
+}
+
+impl Regime {
+    /// What becomes of bodies in these passes, and where they ratchet by how much the surface moves along x in a pass, that of the
+    /// body where it moves more.
+    pub fn of(passes: &[PassFlowRecord]) -> (Self, Option<Metre>) {
+        let work = |pass: &PassFlowRecord| pass.plastic_work_lower + pass.plastic_work_upper;
+        let Some(first) = passes.iter().map(work).find(|work| *work > 0.0) else {
+            return (Self::Elastic, None);
+        };
+        let [.., before, last] = passes else { return (Self::Undecided, None) };
+        let [then, now] = [work(before), work(last)];
+        if now < SHAKEN_DOWN * first && now <= then {
+            return (Self::ShakesDown, None);
+        }
+        if passes.len() < 3 || (now - then).abs() > ALIKE * then {
+            return (Self::Undecided, None);
+        }
+        let net =
+            last.plastic_work_lower * last.net_strain_lower + last.plastic_work_upper * last.net_strain_upper;
+        if net < CYCLIC * now {
+            return (Self::Cyclic, None);
+        }
+        let [lower, upper] = [last.surface_shift_lower, last.surface_shift_upper];
+        (Self::Ratchets, Some(if lower.abs() >= upper.abs() { lower } else { upper }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Passes of these plastic works and net strains, whose surface moves by −1 µm.
+    fn passes(works: &[(f64, f64)]) -> Vec<PassFlowRecord> {
+        let pass = |(plastic_work_lower, net_strain_lower): &(f64, f64)| PassFlowRecord {
+            plastic_work_lower: *plastic_work_lower,
+            net_strain_lower: *net_strain_lower,
+            surface_shift_lower: -1e-6,
+            ..PassFlowRecord::default()
+        };
+        works.iter().map(pass).collect()
+    }
+
+    #[test]
+    fn passes_tell_what_becomes_of_the_bodies() {
+        let of = |works: &[(f64, f64)]| Regime::of(&passes(works));
+        assert_eq!(of(&[(0.0, 0.0), (0.0, 0.0)]), (Regime::Elastic, None));
+        assert_eq!(of(&[(1.0, 1.0)]), (Regime::Undecided, None));
+        assert_eq!(of(&[(1.0, 1.0), (0.4, 1.0), (0.16, 1.0)]), (Regime::Undecided, None));
+        assert_eq!(of(&[(1.0, 1.0), (0.4, 1.0), (0.0, 0.0)]), (Regime::ShakesDown, None));
+        assert_eq!(of(&[(1.0, 1.0), (0.01, 1.0), (9e-4, 1.0)]), (Regime::ShakesDown, None));
+        assert_eq!(of(&[(1.0, 1.0), (0.5, 0.5), (0.49, 0.04)]), (Regime::Cyclic, None));
+        assert_eq!(of(&[(1.0, 1.0), (0.5, 0.5), (0.49, 0.4)]), (Regime::Ratchets, Some(-1e-6)));
+        // What grows from nothing is no shakedown.
+        assert_eq!(of(&[(1.0, 1.0), (1e-5, 1.0), (5e-4, 1.0)]).0, Regime::Undecided);
+        let words: Vec<String> =
+            [Regime::ShakesDown, Regime::Elastic].iter().map(|r| serde_json::to_string(r).unwrap()).collect();
+        assert_eq!(words, ["\"shakes-down\"", "\"elastic\""]);
+    }
+}

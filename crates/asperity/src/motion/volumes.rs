@@ -1,0 +1,263 @@
+//! Passes of bodies that flow below their surfaces.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::contact::Contact;
+use crate::motion::flowed::{FlowedVolume, displace};
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Pass, Solver};
+use crate::motion::path::Position;
+use crate::motion::record::{FlowStepRecord, LostVolume, PassFlowRecord};
+use crate::motion::watch::{OneOfMany, Progress};
+use crate::operator::{Boundary, Operators};
+use crate::plasticity::{
+    Facing, FlowParams, Increment, Interface, PlasticBody, PlasticContact, PlasticState,
+};
+use crate::solver::{Control, Loading, Params, Tangential};
+use crate::units::Joule;
+
+/// Equal steps in which the first position of a pass is loaded; it bears its load at once.
+const FIRST_STEPS: usize = 8;
+/// Columns at either end of what faces that are its rim.
+const RIM: usize = 2;
+
+/// The volumes of bodies that flow in a motion.
+pub(super) struct Volumes {
+    /// The contact at a position; what has flowed in it counts within a pass.
+    contact: Mutex<PlasticContact>,
+    /// What has flowed in the passes that are finished.
+    states: Vec<PlasticState>,
+    boundary: Boundary,
+}
+
+/// What a pass has made of bodies that flow.
+pub(super) struct FlowedPass {
+    /// What has flowed, once the load is taken off.
+    pub(super) volumes: Vec<FlowedVolume>,
+    /// The positions in numbers.
+    pub(super) steps: Vec<FlowStepRecord>,
+    /// The pass in numbers.
+    pub(super) record: PassFlowRecord,
+}
+
+impl Volumes {
+    /// Those of the bodies of a `pair`, lower one first, that are given, which begin at a `position`.
+    pub(super) fn new(
+        bodies: [Option<PlasticBody>; 2],
+        pair: &Pair,
+        operators: &Operators,
+        position: &Position,
+        boundary: Boundary,
+        (flow, params): (FlowParams, Params),
+    ) -> Self {
+        let shape = [position.columns, pair.lower.width()];
+        let facing = Facing {
+            interface: Interface::Frictionless(operators.on(shape)),
+            initial_gap: pair.initial_gap(position),
+            seats: pair.seats(position),
+        };
+        let mut contact = PlasticContact::new(facing, bodies, flow, params);
+        let states = contact.bodies().iter().map(|body| body.state().clone()).collect();
+        Self { contact: Mutex::new(contact), states, boundary }
+    }
+
+    /// What has flowed in the passes that are finished.
+    pub(super) fn states(&self) -> &[PlasticState] {
+        &self.states
+    }
+
+    /// The same with what has flowed.
+    pub(super) fn with_states(self, states: Vec<PlasticState>) -> Self {
+        Self { states, ..self }
+    }
+
+    /// Goes on from a pass that is finished.
+    pub(super) fn take(&mut self, volumes: Vec<FlowedVolume>) {
+        self.states = volumes.into_iter().map(|volume| volume.state).collect();
+    }
+
+    /// The volumes as the passes that are finished have left them.
+    pub(super) fn volumes(&self) -> Vec<FlowedVolume> {
+        FlowedVolume::unloaded(&mut self.begin())
+    }
+
+    /// The contact before a pass.
+    fn begin(&self) -> MutexGuard<'_, PlasticContact> {
+        let mut contact = self.contact.lock().unwrap_or_else(PoisonError::into_inner);
+        contact.restore(&self.states);
+        contact
+    }
+}
+
+impl Solver<'_> {
+    /// Solves the positions of a pass one after another, in which the bodies of a `pair` flow, and takes the load off.
+    pub(super) fn solve_flowing(&self, volumes: &Volumes, pair: &Pair, control: Control) -> Result<Pass> {
+        let mut contact = volumes.begin();
+        // The bodies without what has flowed, which the contact knows.
+        let mut undeformed = pair.clone();
+        for (index, side) in contact.sides().to_vec().into_iter().enumerate() {
+            displace(&mut undeformed, side, contact.bodies()[index].displacement(), -1.0);
+        }
+        let mut course = Course { work: [0.0; 2], at_rim: 0.0, steps: Vec::new(), contacts: Vec::new() };
+        let mut carrier = Carrier { body: 1, last: None };
+        for (index, position) in self.positions.iter().enumerate() {
+            let shifts = carrier.shifts(position, pair, volumes.boundary);
+            contact.move_to(self.facing(&undeformed, position), shifts);
+            let step = self.step(&mut contact, control, index);
+            let increments = step.map_err(|source| self.at_position(index, source))?;
+            carrier.arrive(position, contact.pressure());
+            let sliding = self.motion.sliding(position.way);
+            let solution = contact.solution().expect("a contact at the position");
+            let here = Contact::new(*position, sliding.as_ref(), solution);
+            let (solved, load) = (index + 1, here.load);
+            course.contacts.push(here);
+            course.add(&increments, &mut contact, pair, position, volumes.boundary);
+            self.watch.at(&Progress { solved, load, ..self.progress });
+        }
+        let last = self.positions.len() - 1;
+        let apart = contact.go_to(Control::Load(0.0)).map_err(|source| self.at_position(last, source))?;
+        course.work_of(&apart, contact.sides());
+        let states: Vec<PlasticState> = contact.bodies().iter().map(|body| body.state().clone()).collect();
+        contact.restore(&states);
+        let after = FlowedVolume::unloaded(&mut contact);
+        drop(contact);
+        let mut bodies = undeformed;
+        after.iter().for_each(|volume| displace(&mut bodies, volume.body, &volume.displacement, 1.0));
+        let Course { work, at_rim, steps, contacts } = course;
+        let record = PassFlowRecord::of(&after, volumes.states(), work, at_rim);
+        let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
+        let flowed = Some(FlowedPass { volumes: after, steps, record });
+        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, flowed })
+    }
+
+    /// How the bodies of a `pair` face each other at a position.
+    fn facing(&self, pair: &Pair, position: &Position) -> Facing {
+        let shape = [position.columns, pair.lower.width()];
+        let interface = match self.motion.sliding(position.way) {
+            None => Interface::Frictionless(self.operators.on(shape)),
+            Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
+                Interface::SlidingCoupled(self.operators.coupled_on(shape), sliding)
+            }
+            Some(sliding) => Interface::Sliding(self.operators.on(shape), sliding),
+        };
+        Facing { interface, initial_gap: pair.initial_gap(position), seats: pair.seats(position) }
+    }
+
+    /// Loads the bodies at a position: the first of the pass in steps.
+    fn step(&self, contact: &mut PlasticContact, control: Control, index: usize) -> Result<Vec<Increment>> {
+        let steps = if index == 0 { FIRST_STEPS } else { 1 };
+        let touch = contact.first_touch();
+        let watch = OneOfMany(self.watch);
+        let at = |step: usize| match control {
+            _ if step == steps => control,
+            Control::Load(load) => Control::Load(load * step as f64 / steps as f64),
+            Control::Approach(approach) => {
+                Control::Approach(touch + (approach - touch) * step as f64 / steps as f64)
+            }
+        };
+        let tangential = Tangential::Force([0.0; 2]);
+        (1..=steps).map(|step| contact.load(Loading { normal: at(step), tangential }, &watch)).collect()
+    }
+
+    fn at_position(&self, index: usize, source: Error) -> Error {
+        let source = match source {
+            Error::Interrupted => return source,
+            Error::AtIncrement { source, .. } => source,
+            source => Box::new(source),
+        };
+        Error::AtPosition {
+            pass: self.progress.pass,
+            position: index + 1,
+            positions: self.positions.len(),
+            source,
+        }
+    }
+}
+
+/// A pass under way.
+struct Course {
+    /// Plastic work in the lower and in the upper body.
+    work: [Joule; 2],
+    /// The part of it at the rim of what faces.
+    at_rim: Joule,
+    steps: Vec<FlowStepRecord>,
+    contacts: Vec<Contact>,
+}
+
+impl Course {
+    /// Adds the increments at a position.
+    fn add(
+        &mut self,
+        increments: &[Increment],
+        contact: &mut PlasticContact,
+        pair: &Pair,
+        position: &Position,
+        boundary: Boundary,
+    ) {
+        self.steps.push(FlowStepRecord::of(increments, contact));
+        for increment in increments {
+            self.work_of(increment, contact.sides());
+            if boundary.repeats(0) {
+                continue;
+            }
+            let seats = pair.seats(position);
+            let ends = (0..position.columns).filter(|j| *j < RIM || *j + RIM >= position.columns);
+            for (flow, side) in increment.bodies.iter().zip(contact.sides()) {
+                let width = pair.lower.width();
+                let column = |j: usize| seats[*side].cell(j * width) / width;
+                self.at_rim += ends.clone().map(|j| flow.work_of_columns[column(j)]).sum::<f64>();
+            }
+        }
+    }
+
+    fn work_of(&mut self, increment: &Increment, sides: &[usize]) {
+        increment.bodies.iter().zip(sides).for_each(|(flow, side)| self.work[*side] += flow.plastic_work);
+    }
+}
+
+/// The body with which the load moves over the other one: that whose summits bear it.
+struct Carrier {
+    body: usize,
+    /// The last position, and the pressure there.
+    last: Option<(Position, Field)>,
+}
+
+impl Carrier {
+    /// By how many cells the load moves over the lower and over the upper body to the next position.
+    fn shifts(&self, to: &Position, pair: &Pair, boundary: Boundary) -> [[isize; 2]; 2] {
+        let Some((from, _)) = &self.last else { return [[0; 2]; 2] };
+        let [from, to] = [from.places(), to.places()];
+        let moved = |body: usize| to[body] - from[body];
+        let other = 1 - self.body;
+        let mut shift = (moved(other) - moved(self.body)).round() as isize;
+        if boundary.repeats(0) {
+            let columns = pair.lower.columns() as isize;
+            shift = (shift + columns / 2).rem_euclid(columns) - columns / 2;
+        }
+        let mut shifts = [[0; 2]; 2];
+        shifts[other][0] = shift;
+        shifts
+    }
+
+    /// Takes the pressure at a position, and learns from it which of the bodies carries the load.
+    fn arrive(&mut self, at: &Position, pressure: &Field) {
+        if let Some((from, before)) = &self.last {
+            let [from, to] = [from.places(), at.places()];
+            // Where a column of the contact before lies in this one, if the load goes with the body.
+            let common = |body: usize| {
+                let moved = (from[body] - to[body]).round() as isize;
+                let columns = pressure.nrows() as isize;
+                let product = |(j, row): (usize, ndarray::ArrayView1<f64>)| {
+                    let here = (j as isize + moved).rem_euclid(columns.max(1));
+                    row.dot(&pressure.row(here as usize))
+                };
+                before.outer_iter().enumerate().map(product).sum::<f64>()
+            };
+            let [lower, upper] = [common(0), common(1)];
+            self.body = if lower > upper { 0 } else { 1 };
+        }
+        self.last = Some((*at, pressure.clone()));
+    }
+}
