@@ -198,7 +198,7 @@ impl Pair {
     }
 
     /// How the cells of the contact at `position` lie on the lower and on the upper body.
-    pub(super) fn seats(&self, position: &Position) -> [Seat; 2] {
+    pub(crate) fn seats(&self, position: &Position) -> [Seat; 2] {
         position.seats([self.lower_grid().shape, self.upper_grid().shape])
     }
 

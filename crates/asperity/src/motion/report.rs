@@ -8,6 +8,7 @@ use crate::motion::flowed::FlowedVolume;
 use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
+use crate::plasticity::PlasticState;
 
 /// A finished pass.
 #[non_exhaustive]
@@ -26,6 +27,9 @@ pub struct PassReport<'a> {
     pub warm: &'a WarmStart,
     /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
     pub flowed: &'a [FlowedVolume],
+    /// What has flowed in these under the load at the position that is [looked at](crate::motion::Simulation::looking_at); nothing where
+    /// none is.
+    pub looked_at: &'a [PlasticState],
 }
 
 impl PassReport<'_> {

@@ -328,6 +328,15 @@ impl Simulation {
         Self { volumes: Some(volumes), ..self }
     }
 
+    /// The same motion, whose reports say what has flowed under the load at a position, by its index, of each pass.
+    ///
+    /// # Panics
+    /// If the bodies do not flow.
+    pub fn looking_at(self, position: usize) -> Self {
+        let volumes = self.volumes.expect("bodies that flow").looked_at(position);
+        Self { volumes: Some(volumes), ..self }
+    }
+
     /// What has flowed in the passes that are done; nothing in bodies that do not.
     pub fn flowed(&self) -> Vec<FlowedVolume> {
         self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
@@ -610,8 +619,9 @@ impl Simulation {
         for output in outputs.iter_mut() {
             let motion = &self.motion;
             let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);
+            let looked_at = flowed.as_ref().map_or(&[][..], |flowed| &flowed.looked_at);
             let flowed = flowed.as_ref().map_or(&[][..], |flowed| &flowed.volumes);
-            output.pass(&PassReport { record, steps, contacts, pair, motion, warm, flowed })?;
+            output.pass(&PassReport { record, steps, contacts, pair, motion, warm, flowed, looked_at })?;
         }
         if let (Some(volumes), Some(flowed)) = (&mut self.volumes, flowed) {
             volumes.take(flowed.volumes);

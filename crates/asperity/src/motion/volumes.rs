@@ -30,6 +30,8 @@ pub(super) struct Volumes {
     /// What has flowed in the passes that are finished.
     states: Vec<PlasticState>,
     boundary: Boundary,
+    /// The position at which it is looked what has flowed.
+    looked_at: Option<usize>,
 }
 
 /// What a pass has made of bodies that flow.
@@ -40,6 +42,8 @@ pub(super) struct FlowedPass {
     pub(super) steps: Vec<FlowStepRecord>,
     /// The pass in numbers.
     pub(super) record: PassFlowRecord,
+    /// What has flowed under the load at the position that is looked at; nothing where none is.
+    pub(super) looked_at: Vec<PlasticState>,
 }
 
 impl Volumes {
@@ -59,13 +63,18 @@ impl Volumes {
             seats: pair.seats(position),
         };
         let mut contact = PlasticContact::new(facing, bodies, flow, params);
-        let states = contact.bodies().iter().map(|body| body.state().clone()).collect();
-        Self { contact: Mutex::new(contact), states, boundary }
+        let states = states(&mut contact);
+        Self { contact: Mutex::new(contact), states, boundary, looked_at: None }
     }
 
     /// What has flowed in the passes that are finished.
     pub(super) fn states(&self) -> &[PlasticState] {
         &self.states
+    }
+
+    /// The same, of which it is looked at a position what has flowed.
+    pub(super) fn looked_at(self, position: usize) -> Self {
+        Self { looked_at: Some(position), ..self }
     }
 
     /// The same with what has flowed.
@@ -101,6 +110,7 @@ impl Solver<'_> {
             displace(&mut undeformed, side, contact.bodies()[index].displacement(), -1.0);
         }
         let mut course = Course { work: [0.0; 2], at_rim: 0.0, steps: Vec::new(), contacts: Vec::new() };
+        let mut looked_at = Vec::new();
         let mut carrier = Carrier { body: 1, last: None };
         for (index, position) in self.positions.iter().enumerate() {
             let shifts = carrier.shifts(position, pair, volumes.boundary);
@@ -108,6 +118,9 @@ impl Solver<'_> {
             let step = self.step(&mut contact, control, index);
             let increments = step.map_err(|source| self.at_position(index, source))?;
             carrier.arrive(position, contact.pressure());
+            if volumes.looked_at == Some(index) {
+                looked_at = states(&mut contact);
+            }
             let sliding = self.motion.sliding(position.way);
             let solution = contact.solution().expect("a contact at the position");
             let here = Contact::new(*position, sliding.as_ref(), solution);
@@ -119,8 +132,8 @@ impl Solver<'_> {
         let last = self.positions.len() - 1;
         let apart = contact.go_to(Control::Load(0.0)).map_err(|source| self.at_position(last, source))?;
         course.work_of(&apart, contact.sides());
-        let states: Vec<PlasticState> = contact.bodies().iter().map(|body| body.state().clone()).collect();
-        contact.restore(&states);
+        let left = states(&mut contact);
+        contact.restore(&left);
         let after = FlowedVolume::unloaded(&mut contact);
         drop(contact);
         let mut bodies = undeformed;
@@ -128,7 +141,7 @@ impl Solver<'_> {
         let Course { work, at_rim, steps, contacts } = course;
         let record = PassFlowRecord::of(&after, volumes.states(), work, at_rim);
         let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let flowed = Some(FlowedPass { volumes: after, steps, record });
+        let flowed = Some(FlowedPass { volumes: after, steps, record, looked_at });
         Ok(Pass { contacts, pair: bodies, lost, has_changed: true, flowed })
     }
 
@@ -174,6 +187,10 @@ impl Solver<'_> {
             source,
         }
     }
+}
+
+fn states(contact: &mut PlasticContact) -> Vec<PlasticState> {
+    contact.bodies().iter().map(|body| body.state().clone()).collect()
 }
 
 /// A pass under way.

@@ -34,6 +34,7 @@
 //! ```
 
 mod anderson;
+mod below;
 mod body;
 mod contact;
 mod flow;
@@ -48,6 +49,7 @@ mod sweep;
 mod volume;
 mod waves;
 
+pub use below::residual_below;
 pub use body::{Action, BodyFlow, PlasticBody, PlasticState, SurfaceDisplacement};
 pub use contact::{Facing, Interface, PlasticContact};
 pub use flow::{CellState, FlowLaw, Tensor};

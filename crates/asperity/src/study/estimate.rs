@@ -133,7 +133,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
-        subsurface: Plan::new(case, &lower_grid, &positions)?,
+        subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         warnings: Vec::new(),
         foreseen: Vec::new(),
     };

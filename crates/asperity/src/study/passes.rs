@@ -47,7 +47,8 @@ impl Passes {
         let motion =
             case.motion(apparent_area).ok_or(Error::Unsupported("a contact at rest has no passes"))?;
         let resolved = identity::resolved(case, &bodies);
-        let simulation = simulation(case, pair(case, bodies)?, motion, None)?;
+        let look = subsurface.as_ref().map(|plan| plan.index);
+        let simulation = simulation(case, pair(case, bodies)?, motion, None, look)?;
         let writer = Writer::enter(directory, &resolved, existing)?;
         writer.begin()?;
         let output = writer.passes(case.output.pressure_every, subsurface)?;
@@ -66,7 +67,7 @@ impl Passes {
                 (pair.lower.heights, pair.upper.heights) = (lower.into_heights(), upper.into_heights());
                 [pair.lower.state, pair.upper.state] = writer.results().states_after(done)?;
                 let virgin = &simulation.pair().upper;
-                let resumed = self::simulation(case, pair, motion, Some(virgin))?;
+                let resumed = self::simulation(case, pair, motion, Some(virgin), look)?;
                 let resumed = match case.plasticity {
                     Some(_) => resumed.with_flowed(writer.results().flowed_after(done)?),
                     None => resumed,
@@ -145,15 +146,26 @@ impl Passes {
     }
 }
 
-/// The motion of a case. Its upper body is `virgin` before a pass that has one of its own; that of the pair unless it is told.
-fn simulation(case: &Case, pair: Pair, motion: Motion, virgin: Option<&Body>) -> Result<Simulation> {
+/// The motion of a case. Its upper body is `virgin` before a pass that has one of its own; that of the pair unless it is told. Stress under
+/// the surface is wanted at the position `look`.
+fn simulation(
+    case: &Case,
+    pair: Pair,
+    motion: Motion,
+    virgin: Option<&Body>,
+    look: Option<usize>,
+) -> Result<Simulation> {
     let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
     let simulation = case.running(simulation.with_rim(case.output.rim)?)?;
     let simulation = match &case.plasticity {
         None => simulation,
         Some(spec) => {
             let bodies = flow::bodies(case, spec, simulation.pair())?;
-            simulation.with_flow(bodies, spec.params())?
+            let flowing = simulation.with_flow(bodies, spec.params())?;
+            match look {
+                None => flowing,
+                Some(position) => flowing.looking_at(position),
+            }
         }
     };
     if case.motion.is_none_or(|motion| motion.counter == CounterBody::Same) {

@@ -55,11 +55,16 @@ pub fn run(
     let flowed = solved.take_flowed();
     let fields = solved.into_fields(rest::displaced(pair, flowed.as_ref()));
     writer.write_rest(&fields)?;
-    if let Some(flowed) = flowed {
-        writer.write_flow(&flowed)?;
-    }
-    let stress =
-        subsurface.map(|plan| writer.write_subsurface(&plan, fields.into_tractions())).transpose()?;
+    let volumes = match &flowed {
+        None => &[][..],
+        Some(flowed) => {
+            writer.write_flow(flowed)?;
+            &flowed.volumes
+        }
+    };
+    let stress = subsurface
+        .map(|plan| writer.write_subsurface(&plan, fields.into_tractions(), volumes))
+        .transpose()?;
     let computed = Computed { outcome, subsurface: stress.into_iter().collect(), sliding, flow: None };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     under_way.map_or(Ok(()), |under_way| under_way.done())?;

@@ -5,6 +5,7 @@
 //! /von_mises_01          float64 [x, y]   von Mises' stress on the first of the planes
 //! /section_xx … _xy      float64 [x, z]   the stress on the section, and `section_von_mises`
 //! /column_01_xx … _xy    float64 [z]      the stress under the first of the columns
+//! /section_residual_xx … /column_01_residual_xx …    the part of it that flow has left, of a body that flows
 //! ```
 
 use std::path::Path;
@@ -14,13 +15,15 @@ use serde::{Deserialize, Serialize};
 
 use super::case::{Case, Side};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, Seat};
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use crate::io::vti;
+use crate::material::Material;
 use crate::motion::Position;
 use crate::operator::Boundary;
+use crate::plasticity::{Layers, PlasticState, residual_below};
 use crate::stress::{Component, Stress};
-use crate::subsurface::{Extreme, Plane, Subsurface, Tractions, von_mises};
+use crate::subsurface::{Extreme, LayeredStress, Plane, Subsurface, Tractions, von_mises};
 use crate::units::{self, Dimension, Metre, Pascal};
 
 /// What is looked at, on the grid of one contact.
@@ -43,6 +46,11 @@ pub struct Plan {
     columns: Vec<[usize; 2]>,
     /// Whether the stress is wanted as a volume, too.
     volume: bool,
+    /// The layers in which the body may flow; none of one that does not.
+    layers: Option<Layers>,
+    material: Material,
+    /// The grid of the body.
+    of_body: Grid,
 }
 
 /// The most stressed points of a contact: an entry of `subsurface` in `summary.json`.
@@ -70,7 +78,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Case`] if something that is wanted lies outside the contact.
-    pub fn new(case: &Case, lower: &Grid, positions: &[Position]) -> Result<Option<Self>> {
+    pub fn new(case: &Case, [lower, upper]: [&Grid; 2], positions: &[Position]) -> Result<Option<Self>> {
         let Some(spec) = &case.subsurface else { return Ok(None) };
         let error = |key: &str, message| case.error_at(&format!("subsurface.{key}"), message, None);
         let flush = || positions.iter().position(|p| p.offset == 0.0).expect("a pass has a flush position");
@@ -109,6 +117,15 @@ impl Plan {
             section: spec.section.map(|y| cell("section", 1, y)).transpose()?,
             columns: spec.columns.iter().map(column).collect::<Result<_>>()?,
             volume: case.output.paraview,
+            layers: match (&body.plasticity, case.plasticity) {
+                (Some(_), Some(spec)) => Some(spec.layers()?),
+                _ => None,
+            },
+            material: body.material,
+            of_body: match spec.body {
+                Side::Lower => *lower,
+                Side::Upper => *upper,
+            },
             grid,
         }))
     }
@@ -127,19 +144,40 @@ impl Plan {
         8.0 * (9.0 * cells + 4.0 * padded)
     }
 
-    /// Computes the stress under `tractions`, those on the lower body, and writes it to `path` with what `file` says already.
+    /// Which of the bodies is looked into: 0 the lower, 1 the upper one.
+    pub(super) fn side(&self) -> usize {
+        match self.body {
+            Side::Lower => 0,
+            Side::Upper => 1,
+        }
+    }
+
+    /// The residual stress of what has flowed in the body, on which the contact is seated.
+    fn residual(&self, flowed: Option<(&PlasticState, &Seat)>) -> Result<Option<LayeredStress>> {
+        let (Some((state, seat)), Some(layers)) = (flowed, &self.layers) else { return Ok(None) };
+        let to = self.depths[self.depths.len() - 1];
+        let (grid, columns) = (self.of_body, self.grid.shape[0]);
+        residual_below(grid, layers, self.boundary, &self.material, &state.strain, seat, columns, to)
+            .map(Some)
+    }
+
+    /// Computes the stress under `tractions`, those on the lower body, and by what has `flowed` in the body that is looked into, and
+    /// writes it to `path` with what `file` says already.
     pub(super) fn write(
         &self,
         mut file: FieldFile,
         path: &Path,
         pass: Option<usize>,
         tractions: Tractions,
+        flowed: Option<(&PlasticState, &Seat)>,
     ) -> Result<SubsurfaceRecord> {
         let tractions = match self.body {
             Side::Lower => tractions,
             Side::Upper => tractions.on_upper(),
         };
-        let body = Subsurface::new(self.grid, self.boundary, self.poisson, &tractions);
+        let residual = self.residual(flowed)?;
+        let body =
+            Subsurface::new(self.grid, self.boundary, self.poisson, &tractions).with_residual(residual);
         let most = body.maximum(&self.depths);
         let record = SubsurfaceRecord {
             pass,
@@ -185,8 +223,28 @@ impl Plan {
                 file.add_series(&name, "Pa", "z", self.spacing(), 0.0, &values);
             }
         }
+        if let Some(residual) = body.residual() {
+            self.add_residual(&mut file, residual, row);
+        }
         file.write(path)?;
         Ok(record)
+    }
+
+    /// The residual part of the stress on the section and under the columns.
+    fn add_residual(&self, file: &mut FieldFile, residual: &LayeredStress, row: usize) {
+        let planes: Vec<[Field; 6]> = self.depths.iter().map(|depth| residual.at(*depth)).collect();
+        let pitch = [self.grid.pitch[0], self.spacing()];
+        let x = self.corner[0] + self.grid.centre(0, 0);
+        for (component, name) in Component::ALL.iter().map(|c| (*c as usize, c.name())) {
+            let at = |(ix, k): (usize, usize)| planes[k][component][[ix, row]];
+            let section = Field::from_shape_fn([self.grid.shape[0], planes.len()], at);
+            file.add_section(&format!("section_residual_{name}"), "Pa", pitch, x, &section);
+            for (k, cell) in self.columns.iter().enumerate() {
+                let values: Vec<f64> = planes.iter().map(|plane| plane[component][*cell]).collect();
+                let name = format!("column_{:02}_residual_{name}", k + 1);
+                file.add_series(&name, "Pa", "z", self.spacing(), 0.0, &values);
+            }
+        }
     }
 
     fn add_section(&self, file: &mut FieldFile, section: &[Field; 6]) {

@@ -21,8 +21,10 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 
+mod layered;
 mod maximum;
 
+pub use layered::LayeredStress;
 pub use maximum::{Extreme, Maximum};
 
 use ndarray::s;
@@ -85,6 +87,8 @@ pub struct Subsurface {
     fft: RealFft2,
     /// Transforms of the tractions that are not zero.
     tractions: Vec<(Traction, Spectrum)>,
+    /// What is there without tractions.
+    residual: Option<LayeredStress>,
 }
 
 type Spectrum = ndarray::Array2<Complex64>;
@@ -102,7 +106,17 @@ impl Subsurface {
             (traction, fft.forward(field))
         };
         let tractions = tractions.present().map(transform).collect();
-        Self { grid, poisson, boundary, fft, tractions }
+        Self { grid, poisson, boundary, fft, tractions, residual: None }
+    }
+
+    /// The same body with a residual stress, which is there without tractions.
+    pub fn with_residual(self, residual: impl Into<Option<LayeredStress>>) -> Self {
+        Self { residual: residual.into(), ..self }
+    }
+
+    /// The residual stress, none of a body that has not been given one.
+    pub fn residual(&self) -> Option<&LayeredStress> {
+        self.residual.as_ref()
     }
 
     /// The grid of every plane.
@@ -112,7 +126,11 @@ impl Subsurface {
 
     /// The stress at `depth` ≥ 0; at 0 its limit from within.
     pub fn plane(&self, depth: Metre) -> Plane {
-        Plane { depth, stress: Component::ALL.map(|component| self.component(component, depth)) }
+        let mut stress = Component::ALL.map(|component| self.component(component, depth));
+        if let Some(residual) = &self.residual {
+            stress.iter_mut().zip(residual.at(depth)).for_each(|(stress, residual)| *stress += &residual);
+        }
+        Plane { depth, stress }
     }
 
     /// What `look` makes of the plane at each of the `depths`, in their order; in parallel, a plane for each thread.

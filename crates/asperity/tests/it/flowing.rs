@@ -143,3 +143,43 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     assert!(!whole.warnings.iter().any(|warning| warning.contains("deepest layer")), "{:?}", whole.warnings);
     assert!(whole.warnings.iter().any(|warning| warning.contains("above 15 %")), "{:?}", whole.warnings);
 }
+
+/// Below a ball that has yielded the stress is what acts and what flow has left; below the volume it goes on.
+#[test]
+fn the_stress_below_bodies_that_flow_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let depths = "[subsurface]\nto = \"100.8 um\"\nlayers = 28\nsection = \"75 um\"\ncolumns = [[\"75 um\", \"75 um\"]]\n";
+    let volume = VOLUME.replace("unload", "") + "unload = false\n";
+    let run = |plasticity: &str, name: &str, rest: &str| {
+        let out = folder.path().join(name);
+        study::run(&case("20 N", plasticity, rest), Given::default(), &out, Existing::Keep, &()).unwrap();
+        Results::open(&out).unwrap()
+    };
+    let flows = run(FLOWS, "flows", &format!("{volume}{depths}"));
+    let elastic = run("", "elastic", depths);
+    let read = |results: &Results, name: &str| {
+        results.subsurface_fields(None).unwrap().read(name).unwrap().into_field().unwrap()
+    };
+    // Flow has taken the peak off.
+    let most = |results: &Results| read(results, "section_von_mises").iter().fold(0.0f64, |m, s| m.max(*s));
+    assert!(most(&flows) < 0.8 * most(&elastic), "{:e} {:e}", most(&flows), most(&elastic));
+    assert!(most(&flows) < 1.15 * (1.5e9 + 5e9 * 0.05), "{:e}", most(&flows));
+    // At the middle of the first layer, at a depth of 3.6 µm, it is the residual stress that the volume has.
+    let residual = flows.flow_fields(None).unwrap().read("residual_stress_xx_lower").unwrap().values;
+    let residual = residual.into_dimensionality::<ndarray::Ix3>().unwrap();
+    let section = read(&flows, "section_residual_xx");
+    let largest = residual.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+    for layer in 0..10 {
+        for ix in 0..24 {
+            let (a, b) = (section[[ix, 2 * layer + 1]], residual[[ix, 12, layer]]);
+            assert!((a - b).abs() < 1e-9 * largest, "{layer} {ix}: {a:e} {b:e}");
+        }
+    }
+    // Below the volume it decays.
+    let deep = section.column(28).iter().fold(0.0f64, |m, s| m.max(s.abs()));
+    let last = section.column(19).iter().fold(0.0f64, |m, s| m.max(s.abs()));
+    assert!(deep > 0.0 && deep < 0.8 * last, "{deep:e} {last:e}");
+    let column = flows.subsurface_fields(None).unwrap().read("column_01_residual_xx").unwrap().values;
+    assert_eq!(column[[1]], section[[12, 1]]);
+    assert!(elastic.subsurface_fields(None).unwrap().read("section_residual_xx").is_err());
+}

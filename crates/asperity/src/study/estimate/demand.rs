@@ -156,11 +156,13 @@ impl Sizes<'_> {
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         let positions = super::positions(case, [self.lower, self.upper]);
-        if let Ok(Some(plan)) = Plan::new(case, &self.lower, &positions) {
+        if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {
             solver += plan.memory();
         }
-        solver +=
-            self.volumes().map(|(cells, periodic)| cells * if periodic { 350.0 } else { 500.0 }).sum::<f64>();
+        // In a motion what the passes before have left, and what a pass leaves, are held beside the volume.
+        let kept = if case.motion.is_some() { 260.0 } else { 0.0 };
+        let volume = |(cells, periodic)| cells * (kept + if periodic { 350.0 } else { 500.0 });
+        let volumes: f64 = self.volumes().map(volume).sum();
         let motion = case.motion(nx * ny * self.lower.cell_area());
         let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
         let together = motion
@@ -179,7 +181,7 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        Memory { solver, together, results: NUMBER * results }
+        Memory { solver, together, results: NUMBER * results + volumes }
     }
 
     /// Columns that face each other at the positions that are solved.
@@ -204,12 +206,23 @@ impl Sizes<'_> {
     fn flow(&self, threads: usize) -> f64 {
         /// Products of an increment that flows, and those of one that is taken off.
         const PRODUCTS: [f64; 2] = [8.0, 1.0];
+        /// Products of a position of a motion, and approaches tried in a pass.
+        const ROLLING: [f64; 2] = [3.5, 4.0];
         let Some(plasticity) = self.case.plasticity else { return 0.0 };
-        let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
-        let [flowing, unloading] = PRODUCTS;
-        let unloading = if plasticity.unload { unloading } else { 0.0 };
-        let first = plasticity.increments as f64;
-        let products = flowing * (first + later as f64) + unloading * first;
+        let products = match self.case.motion {
+            Some(motion) => {
+                let [products, trials] = ROLLING;
+                let trials = if motion.control == ControlKind::PassLoad { trials } else { 1.0 };
+                trials * products * (motion.passes * self.overlaps.len()) as f64
+            }
+            None => {
+                let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
+                let [flowing, unloading] = PRODUCTS;
+                let unloading = if plasticity.unload { unloading } else { 0.0 };
+                let first = plasticity.increments as f64;
+                flowing * (first + later as f64) + unloading * first
+            }
+        };
         let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };
         products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
     }

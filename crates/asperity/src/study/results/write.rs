@@ -11,7 +11,7 @@ use super::{
 };
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::grid::{CellValues, Field, Grid};
+use crate::grid::{CellValues, Field, Grid, Seat};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
 use crate::motion::{Flowed, FlowedVolume, Output, Pair, PassReport, State};
@@ -130,13 +130,21 @@ impl Writer {
         SweepWriter::new(&self.results, &self.identity, pair, fields_every)
     }
 
-    /// Computes and writes the stress under the surface of a static contact, whose lower body bears
-    /// `tractions`.
+    /// Computes and writes the stress under the surface of a static contact, whose lower body bears `tractions`, and in whose bodies
+    /// this has flowed.
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub fn write_subsurface(&self, plan: &Plan, tractions: Tractions) -> Result<SubsurfaceRecord> {
-        plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions)
+    pub(in crate::study) fn write_subsurface(
+        &self,
+        plan: &Plan,
+        tractions: Tractions,
+        flowed: &[FlowedVolume],
+    ) -> Result<SubsurfaceRecord> {
+        let seat = Seat::flush(plan.grid.shape);
+        let flowed = flowed.iter().find(|volume| volume.body == plan.side());
+        let flowed = flowed.map(|volume| (&volume.state, &seat));
+        plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions, flowed)
     }
 
     /// Writes the bodies before the first pass, which slide under `friction`.
@@ -259,7 +267,11 @@ impl Output for PassWriter {
             let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
             let plan = plan.at(&contact.position, &pair.lower_grid());
-            plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions)?;
+            let seats = pair.seats(&contact.position);
+            let looked_at = report.flowed.iter().zip(report.looked_at);
+            let flowed = looked_at.into_iter().find(|(volume, _)| volume.body == plan.side());
+            let flowed = flowed.map(|(_, state)| (state, &seats[plan.side()]));
+            plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions, flowed)?;
         }
         let passes = report.record.pass;
         if !report.flowed.is_empty() {

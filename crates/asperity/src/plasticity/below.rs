@@ -1,0 +1,51 @@
+//! The residual stress of plastic strain at any depth.
+
+use super::{Layers, MAX_LAYERS, TensorField, Volume};
+use crate::error::Result;
+use crate::grid::{Grid, Seat};
+use crate::material::Material;
+use crate::operator::Boundary;
+use crate::stress::Component;
+use crate::subsurface::LayeredStress;
+use crate::units::Metre;
+
+/// The residual stress of a plastic `strain`, `[layer, component, ix, iy]`, in the `layers` of a body on a `grid`, from its surface down to
+/// a depth `to` which may lie below them, under a contact that is seated on the body. A product of as many layers.
+///
+/// # Errors
+/// Those of [`Volume::new`].
+///
+/// # Panics
+/// If the strain has another shape.
+#[expect(clippy::too_many_arguments, reason = "a body, what has flowed in it, and where it is looked at")]
+pub fn residual_below(
+    grid: Grid,
+    layers: &Layers,
+    boundary: Boundary,
+    material: &Material,
+    strain: &TensorField,
+    seat: &Seat,
+    columns: usize,
+    to: Metre,
+) -> Result<LayeredStress> {
+    let mut faces = layers.faces().to_vec();
+    let mut thickness = layers.thickness(layers.count() - 1);
+    // Below the layers that flow the stress varies over the depth.
+    while faces[faces.len() - 1] < to && faces.len() <= MAX_LAYERS {
+        faces.push(faces[faces.len() - 1] + thickness);
+        thickness *= 1.1;
+    }
+    let all = Layers::between(&faces)?;
+    let centres = (0..all.count()).map(|layer| all.centre(layer)).collect();
+    let mut volume = Volume::new(grid, all, boundary, material)?;
+    let mut deep = volume.zeros();
+    deep.slice_mut(ndarray::s![..layers.count(), .., .., ..]).assign(strain);
+    let stress = volume.residual(&deep);
+    let under = |layer: usize, component: Component| {
+        let field = stress.slice(ndarray::s![layer, component as usize, .., ..]).to_owned();
+        seat.under(&field, columns)
+    };
+    let planes =
+        (0..stress.shape()[0]).map(|layer| Component::ALL.map(|component| under(layer, component))).collect();
+    Ok(LayeredStress::new(centres, planes))
+}
