@@ -8,6 +8,7 @@ mod motion;
 mod pressure;
 mod profile;
 mod rest;
+mod rolling;
 mod running;
 mod sheet;
 mod sliding;

@@ -1,6 +1,6 @@
 //! What is told of a contact at the end: a line for each of its numbers.
 
-use asperity::motion::StaticRecord;
+use asperity::motion::{FlowRecord, StaticRecord};
 use asperity::study::Case;
 use asperity::study::SubsurfaceRecord;
 use asperity::study::{Outcome, Summary};
@@ -14,7 +14,22 @@ pub(super) fn text(case: &Case, summary: &Summary) -> String {
         Outcome::Static(record) => static_table(record, planes(case)),
         Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
     };
-    contact + &summary.subsurface.iter().map(stress_line).collect::<String>()
+    let flow = summary.plasticity.as_ref().map_or(String::new(), flow_line);
+    contact + &flow + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+/// What becomes of bodies that flow pass after pass.
+fn flow_line(flow: &FlowRecord) -> String {
+    let rate = flow.rate.map_or(String::new(), |rate| {
+        format!(", the surface moves by {} a pass", format(rate, Dimension::Length))
+    });
+    format!(
+        "{}{rate}; largest plastic strain {}, plastic work {}, residual tension up to {}\n",
+        flow.regime,
+        format_number(flow.max_plastic_strain),
+        format(flow.plastic_work, Dimension::Energy),
+        format(flow.max_residual_tension, Dimension::Pressure)
+    )
 }
 
 fn stress_line(record: &SubsurfaceRecord) -> String {
@@ -69,6 +84,18 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
             rows.push(("spin", format!("{} 1/m", format_number(spin))));
             rows.push(("moment", format!("{} N m", format_number(moment))));
         }
+    }
+    if let Some(flow) = &record.flow {
+        let residual = flow.residual.as_ref();
+        let tension = residual.map_or(flow.max_residual_tension, |left| left.residual_max_residual_tension);
+        let dent = residual.map_or(flow.residual_displacement, |left| left.residual_residual_displacement);
+        rows.extend([
+            ("plastic strain", format_number(flow.max_plastic_strain)),
+            ("yielded volume", format(flow.yielded_volume, Dimension::Volume)),
+            ("plastic work", format(flow.plastic_work, Dimension::Energy)),
+            ("residual tension", format(tension, Dimension::Pressure)),
+            ("dent left", format(dent, Dimension::Length)),
+        ]);
     }
     rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
 }

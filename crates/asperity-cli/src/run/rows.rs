@@ -2,7 +2,7 @@
 
 use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
 use asperity::study::case::{Case, ControlKind, Source};
-use asperity::units::Dimension::{Area, Force, Length, Pressure, Stiffness, Volume};
+use asperity::units::Dimension::{Area, Energy, Force, Length, Pressure, Stiffness, Volume};
 
 use super::columns::{Cell, Columns};
 
@@ -19,6 +19,7 @@ pub(super) struct Rows {
     yields: bool,
     wears: bool,
     grows: bool,
+    flows: bool,
     /// Whether the passes have the approach given.
     at_approach: bool,
     /// Passes of the motion that are done, and the wear of both bodies in them, m³.
@@ -39,6 +40,7 @@ impl Rows {
             slides: case.friction.is_some(),
             yields: bodies.iter().any(|body| body.hardness.yields()),
             wears: bodies.iter().any(|body| body.wear.is_some()),
+            flows: bodies.iter().any(|body| body.plasticity.is_some()),
             grows: bodies.iter().any(|body| body.film.is_some()),
             at_approach: motion.is_some_and(|motion| motion.control == ControlKind::Approach),
             done: 0,
@@ -62,6 +64,10 @@ impl Rows {
         if self.yields {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
             cells.push(Cell::of("plastic", Volume, plastic));
+        }
+        if let Some(flow) = &pass.flow {
+            let work = flow.plastic_work_lower + flow.plastic_work_upper;
+            cells.push(Cell::of("work", Energy, work));
         }
         cells.push(Cell::of("Sq lower", Length, pass.sq_lower_interior));
         cells.push(Cell::of("Sq upper", Length, pass.sq_upper_interior));
@@ -106,6 +112,9 @@ impl Rows {
         }
         if self.grows {
             above += "; film: mean of the thicker";
+        }
+        if self.flows {
+            above += "; work: plastic, in the pass";
         }
         above += "\n";
         if self.rim > 0.0 {

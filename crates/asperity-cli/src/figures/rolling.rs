@@ -1,0 +1,81 @@
+//! The figure of bodies that flow below their surfaces pass after pass: plastic work, how far the surface moves, strain.
+
+use asperity::motion::{PassFlowRecord, PassRecord};
+
+use super::Curves;
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+
+type Curve = Vec<[f64; 2]>;
+
+/// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic strain, and range of the
+/// residual displacement; none of bodies that do not flow.
+pub(super) fn curves(passes: &[PassRecord]) -> Option<Curves> {
+    passes.first()?.flow?;
+    let over = |value: &dyn Fn(&PassFlowRecord) -> f64| -> Curve {
+        passes.iter().filter_map(|p| Some([p.pass as f64, value(&p.flow?)])).collect()
+    };
+    let summed = |curve: Curve| -> Curve {
+        let mut sum = 0.0;
+        let each = curve.into_iter().map(|[pass, value]| {
+            sum += value;
+            [pass, sum]
+        });
+        std::iter::once([0.0, 0.0]).chain(each).collect()
+    };
+    let bodies = |curves: [Curve; 2]| -> Vec<Series> {
+        // Broken, so that neither hides the other where they are the same; a body that does not flow is not shown.
+        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
+        let flows = |curve: &Curve| curve.iter().any(|[_, y]| *y != 0.0);
+        looks
+            .zip(curves)
+            .filter(|(_, curve)| flows(curve))
+            .map(|((name, mark), curve)| Series::new(name, curve, mark))
+            .collect()
+    };
+    let works = [over(&|flow| flow.plastic_work_lower), over(&|flow| flow.plastic_work_upper)];
+    // Of what has shaken down nothing is left, which has no logarithm.
+    let above = |curve: Curve| curve.into_iter().filter(|[_, work]| *work > 0.0).collect();
+    let shown = [
+        (Axis::log("plastic work of a pass", Unit::Of("J")), bodies(works.map(above))),
+        (
+            Axis::linear("shift of the surface along x", Unit::Length),
+            bodies([
+                summed(over(&|flow| flow.surface_shift_lower)),
+                summed(over(&|flow| flow.surface_shift_upper)),
+            ]),
+        ),
+        (
+            Axis::linear("largest plastic strain", Unit::Number),
+            bodies([
+                over(&|flow| flow.max_plastic_strain_lower),
+                over(&|flow| flow.max_plastic_strain_upper),
+            ]),
+        ),
+        (
+            Axis::linear("range of the residual displacement", Unit::Length),
+            bodies([
+                over(&|flow| flow.residual_displacement_lower),
+                over(&|flow| flow.residual_displacement_upper),
+            ]),
+        ),
+    ];
+    let charts: Vec<Chart> = shown
+        .into_iter()
+        .filter(|(_, series)| !series.is_empty())
+        .map(|(y, series)| Chart::new("", Axis::linear("pass", Unit::Count), y, series))
+        .collect();
+    let curves = || {
+        Curves::new(
+            "plastic-flow",
+            "plastic flow over the passes",
+            Charts { charts, columns: 2, aspect: 0.7 },
+        )
+    };
+    // Bodies that stay elastic have none.
+    passes
+        .iter()
+        .any(|pass| {
+            pass.flow.is_some_and(|flow| flow.max_plastic_strain_lower + flow.max_plastic_strain_upper > 0.0)
+        })
+        .then(curves)
+}
