@@ -4,7 +4,7 @@ use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
 use serde_json::Value;
 
 use super::Curves;
-use super::{rolling, running};
+use super::running;
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 
 /// A number of a position.
@@ -35,7 +35,6 @@ pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) 
     curves.push(Curves::new("approach", format!("{what} over the passes"), approach(passes, &done)));
     curves.push(Curves::new("mean_contact_area", "contact area over the passes", area(passes, &done)));
     curves.extend(running::curves(passes, sq));
-    curves.extend(rolling::curves(passes));
     curves
 }
 

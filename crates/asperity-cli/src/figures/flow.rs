@@ -1,7 +1,7 @@
 //! The figures of bodies that flow below their surfaces: plastic strain and residual stress on a section, and the surface that is left.
 
 use asperity::io::fields::{Attribute, Fields};
-use asperity::motion::IncrementRecord;
+use asperity::motion::{FlowStepRecord, IncrementRecord};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
@@ -44,33 +44,30 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
     Ok(())
 }
 
-/// What has flowed over increments, or whatever `x` counts: the largest plastic strain and the plastic work so far; none
-/// where nothing has.
-pub(crate) fn curves(x: &str, steps: &[[f64; 3]]) -> Option<Curves> {
-    if steps.iter().all(|[_, strain, _]| *strain == 0.0) {
+/// What has flowed over the increments of a loading: the largest plastic strain and the plastic work so far; none where nothing has.
+pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
+    let steps: Vec<(f64, FlowStepRecord)> =
+        increments.iter().filter_map(|i| Some((i.increment as f64, i.flow?))).collect();
+    if steps.iter().all(|(_, flow)| flow.max_plastic_strain == 0.0) {
         return None;
     }
-    let over = |value: &dyn Fn(usize) -> f64| (0..steps.len()).map(|k| [steps[k][0], value(k)]).collect();
     let chart = |label, unit, points| {
         let series = vec![Series::new("", points, Mark::LineAndPoints)];
-        Chart::new("", Axis::linear(x, Unit::Count), Axis::linear(label, unit), series)
+        Chart::new("", Axis::linear("increment", Unit::Count), Axis::linear(label, unit), series)
     };
-    let work = |k: usize| steps[..=k].iter().map(|[.., work]| work).sum();
-    let charts = vec![
-        chart("largest plastic strain", Unit::Of("%"), over(&|k| 100.0 * steps[k][1])),
-        chart("plastic work so far", Unit::Energy, over(&work)),
-    ];
-    let title = format!("plastic strain and work over the {x}s");
-    Some(Curves::new("plastic_flow", title, Charts { charts, columns: 2, aspect: 0.8 }))
-}
-
-/// Those of a loading.
-pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
-    let steps = increments.iter().filter_map(|increment| {
-        let flow = increment.flow?;
-        Some([increment.increment as f64, flow.max_plastic_strain, flow.plastic_work])
+    let mut sum = 0.0;
+    let work = steps.iter().map(|(x, flow)| {
+        sum += flow.plastic_work;
+        [*x, sum]
     });
-    curves("increment", &steps.collect::<Vec<_>>())
+    let work = work.collect();
+    let strain = steps.iter().map(|(x, flow)| [*x, 100.0 * flow.max_plastic_strain]).collect();
+    let charts = vec![
+        chart("largest plastic strain", Unit::Of("%"), strain),
+        chart("plastic work so far", Unit::Energy, work),
+    ];
+    let title = "plastic strain and work over the increments";
+    Some(Curves::new("plastic_flow", title, Charts { charts, columns: 2, aspect: 0.8 }))
 }
 
 /// A body that flows, on a section along x through its largest plastic strain.

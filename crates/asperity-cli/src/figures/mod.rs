@@ -27,11 +27,12 @@ use crate::draw::{Charts, Paper};
 use crate::report::Outcome;
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper, solution as of_solution};
-pub(crate) use flow::{Flowed, curves as of_flow, flowed, of_increments as of_flowing};
+pub(crate) use flow::{Flowed, flowed, of_increments as of_flowing};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
+pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, Stored, in_frame_of};
 pub(crate) use subsurface::columns as stress_columns;

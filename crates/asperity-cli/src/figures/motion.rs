@@ -14,7 +14,7 @@ use super::profile::{Facing, Profile, boundary, materials};
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
 use super::surfaces;
-use super::{course, flow};
+use super::{course, rolling};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -104,8 +104,8 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         }
     }
     pressures(results, &last, &steps, [pass, all], before[0].grid, &cap, &of, sheet)?;
-    if results.case()?.get("plasticity").is_some() {
-        flow::draw(&results.flow_fields(Some(pass))?, &after_pass, sheet)?;
+    if let Some(curves) = rolling::curves(passes) {
+        sheet.add_curves(curves, &throughout)?;
     }
     let sq = before.each_ref().map(|body| body.field.std(0.0));
     for curves in course::solution(&steps, &[], &done) {

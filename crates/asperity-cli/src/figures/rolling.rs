@@ -9,7 +9,7 @@ type Curve = Vec<[f64; 2]>;
 
 /// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic strain, and range of the
 /// residual displacement; none of bodies that do not flow.
-pub(super) fn curves(passes: &[PassRecord]) -> Option<Curves> {
+pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
     passes.first()?.flow?;
     let over = |value: &dyn Fn(&PassFlowRecord) -> f64| -> Curve {
         passes.iter().filter_map(|p| Some([p.pass as f64, value(&p.flow?)])).collect()
@@ -36,7 +36,7 @@ pub(super) fn curves(passes: &[PassRecord]) -> Option<Curves> {
     // Of what has shaken down nothing is left, which has no logarithm.
     let above = |curve: Curve| curve.into_iter().filter(|[_, work]| *work > 0.0).collect();
     let shown = [
-        (Axis::log("plastic work of a pass", Unit::Of("J")), bodies(works.map(above))),
+        (Axis::log("plastic work of a pass", Unit::Energy), bodies(works.map(above))),
         (
             Axis::linear("shift of the surface along x", Unit::Length),
             bodies([
@@ -45,10 +45,10 @@ pub(super) fn curves(passes: &[PassRecord]) -> Option<Curves> {
             ]),
         ),
         (
-            Axis::linear("largest plastic strain", Unit::Number),
+            Axis::linear("largest plastic strain", Unit::Of("%")),
             bodies([
-                over(&|flow| flow.max_plastic_strain_lower),
-                over(&|flow| flow.max_plastic_strain_upper),
+                over(&|flow| 100.0 * flow.max_plastic_strain_lower),
+                over(&|flow| 100.0 * flow.max_plastic_strain_upper),
             ]),
         ),
         (
@@ -64,18 +64,10 @@ pub(super) fn curves(passes: &[PassRecord]) -> Option<Curves> {
         .filter(|(_, series)| !series.is_empty())
         .map(|(y, series)| Chart::new("", Axis::linear("pass", Unit::Count), y, series))
         .collect();
-    let curves = || {
-        Curves::new(
-            "plastic-flow",
-            "plastic flow over the passes",
-            Charts { charts, columns: 2, aspect: 0.7 },
-        )
-    };
     // Bodies that stay elastic have none.
-    passes
-        .iter()
-        .any(|pass| {
-            pass.flow.is_some_and(|flow| flow.max_plastic_strain_lower + flow.max_plastic_strain_upper > 0.0)
-        })
-        .then(curves)
+    let strain = |flow: PassFlowRecord| flow.max_plastic_strain_lower.max(flow.max_plastic_strain_upper);
+    passes.iter().any(|pass| pass.flow.is_some_and(|flow| strain(flow) > 0.0)).then(|| {
+        let charts = Charts { charts, columns: 2, aspect: 0.7 };
+        Curves::new("plastic_flow", "plastic flow over the passes", charts)
+    })
 }

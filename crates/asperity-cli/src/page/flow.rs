@@ -28,8 +28,11 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
             html += &of_body(body, data);
         }
     }
-    let course: Option<Curves> =
-        if found.moves() { over_passes(found) } else { figures::of_flowing(&found.increments) };
+    let course: Option<Curves> = if found.moves() {
+        figures::of_rolling(&found.passes)
+    } else {
+        figures::of_flowing(&found.increments)
+    };
     html += &curves::html(course.into_iter().collect(), charts);
     Some(html).filter(|html| !html.is_empty())
 }
@@ -93,21 +96,26 @@ fn numbers(found: &Found) -> Option<String> {
         "max_residual_tension",
         "residual_displacement",
     ];
-    let Outcome::Static(record) = &found.summary.as_ref()?.outcome else { return None };
-    let Ok(Value::Object(flow)) = serde_json::to_value(record.flow.as_ref()?) else { return None };
+    let summary = found.summary.as_ref()?;
+    // A motion ends with the load taken off.
+    let (of, when, record) = match &summary.outcome {
+        Outcome::Static(record) => ("static", "under the load", record.flow.as_ref()?),
+        _ => ("plasticity", "after the last pass, unloaded", summary.plasticity.as_ref()?),
+    };
+    let Ok(Value::Object(flow)) = serde_json::to_value(record) else { return None };
     let cell = |key: &str| match flow.get(key) {
         Some(Value::Array(place)) => {
             let place = place.iter().enumerate();
-            let shown = place.map(|(n, value)| shown(key, &format!("static.{key}.{n}"), value));
+            let shown = place.map(|(n, value)| shown(key, &format!("{of}.{key}.{n}"), value));
             shown.collect::<Vec<_>>().join(", ")
         }
-        Some(value) => shown(key, &format!("static.{key}"), value),
+        Some(value) => shown(key, &format!("{of}.{key}"), value),
         None => "–".to_owned(),
     };
     let unloads = has_unloaded(&flow);
     let unloaded = if unloads { "<th scope=\"col\">unloaded</th>" } else { "" };
     let mut html = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"strain, work and residual stress\"><table><thead><tr><th scope=\"col\" class=\"words\">both bodies</th><th scope=\"col\">under the load</th>{unloaded}\
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"strain, work and residual stress\"><table><thead><tr><th scope=\"col\" class=\"words\">both bodies</th><th scope=\"col\">{when}</th>{unloaded}\
          </tr></thead><tbody>"
     );
     for name in NAMES {
@@ -128,13 +136,4 @@ fn shown(key: &str, path: &str, value: &Value) -> String {
 
 fn has_unloaded(flow: &Map<String, Value>) -> bool {
     flow.contains_key("residual_max_plastic_strain")
-}
-
-/// Its course over the passes, where their table has it.
-fn over_passes(found: &Found) -> Option<Curves> {
-    let table = found.table("passes.csv")?;
-    let [strain, work] = [table.column("max_plastic_strain")?, table.column("plastic_work")?];
-    let steps = (1..).zip(strain.into_iter().zip(work));
-    let steps = steps.map_while(|(pass, (strain, work))| Some([*found.done.get(pass)? as f64, strain, work]));
-    figures::of_flow("pass", &steps.collect::<Vec<_>>())
 }

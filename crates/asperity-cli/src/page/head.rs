@@ -62,6 +62,12 @@ fn verdict(found: &Found) -> String {
                 text += &format!(", Sq of the {body} body {before} → {after}");
             }
         }
+        if let Some(flow) = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref()) {
+            text += &format!(", {}", flow.regime);
+            if let Some(rate) = flow.rate {
+                text += &format!(" by {} a pass", format(rate, Dimension::Length));
+            }
+        }
         return text + ".";
     }
     if let [first, .., last] = &found.points[..] {

@@ -47,12 +47,6 @@ impl Table {
         self
     }
 
-    /// The numbers of a column, if there is one of that name.
-    pub(super) fn column(&self, name: &str) -> Option<Vec<f64>> {
-        let at = self.columns.iter().position(|column| column == name)?;
-        Some(self.rows.iter().filter_map(|row| row.get(at).copied()).collect())
-    }
-
     /// How many rows there are.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
