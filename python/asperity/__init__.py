@@ -12,7 +12,8 @@ laws of one's own, :func:`run` computes a case file, :func:`open` opens results.
 
 from . import errors, form, generate, reference
 from ._core import __version__
-from ._contact import Contact, Flow, contact, slide
+from ._contact import Contact, contact, slide
+from ._flow import Flow
 from ._progress import Progress
 from ._run import Run, open, run, simulate
 from ._stress import Extreme, Stress, SubsurfaceStress, stress

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _core, fields
+from ._flow import Flow, of_results
 from ._progress import Teller, Told
 from ._same import Comparable
 from ._units import Quantity
@@ -21,52 +22,6 @@ from .surface import Surface
 
 Friction = float | Mapping[str, Any]
 """The coefficient of friction, or the keys of the table `[friction]` of a case."""
-
-
-class Flow(Comparable):
-    """What has flowed below the surface of a body.
-
-    Attributes
-    ----------
-    depths : ndarray
-        Depths of the faces of the layers, from 0 at the surface, m.
-    strain : ndarray
-        Plastic strain under the last load, ``[component, ix, iy, iz]``, components as in `COMPONENTS`.
-    accumulated : ndarray
-        Accumulated plastic strain, ``[ix, iy, iz]``.
-    back_stress : ndarray or None
-        Pa, of a body that hardens kinematically.
-    displacement : ndarray
-        Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``.
-    residual_stress : ndarray
-        Stress that the plastic strain leaves once the load is taken off, where it is, Pa, ``[component, ix, iy, iz]``.
-    residual_displacement : ndarray
-        The displacement then, m.
-    """
-
-    COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
-
-    def __init__(
-        self,
-        depths: Sequence[float],
-        strain: NDArray[np.float64],
-        accumulated: NDArray[np.float64],
-        displacement: NDArray[np.float64],
-        residual_stress: NDArray[np.float64],
-        residual_displacement: NDArray[np.float64],
-        back_stress: NDArray[np.float64] | None = None,
-    ) -> None:
-        self.depths: NDArray[np.float64] = np.asarray(depths, dtype=np.float64)
-        self.strain = strain
-        self.accumulated = accumulated
-        self.back_stress = back_stress
-        self.displacement = displacement
-        self.residual_stress = residual_stress
-        self.residual_displacement = residual_displacement
-
-    def __repr__(self) -> str:
-        nx, ny, nz = self.accumulated.shape
-        return f"<Flow: {nx} × {ny} × {nz} cells, largest plastic strain {self.accumulated.max():.3g}>"
 
 
 class Contact(Comparable):
@@ -496,34 +451,5 @@ def stored(core: Any) -> Contact:
         # What has not converged leaves no summary.
         del record["converged"]
     return Contact(
-        record, core.sweep(), core.increments(), core.updates(), found, summary["warnings"], core.case(), _flow(core)
+        record, core.sweep(), core.increments(), core.updates(), found, summary["warnings"], core.case(), of_results(core, None)
     )
-
-
-def _flow(core: Any) -> dict[str, Flow]:
-    """What has flowed, of a results directory."""
-    if "plasticity" not in core.case():
-        return {}
-    names = set(core.names("plasticity", None))
-    attributes = core.attributes("plasticity", None)
-
-    def read(name: str) -> NDArray[np.float64]:
-        values: NDArray[np.float64] = core.read("plasticity", None, name)[0]
-        return values
-
-    def tensor(name: str, body: str) -> NDArray[np.float64]:
-        return np.stack([read(f"{name}_{component}_{body}") for component in Flow.COMPONENTS])
-
-    return {
-        body: Flow(
-            depths=attributes[f"depths_{body}"],
-            strain=tensor("strain", body),
-            accumulated=read(f"accumulated_{body}"),
-            back_stress=tensor("back_stress", body) if f"back_stress_xx_{body}" in names else None,
-            displacement=read(f"displacement_{body}"),
-            residual_stress=tensor("residual_stress", body),
-            residual_displacement=read(f"residual_displacement_{body}"),
-        )
-        for body in ("lower", "upper")
-        if f"accumulated_{body}" in names
-    }

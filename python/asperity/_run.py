@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _contact, _core, fields
+from ._flow import Flow, of_results
 from ._progress import Teller, Told
 from ._same import Comparable
 from ._temporary import Temporary
@@ -132,6 +133,25 @@ class Run(Comparable):
         """The stress under the surface in a pass, where `subsurface` asked for it."""
         return fields.stored(self._core, "subsurface", self._number(number))
 
+    def flow(self, number: int | None = None) -> dict[str, Flow]:
+        """Of bodies that flow below their surfaces, by ``"lower"`` and ``"upper"``, what they have left after a pass.
+
+        Parameters
+        ----------
+        number : int, optional
+            The pass, from 1, whose volumes are kept: the last one by default, of the others with ``keep="passes"``.
+        """
+        return of_results(self._core, self._number(number))
+
+    @property
+    def regime(self) -> str | None:
+        """What becomes of bodies that flow: ``"elastic"``, ``"shakes-down"``, ``"cyclic"``, ``"ratchets"`` or ``"undecided"``.
+
+        `None` of others, and until all is done.
+        """
+        found = (self._core.summary() or {}).get("plasticity")
+        return None if found is None else str(found["regime"])
+
     def lower(self, number: int | None = None) -> Surface:
         """The lower body's surface after a pass, from 1; 0 before the first; the last one by default."""
         return self._surface("lower", number)
@@ -227,6 +247,7 @@ def simulate(
     counter: str | None = None,
     acceleration: Mapping[str, Any] | None = None,
     temperature: Mapping[str, Any] | None = None,
+    plasticity: Mapping[str, Any] | None = None,
     boundary: str | Sequence[str] | None = None,
     method: str | None = None,
     tolerance: float | None = None,
@@ -281,6 +302,9 @@ def simulate(
         How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed.
     temperature : mapping, optional
         `bulk`, K or text such as ``"100 °C"``, and `every`, whether the flash temperature is computed.
+    plasticity : mapping, optional
+        Of bodies that flow, see :class:`Plasticity`, the keys of `[plasticity]` in a motion: `depth`, `layers`, `growth`, `tolerance`,
+        `keep`.
     boundary, method, tolerance, friction, title
         As of :func:`contact`; with friction the upper body slides.
     subsurface : mapping, optional
@@ -313,7 +337,7 @@ def simulate(
         load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
         speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
         load_tolerance=load_tolerance, speed=speed, path=path, offset_y=offset_y, seed=seed, counter=counter,
-        acceleration=acceleration, temperature=temperature,
+        acceleration=acceleration, temperature=temperature, plasticity=plasticity,
         boundary=boundary, method=method, tolerance=tolerance, friction=friction,
         subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
         out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,

@@ -119,7 +119,8 @@ class Material(Comparable):
     coating : Coating, optional
         An elastic layer on the body.
     plasticity : Plasticity, optional
-        In place of a hardness: how the body flows below its surface. It needs the argument `plasticity` of :func:`contact`.
+        In place of a hardness: how the body flows below its surface. It needs the argument `plasticity` of
+        :func:`contact` or :func:`simulate`.
 
     Raises
     ------

@@ -236,6 +236,7 @@ class Simulation(_Moving):
         counter: str | None = None,
         acceleration: Mapping[str, Any] | None = None,
         temperature: Mapping[str, Any] | None = None,
+        plasticity: Mapping[str, Any] | None = None,
         boundary: str | Sequence[str] | None = None,
         method: str | None = None,
         tolerance: float | None = None,
@@ -267,6 +268,7 @@ class Simulation(_Moving):
             },
             acceleration=acceleration,
             temperature=temperature,
+            plasticity=plasticity,
             subsurface=subsurface,
             output={"pressure_every": pressure_every, "rim": rim, "paraview": paraview},
         )  # fmt: skip

@@ -47,3 +47,37 @@ def test_what_a_plasticity_takes_is_told() -> None:
         asp.contact(asp.form.flat((8, 8), pitch=1e-6), asp.form.sphere(1e-3), recovers, STEEL, load=1.0, plasticity=VOLUME)
     with pytest.raises(asp.errors.CaseError, match="missing table"):
         asp.contact(asp.form.flat((8, 8), pitch=1e-6), asp.form.sphere(1e-3), SOFT, STEEL, load=1.0)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_ball_rolls_pass_after_pass(tmp_path: pathlib.Path) -> None:
+    plane, ball = asp.form.flat((24, 12), pitch="5 um"), asp.form.sphere("0.5 mm")
+    hard = asp.Material(young="210 GPa", poisson=0.3, plasticity=asp.Plasticity(yield_stress="1.5 GPa"))
+
+    def rolled(out: pathlib.Path | None = None, **more: object) -> asp.Run:
+        return asp.simulate(
+            plane, ball, hard, STEEL, load="6 N", passes=2, stride=2, strategy="shift", control="step-load", boundary="periodic",
+            plasticity={"depth": "50 um", "layers": 6, "growth": 1.2, **more}, progress=False, out=out,
+        )  # fmt: skip
+
+    run = rolled()
+    flow = run.flow()["lower"]
+    assert list(run.flow()) == ["lower"] and flow.strain.shape == (6, 24, 12, 6)
+    assert flow.accumulated.max() == run.passes["max_plastic_strain_lower"][1] > 0.0
+    assert np.allclose(run.lower().heights, -flow.displacement, atol=1e-18)
+    assert (run.passes["plastic_work_lower"] > 0.0).all() and (run.passes["plastic_work_upper"] == 0.0).all()
+    assert run.steps["products"].sum() > 24 and run.regime in {"undecided", "shakes-down"}
+    with pytest.raises(OSError, match="plasticity-0001"):
+        run.flow(1)
+    kept = rolled(tmp_path / "out", keep="passes")
+    assert kept.flow(2)["lower"] == flow and kept.flow(1)["lower"].accumulated.sum() < flow.accumulated.sum()
+    assert asp.simulate(asp.form.flat((8, 8), pitch="1 um"), ball, STEEL, STEEL, load=1e-3, progress=False).regime is None
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_flows_sticks_and_slips() -> None:
+    contact = pressed(friction={"coefficient": 0.3, "force": ["2 N", 0]})
+    assert {"traction_x", "slip_x", "stick"} <= set(contact.fields)
+    assert contact.numbers["tangential_force"][0] == pytest.approx(2.0, rel=1e-4)
+    assert contact.numbers["dissipation"] > 0.0 and contact.numbers["stick_area"] > 0.0
+    assert contact.numbers["plastic_work"] != pressed().numbers["plastic_work"]

@@ -18,7 +18,7 @@ struct Kit {
 }
 
 /// The examples that the command writes.
-const KITS: [Kit; 6] = [
+const KITS: [Kit; 7] = [
     Kit {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -47,6 +47,11 @@ const KITS: [Kit; 6] = [
         name: "running-in",
         about: "wear, tribofilm and flash temperature over 100 000 passes, 141 of them computed",
         files: &[("case.toml", include_bytes!("../examples/running-in/case.toml"))],
+    },
+    Kit {
+        name: "rolling",
+        about: "a ball rolls ten times over ground steel, which flows below its surface and shakes down",
+        files: &[("case.toml", include_bytes!("../examples/rolling/case.toml"))],
     },
     Kit {
         name: "paper",

@@ -119,9 +119,9 @@ fn flow<'py>(py: Python<'py>, flowed: Flowed) -> PyResult<Bound<'py, PyDict>> {
         let body = PyDict::new(py);
         let left = left.unwrap_or_else(|| volume.clone());
         body.set_item("depths", volume.faces)?;
-        body.set_item("strain", tensor(volume.strain))?;
-        body.set_item("accumulated", layers_last(volume.accumulated.into_dyn(), &[1, 2, 0]))?;
-        if let Some(back) = volume.back_stress {
+        body.set_item("strain", tensor(volume.state.strain))?;
+        body.set_item("accumulated", layers_last(volume.state.accumulated.into_dyn(), &[1, 2, 0]))?;
+        if let Some(back) = volume.state.back_stress {
             body.set_item("back_stress", tensor(back))?;
         }
         body.set_item("displacement", array(py, volume.displacement))?;

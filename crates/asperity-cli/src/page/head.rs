@@ -64,8 +64,8 @@ fn verdict(found: &Found) -> String {
         }
         if let Some(flow) = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref()) {
             text += &format!(", {}", flow.regime);
-            if let Some(rate) = flow.rate {
-                text += &format!(" by {} a pass", format(rate, Dimension::Length));
+            if let Some(rate) = flow.strain_per_pass {
+                text += &format!(", strain grows by {} % a pass", format_number(100.0 * rate));
             }
         }
         return text + ".";

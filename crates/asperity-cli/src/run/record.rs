@@ -20,9 +20,13 @@ pub(super) fn text(case: &Case, summary: &Summary) -> String {
 
 /// What becomes of bodies that flow pass after pass.
 fn flow_line(flow: &FlowRecord) -> String {
-    let rate = flow.rate.map_or(String::new(), |rate| {
-        format!(", the surface moves by {} a pass", format(rate, Dimension::Length))
-    });
+    let rate = match (flow.strain_per_pass, flow.shift_per_pass) {
+        (Some(strain), Some(shift)) => {
+            let (strain, shift) = (format_number(100.0 * strain), format(shift, Dimension::Length));
+            format!(": strain grows by {strain} %, the surface moves by {shift} a pass")
+        }
+        _ => String::new(),
+    };
     format!(
         "{}{rate}; largest plastic strain {}, plastic work {}, residual tension up to {}\n",
         flow.regime,

@@ -3,7 +3,7 @@
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
 use crate::motion::record::{FlowRecord, FlowStepRecord, PassFlowRecord, PassRecord, StepRecord};
-use crate::motion::regime::Regime;
+use crate::motion::regime::{self, Regime};
 use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, TensorField};
 use crate::stress::{Component, Stress};
 use crate::units::{CubicMetre, Joule, Metre, Pascal};
@@ -217,7 +217,8 @@ impl FlowRecord {
             products: sums.products,
             mismatch: sums.mismatch,
             regime: if max_plastic_strain > 0.0 { Regime::Yields } else { Regime::Elastic },
-            rate: None,
+            strain_per_pass: None,
+            shift_per_pass: None,
             residual: None,
         }
     }
@@ -225,7 +226,7 @@ impl FlowRecord {
 
 impl FlowRecord {
     /// What a motion of these positions and passes has left, once the load is taken off.
-    pub(crate) fn of_passes(left: &[FlowedVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
+    pub fn of_passes(left: &[FlowedVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
         let steps = steps.iter().filter_map(|step| step.flow);
         let passes: Vec<PassFlowRecord> = passes.iter().filter_map(|pass| pass.flow).collect();
         let mut sums = FlowSums::default();
@@ -234,8 +235,10 @@ impl FlowRecord {
             sums.mismatch = sums.mismatch.max(step.mismatch);
         }
         sums.plastic_work = passes.iter().map(|pass| pass.plastic_work_lower + pass.plastic_work_upper).sum();
-        let (regime, rate) = Regime::of(&passes);
-        Self { regime, rate, ..Self::of(left, &sums) }
+        let regime = Regime::of(&passes);
+        let (strain_per_pass, shift_per_pass) =
+            regime::rates(&passes).filter(|_| regime == Regime::Ratchets).unzip();
+        Self { regime, strain_per_pass, shift_per_pass, ..Self::of(left, &sums) }
     }
 }
 

@@ -69,9 +69,12 @@ pub struct FlowRecord {
     pub mismatch: f64,
     /// What becomes of the bodies.
     pub regime: Regime,
-    /// By how much the surface of the body where it moves more moves along x in a pass, where the bodies ratchet; none elsewhere.
+    /// Where the bodies ratchet, by how much the largest plastic strain grows in a pass; none elsewhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rate: Option<Metre>,
+    pub strain_per_pass: Option<f64>,
+    /// Where the bodies ratchet, by how much the surface moves along x in a pass, that of the body where it moves more; none elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shift_per_pass: Option<Metre>,
     /// What is left once the load is taken off; none where it is not.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub residual: Option<ResidualRecord>,

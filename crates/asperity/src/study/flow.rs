@@ -19,7 +19,9 @@ pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<
     Ok([of_body(0)?, of_body(1)?])
 }
 
-/// How the bodies of `case` are pressed together by these `stages`.
+/// How bodies that flow are pressed together by these `stages`; the load is taken off in as many steps as the first has.
 pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> FlowPath {
-    FlowPath::new(stages).with_unloading(spec.unload.then_some(spec.increments)).with_flow(spec.params())
+    let steps = stages.first().map_or(1, |stage| stage.increments);
+    let unloading = spec.unload.unwrap_or(true).then_some(steps);
+    FlowPath::new(stages).with_unloading(unloading).with_flow(spec.params())
 }

@@ -175,6 +175,7 @@ mod tests {
             ("line", "8fb19859"),
             ("looked_into", "af5e8b80"),
             ("measured", "eb457a9e"),
+            ("ploughed", "a7abdeb1"),
             ("prepared", "fc13f0ca"),
             ("pushed", "137f2c48"),
             ("rolled", "4de6a6f8"),

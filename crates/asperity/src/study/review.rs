@@ -248,6 +248,10 @@ fn settled(passes: &[PassRecord]) -> Option<String> {
     const MANY: usize = 10;
     /// Share of the largest volume that a pass has moved, up to which one moves none.
     const NONE: f64 = 1e-6;
+    // What flow below the surfaces does has a verdict of its own.
+    if passes.iter().any(|pass| pass.flow.is_some()) {
+        return None;
+    }
     let moved = |pass: &PassRecord| {
         let volumes = pass.lost.iter().flat_map(|lost| lost.whole);
         volumes.map(f64::abs).sum::<f64>() / pass.represents() as f64

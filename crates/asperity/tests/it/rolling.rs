@@ -108,7 +108,7 @@ fn hertz(times: f64) -> f64 {
 
 fn regime(kept: &Kept) -> Regime {
     let passes: Vec<_> = kept.passes.iter().filter_map(|pass| pass.flow).collect();
-    Regime::of(&passes).0
+    Regime::of(&passes)
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let one = groove(&overlap.displacement[0], std::array::from_fn(|n| 26 + n));
     let other = groove(&shifted.displacement[0], std::array::from_fn(|n| 46 + n));
     assert!((one / other - 1.0).abs() < 0.04, "{one:e} {other:e}, load {load}");
-    assert_eq!(overlap.passes[0].flow.unwrap().plastic_work_rim > 0.0, true);
+    assert!(overlap.passes[0].flow.unwrap().plastic_work_rim > 0.0);
 }
 
 #[test]
@@ -402,4 +402,41 @@ fn an_interrupted_motion_goes_on_to_the_same_bits_and_keeps_the_volumes_asked_fo
         fields.read("accumulated_lower").unwrap().values.sum()
     };
     assert!(strain(1) > 0.0 && strain(1) < strain(2) && strain(2) < strain(3));
+}
+
+/// A motion whose results warn of what its model bears badly, and of nothing where it does not.
+#[test]
+fn what_the_model_bears_badly_is_told() {
+    let warnings = |edits: &[(&str, &str)]| {
+        let mut text = String::from(
+            "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\nplasticity = { yield_stress = \"1.5 GPa\" }\n[lower.topography]\n\
+             form = \"flat\"\nshape = [48, 24]\npitch = \"5 um\"\n[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\n[upper.topography]\n\
+             form = \"sphere\"\nradius = \"0.5 mm\"\n[contact]\nload = \"5 N\"\nboundary = \"periodic\"\n[plasticity]\n\
+             depth = \"80 um\"\nlayers = 12\ngrowth = 1.1\n[motion]\nstrategy = \"shift\"\ncontrol = \"step-load\"\npasses = 1\n",
+        );
+        for (is, becomes) in edits {
+            assert!(text.contains(is), "{is}");
+            text = text.replace(is, becomes);
+        }
+        let case = Case::parse(&text, Path::new("rolling.toml"), Path::new("")).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        study::run(&case, Given::default(), &out, Existing::Keep, &()).unwrap().0.warnings.join("\n")
+    };
+    assert_eq!(warnings(&[]), "");
+    assert!(warnings(&[("\"80 um\"", "\"20 um\"")]).contains("flows in the deepest layer"));
+    assert!(warnings(&[("layers = 12", "layers = 4")]).contains("more than a quarter of the contact across"));
+    assert!(warnings(&[("passes = 1", "passes = 1\nstride = 4")]).contains("a step of 4 cells is"));
+    assert!(warnings(&[("\"5 N\"", "\"60 N\"")]).contains("the largest plastic strain is"));
+    let overlap = [
+        ("strategy = \"shift\"\n", ""),
+        ("boundary = \"periodic\"", "boundary = \"free\""),
+        ("form = \"sphere\"\nradius = \"0.5 mm\"", "form = \"flat\""),
+        ("\"5 N\"", "\"1.5 N\""),
+        ("[48, 24]", "[12, 10]"),
+        ("\"80 um\"", "\"45 um\""),
+        ("passes = 1", "passes = 1\nstride = 3"),
+    ];
+    let told = warnings(&overlap);
+    assert!(told.contains("edges plough") && told.contains("flows at the edge of the grid"), "{told}");
 }

@@ -128,7 +128,7 @@ impl Case {
         }
         let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
-        let flowing = self.plasticity.map_or(1, |plasticity| plasticity.increments);
+        let flowing = self.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
         let increments = friction.map_or(flowing, |friction| friction.increments);
         let mut stages = vec![Stage { loading, increments }];
         for stage in &self.history {
@@ -248,7 +248,12 @@ pub(super) fn history(
     friction: Option<&FrictionSpec>,
     plasticity: Option<&PlasticitySpec>,
 ) -> Result<Vec<StageSpec>> {
-    let steps = plasticity.map_or(1, |plasticity| plasticity.increments);
+    // Bodies that flow go on in the steps in which they have begun.
+    let steps = match (plasticity, friction) {
+        (None, _) => 1,
+        (Some(_), Some(friction)) => friction.increments,
+        (Some(plasticity), None) => plasticity.increments.unwrap_or(1),
+    };
     tables
         .iter()
         .map(|table| {

@@ -54,14 +54,17 @@ pub struct PlasticitySpec {
     pub layers: usize,
     /// Thickness of a layer over that of the one above, 1 to 2.
     pub growth: f64,
-    /// Equal steps of the load of a static contact without friction, and of taking it off, ≥ 1.
-    pub increments: usize,
+    /// Equal steps of the load of a static contact, ≥ 1; none with friction, which has them, nor in a motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub increments: Option<usize>,
     /// Largest mismatch of the stress over the yield stress, 0 < tolerance < 1.
     pub tolerance: f64,
-    /// Whether the load of a static contact is taken off at the end.
-    pub unload: bool,
-    /// Of which passes of a motion the volumes are kept.
-    pub keep: Keep,
+    /// Whether the load of a static contact is taken off at the end; none in a motion, where it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unload: Option<bool>,
+    /// Of which passes of a motion the volumes are kept; none of a contact at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keep: Option<Keep>,
 }
 
 /// The passes of a motion whose volumes are kept.
@@ -210,10 +213,13 @@ pub(super) fn plasticity(
         let hint = Some("leave it out: a contact at rest has one volume, that of its end".to_owned());
         return Err(entry.error("'keep' is that of the passes of a [motion]".to_owned(), hint));
     }
+    let at_rest = motion.is_none();
     let increments = table.get("increments").map_or(Ok(DEFAULT_INCREMENTS), |entry| entry.count(1))?;
-    if let Some(friction) = friction.as_mut().filter(|_| motion.is_none()) {
+    if let Some(friction) = friction.as_mut().filter(|_| at_rest) {
         rubs(root, &table, friction, increments)?;
     }
+    let unload = table.get("unload").map_or(Ok(true), |entry| entry.flag())?;
+    let keep = table.choice_or("keep", Keep::Last)?;
     let tolerance = table
         .get("tolerance")
         .map(|entry| entry.number(|value| value > 0.0 && value < 1.0, "a number above 0, below 1"));
@@ -221,10 +227,10 @@ pub(super) fn plasticity(
         depth,
         layers,
         growth: growth.transpose()?.unwrap_or(1.0),
-        increments,
+        increments: (at_rest && friction.is_none()).then_some(increments),
         tolerance: tolerance.transpose()?.unwrap_or(1e-4),
-        unload: table.get("unload").map_or(Ok(true), |entry| entry.flag())?,
-        keep: table.choice_or("keep", Keep::Last)?,
+        unload: at_rest.then_some(unload),
+        keep: (!at_rest).then_some(keep),
     }))
 }
 

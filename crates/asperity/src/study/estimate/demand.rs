@@ -218,8 +218,9 @@ impl Sizes<'_> {
             None => {
                 let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
                 let [flowing, unloading] = PRODUCTS;
-                let unloading = if plasticity.unload { unloading } else { 0.0 };
-                let first = plasticity.increments as f64;
+                let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
+                let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
+                let first = plasticity.increments.unwrap_or(friction) as f64;
                 flowing * (first + later as f64) + unloading * first
             }
         };
