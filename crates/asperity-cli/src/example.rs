@@ -17,8 +17,11 @@ struct Kit {
     files: &'static [(&'static str, &'static [u8])],
 }
 
+/// The study of an example that has one.
+const STUDY: &str = "load.toml";
+
 /// The examples that the command writes.
-const KITS: [Kit; 7] = [
+const KITS: [Kit; 8] = [
     Kit {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -54,6 +57,14 @@ const KITS: [Kit; 7] = [
         files: &[("case.toml", include_bytes!("../examples/rolling/case.toml"))],
     },
     Kit {
+        name: "study",
+        about: "many cases made of one: contact area over pressure for two roughnesses, in samples",
+        files: &[
+            ("case.toml", include_bytes!("../examples/study/case.toml")),
+            (STUDY, include_bytes!("../examples/study/load.toml")),
+        ],
+    },
+    Kit {
         name: "paper",
         about: "the paper's problem: 100 × 100 cells, every position of 3 passes",
         files: &[("case.toml", include_bytes!("../examples/paper/case.toml"))],
@@ -71,7 +82,11 @@ pub(crate) fn example(arguments: &Example) -> Outcome {
         return Err(Failure::usage(message, Some("name another folder with --out")));
     }
     let paths = write(kit, &folder)?;
-    note(&format!("next: asperity run {}", folder.join("case.toml").display()));
+    let next = match kit.files.iter().any(|(name, _)| *name == STUDY) {
+        true => format!("study {}", folder.join(STUDY).display()),
+        false => format!("run {}", folder.join("case.toml").display()),
+    };
+    note(&format!("next: asperity {next}"));
     print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }
 

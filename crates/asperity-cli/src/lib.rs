@@ -12,6 +12,7 @@ mod plot;
 mod report;
 mod run;
 mod signals;
+mod study;
 mod surface;
 mod threads;
 mod verify;
@@ -50,10 +51,12 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
     };
     threads::start(match &command {
         Command::Run(arguments) => arguments.threads.map(usize::from),
+        Command::Study(arguments) => arguments.threads.map(usize::from),
         _ => None,
     })?;
     match command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Study(arguments) => study::study(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Example(arguments) => example::example(&arguments),
         Command::Surface(arguments) => surface::surface(arguments),

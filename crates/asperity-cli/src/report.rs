@@ -26,6 +26,10 @@ pub(crate) enum Failure {
     Threads { reason: String },
     /// Figures that were stopped; the results are there.
     FiguresInterrupted { directory: PathBuf },
+    /// A study that was stopped; what is done stays.
+    StudyInterrupted,
+    /// Cases of a study that have no results.
+    Cases { failed: usize, all: usize },
     /// The command cannot do what it is asked for.
     Usage { message: String, hint: Option<String> },
 }
@@ -85,8 +89,8 @@ pub(crate) fn exit_code(failure: &Failure) -> u8 {
     match failure {
         Failure::Library(error) => code(error),
         Failure::Figure(error) => code_of_io(&error.source),
-        Failure::Checks { .. } | Failure::Stdout(_) | Failure::Threads { .. } => 1,
-        Failure::FiguresInterrupted { .. } => 130,
+        Failure::Checks { .. } | Failure::Cases { .. } | Failure::Stdout(_) | Failure::Threads { .. } => 1,
+        Failure::FiguresInterrupted { .. } | Failure::StudyInterrupted => 130,
         Failure::Usage { .. } => 2,
     }
 }
@@ -133,6 +137,8 @@ fn render(failure: &Failure, renderer: &Renderer) -> String {
         Failure::FiguresInterrupted { directory } => {
             Some(format!("the results are whole; `asperity plot {}` draws the figures", directory.display()))
         }
+        Failure::StudyInterrupted => Some("the same command goes on".to_owned()),
+        Failure::Cases { .. } => Some("`--list` tells why, `--retry` computes them again".to_owned()),
         Failure::Figure(_) | Failure::Checks { .. } | Failure::Stdout(_) => None,
         Failure::Usage { hint, .. } => hint.clone(),
     };
@@ -159,6 +165,8 @@ pub(crate) fn message(failure: &Failure) -> String {
         Failure::Library(other) => other.to_string(),
         Failure::Figure(error) => error.to_string(),
         Failure::Checks { failed, all } => format!("{failed} of {all} checks against closed forms failed"),
+        Failure::StudyInterrupted => "interrupted".to_owned(),
+        Failure::Cases { failed, all } => format!("{failed} of {all} cases failed"),
         Failure::Stdout(error) => format!("standard output: {error}"),
         Failure::Threads { reason } => format!("threads cannot be made: {reason}"),
         Failure::FiguresInterrupted { .. } => "interrupted before all figures were drawn".to_owned(),
@@ -275,12 +283,15 @@ fn hint(error: &Error) -> Option<String> {
         Error::ResultsExist { results: true, .. } => Some(
             "--overwrite replaces them, --resume goes on from them, --out names another directory".to_owned(),
         ),
-        Error::ResultsExist { results: false, .. } | Error::WithinResults { .. } => {
+        Error::ResultsExist { results: false, .. }
+        | Error::WithinResults { .. }
+        | Error::NotThisStudy { .. } => {
             Some("--out names another directory".to_owned())
         }
         Error::OtherCase { .. } | Error::SurfaceChanged { .. } | Error::NotResumable { .. } => {
             Some("--overwrite computes all of it anew, --out names another directory".to_owned())
         }
+        Error::NotExclusive { .. } => Some("--out names a directory on another file system".to_owned()),
         Error::InUse { .. } => Some("--out names another directory".to_owned()),
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {

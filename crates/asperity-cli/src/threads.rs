@@ -1,19 +1,54 @@
 //! The threads that share the work of a command.
 
+use std::env;
 use std::thread::available_parallelism;
 
 use rayon::ThreadPoolBuilder;
 
 use crate::report::{Failure, Outcome, note};
 
-/// Makes so many threads, by default one for each core; the first of them is the one that calls.
+/// Makes so many threads, by default as many as are this process's; the first of them is the one that calls.
 pub(crate) fn start(wanted: Option<usize>) -> Outcome {
+    // Of them rayon knows its own variable, the affinity of the process and the share of its control group.
     let cores = available_parallelism().map_or(1, usize::from);
     if let Some(wanted) = wanted.filter(|wanted| *wanted > cores) {
         note(&format!(
             "note: --threads {wanted} is more than the {cores} of this machine's cores: more memory, no less time"
         ));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(wanted.unwrap_or(0)).use_current_thread();
+    let own = env::var_os("RAYON_NUM_THREADS").is_none_or(|value| value.is_empty());
+    let share = own.then(|| share_of_scheduler(|name| env::var(name).ok())).flatten();
+    let threads = wanted.or(share.map(|share| share.min(cores))).unwrap_or(0);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).use_current_thread();
     pool.build_global().map_err(|error| Failure::Threads { reason: error.to_string() })
+}
+
+/// Threads of its own, so many, to work in.
+pub(crate) fn some(threads: usize) -> Outcome<rayon::ThreadPool> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Failure::Threads { reason: error.to_string() })
+}
+
+/// The cores that SLURM gives to a task; where it tells no number for a task, those of the job on this machine.
+fn share_of_scheduler(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
+    let count = |name| variable(name)?.trim().parse().ok().filter(|count| *count >= 1);
+    count("SLURM_CPUS_PER_TASK").or_else(|| count("SLURM_CPUS_ON_NODE"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_a_task_is_what_the_scheduler_says() {
+        let told = |known: &'static [(&str, &str)]| {
+            share_of_scheduler(|name| {
+                known.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned())
+            })
+        };
+        assert_eq!(told(&[]), None);
+        assert_eq!(told(&[("SLURM_CPUS_PER_TASK", "4"), ("SLURM_CPUS_ON_NODE", "128")]), Some(4));
+        assert_eq!(told(&[("SLURM_CPUS_ON_NODE", "8")]), Some(8));
+        assert_eq!(told(&[("SLURM_CPUS_PER_TASK", "all")]), None);
+    }
 }

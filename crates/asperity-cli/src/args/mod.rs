@@ -3,6 +3,7 @@
 mod drawing;
 mod generate;
 mod preparation;
+mod study;
 mod surface;
 mod values;
 
@@ -15,6 +16,7 @@ use crate::report::{Failure, Outcome, written};
 
 pub(crate) use drawing::Drawing;
 pub(crate) use generate::{Generate, Recipe};
+pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
 
 /// Contact of two rough surfaces that press together and move
@@ -62,6 +64,7 @@ const MAX_CHARACTERS: usize = 2000;
 #[expect(clippy::large_enum_variant, reason = "there is one in a process")]
 pub(crate) enum Command {
     Run(Run),
+    Study(Study),
     Check(Check),
     Example(Example),
     #[command(subcommand)]
@@ -99,7 +102,7 @@ pub(crate) struct Run {
     /// Replace the results that are there
     #[arg(long)]
     pub(crate) overwrite: bool,
-    /// Threads over the positions of a pass, at most 1024; by default as many as the machine has cores
+    /// Threads over the positions of a pass, at most 1024; by default the share of a scheduler or container, else all cores
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
     /// No progress and no table, only warnings and errors

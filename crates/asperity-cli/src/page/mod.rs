@@ -15,6 +15,7 @@ mod html;
 mod live;
 mod packed;
 mod plane;
+mod study;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -35,6 +36,7 @@ use crate::figures;
 use crate::report::{Outcome, print};
 use found::Found;
 pub(crate) use live::LivePage;
+pub(crate) use study::write_study;
 
 /// Name of the page in a results directory.
 const FILE: &str = "report.html";
@@ -94,7 +96,17 @@ fn page(results: &Results) -> asperity::Result<String> {
 }
 
 fn document(found: &Found, sections: &[Section], data: &Value) -> String {
-    let title = html::escaped(&head::title(found));
+    let with_pictures = |(id, title, html): &Section| {
+        let pictures = if *id == "contact" { pictures(found.results) } else { String::new() };
+        (*id, *title, html.as_ref().map(|html| format!("{html}{pictures}")))
+    };
+    let sections: Vec<Section> = sections.iter().map(with_pictures).collect();
+    framed(&head::title(found), &head::html(found), &sections, data)
+}
+
+/// A page of a title, what stands above all sections, those sections that there are, and the data for its programs.
+fn framed(title: &str, head: &str, sections: &[Section], data: &Value) -> String {
+    let title = html::escaped(title);
     let there = || sections.iter().filter_map(|(id, title, html)| Some((id, title, html.as_ref()?)));
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -108,15 +120,12 @@ fn document(found: &Found, sections: &[Section], data: &Value) -> String {
         let _ = write!(page, "<a href=\"#{id}\">{title}</a> ");
     }
     page += "</nav><button type=\"button\" id=\"theme\" hidden>dark</button></header>\n<main id=\"main\">\n";
-    let _ = writeln!(page, "<section id=\"head\">{}</section>", head::html(found));
+    let _ = writeln!(page, "<section id=\"head\">{}</section>", head);
     for (id, title, html) in there() {
         let _ = write!(
             page,
             "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>{html}"
         );
-        if *id == "contact" {
-            page += &pictures(found.results);
-        }
         page += "</section>\n";
     }
     let data = html::script_data(data);

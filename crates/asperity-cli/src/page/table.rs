@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use asperity::study::dimension_of_column;
 use asperity::units::{CELSIUS, Dimension, Multiple, format, format_number};
 
 use super::html::escaped;
@@ -152,42 +153,11 @@ fn vector(column: &str) -> Option<&str> {
 
 /// What the column or key measures, by its name.
 fn kind(name: &str) -> Kind {
-    // The first word that a name has; `max_pressure`, `plastic_volume_lower_interior`.
-    const WORDS: [(&str, Kind); 27] = [
-        ("friction_coefficient", Kind::Number),
-        ("fraction", Kind::Number),
-        ("ratio", Kind::Number),
-        ("cells", Kind::Number),
-        ("columns", Kind::Number),
-        ("temperature", Kind::Celsius),
-        ("friction_power", Kind::Of(Dimension::Power)),
-        ("work", Kind::Of(Dimension::Energy)),
-        ("volume", Kind::Of(Dimension::Volume)),
-        ("area", Kind::Of(Dimension::Area)),
-        ("pressure", Kind::Of(Dimension::Pressure)),
-        ("shear", Kind::Of(Dimension::Pressure)),
-        ("tension", Kind::Of(Dimension::Pressure)),
-        ("strain_position", Kind::Of(Dimension::Length)),
-        ("strain", Kind::Number),
-        ("von_mises", Kind::Of(Dimension::Pressure)),
-        ("stiffness", Kind::Of(Dimension::Stiffness)),
-        ("energy", Kind::Of(Dimension::Energy)),
-        ("dissipation", Kind::Of(Dimension::Energy)),
-        ("force", Kind::Of(Dimension::Force)),
-        ("load", Kind::Of(Dimension::Force)),
-        ("time", Kind::Of(Dimension::Time)),
-        ("displacement", Kind::Of(Dimension::Length)),
-        ("distance", Kind::Of(Dimension::Length)),
-        ("approach", Kind::Of(Dimension::Length)),
-        ("offset", Kind::Of(Dimension::Length)),
-        ("gap", Kind::Of(Dimension::Length)),
-    ];
-    /// How names of other lengths begin.
-    const LENGTHS: [&str; 4] = ["sq_", "max_wear", "mean_film", "error_"];
-    if LENGTHS.iter().any(|begin| name.starts_with(begin)) {
-        return Kind::Of(Dimension::Length);
+    match dimension_of_column(name) {
+        Some(Dimension::Temperature) => Kind::Celsius,
+        Some(dimension) => Kind::Of(dimension),
+        None => Kind::Number,
     }
-    WORDS.iter().find(|(word, _)| name.contains(word)).map_or(Kind::Number, |(_, kind)| *kind)
 }
 
 #[cfg(test)]

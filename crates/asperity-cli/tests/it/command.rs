@@ -18,6 +18,7 @@ fn every_command_has_help_with_an_exit_code() {
     }
     for command in [
         "run",
+        "study",
         "check",
         "example",
         "surface",
@@ -367,7 +368,10 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
     let folder = folder();
     let list = ok(&run(folder.path(), "example"));
     let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["quickstart", "hertz", "friction", "measured", "running-in", "rolling", "paper"]);
+    assert_eq!(
+        names,
+        ["quickstart", "hertz", "friction", "measured", "running-in", "rolling", "study", "paper"]
+    );
     for name in names {
         ok(&run(folder.path(), &format!("example {name}")));
         let output = run(folder.path(), &format!("check {name}/case.toml"));

@@ -27,12 +27,24 @@ struct Variant {
     except: &'static [&'static str],
 }
 
-const VARIANTS: [Variant; 15] = [
+const VARIANTS: [Variant; 17] = [
     as_it_stands("quickstart"),
     as_it_stands("hertz"),
     as_it_stands("friction"),
     as_it_stands("measured"),
     as_it_stands("paper"),
+    as_it_stands("study"),
+    Variant {
+        name: "study-small",
+        example: "study",
+        edits: &[
+            ("shape = [64, 64]", "shape = [24, 20]"),
+            ("\"16 um\"", "\"8 um\""),
+            ("[contact]", "[contact]\ntolerance = 1e-12"),
+        ],
+        tolerance: 1e-8,
+        except: &[],
+    },
     Variant {
         name: "hertz-small",
         example: "hertz",

@@ -4,6 +4,7 @@ mod command;
 mod digests;
 mod documents;
 mod run;
+mod study;
 #[cfg(unix)]
 mod survival;
 mod support;

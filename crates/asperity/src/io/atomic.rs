@@ -19,6 +19,22 @@ pub fn replace(path: &Path, contents: &[u8]) -> Result<()> {
     write_with(path, |file| file.write_all(contents))
 }
 
+/// Makes the file at `path` with these contents, unless there is one; whether it did. Of several processes one makes it.
+///
+/// # Errors
+/// As [`replace`].
+pub(crate) fn create(path: &Path, contents: &[u8]) -> Result<bool> {
+    let failed = |source| Error::File { path: path.to_owned(), source };
+    let mut temporary = create_in(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
+    let _ = temporary.as_file().try_lock();
+    temporary.write_all(contents).and_then(|()| temporary.as_file().sync_all()).map_err(failed)?;
+    match temporary.persist_noclobber(path) {
+        Ok(_) => Ok(true),
+        Err(error) if error.error.kind() == ErrorKind::AlreadyExists => Ok(false),
+        Err(error) => Err(failed(error.error)),
+    }
+}
+
 /// Replaces the file at `path` by what `contents` writes.
 ///
 /// The data reach the disk before the name does: a process killed at any moment leaves either the file as it

@@ -8,6 +8,7 @@ mod estimate; // what a case will take, and what to be wary of
 mod flow; // bodies that flow below their surfaces, as a case has them
 mod given; // surfaces in memory that a case names
 mod identity; // what a run is known by, to resume it
+pub mod many; // many cases made of one, in folders of their own
 mod loading; // increments of a loading, kept one by one
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to the two surfaces that meet
@@ -38,4 +39,6 @@ pub use sliding::SlidingWriter;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
 pub use sweep::SweepWriter;
-pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+pub use tables::{
+    INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS, dimension as dimension_of_column,
+};

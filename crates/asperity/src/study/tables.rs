@@ -16,6 +16,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
+use crate::units::Dimension;
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -113,6 +114,46 @@ pub const SWEEP_COLUMNS: [&str; 23] = [
     "convolutions",
     "residual",
 ];
+
+/// What a column of a table or a number of a summary measures, by its name; none of pure numbers.
+pub fn dimension(column: &str) -> Option<Dimension> {
+    // The first word that a name has; `max_pressure`, `plastic_volume_lower_interior`.
+    const WORDS: [(&str, Option<Dimension>); 27] = [
+        ("friction_coefficient", None),
+        ("fraction", None),
+        ("ratio", None),
+        ("cells", None),
+        ("columns", None),
+        ("temperature", Some(Dimension::Temperature)),
+        ("friction_power", Some(Dimension::Power)),
+        ("work", Some(Dimension::Energy)),
+        ("volume", Some(Dimension::Volume)),
+        ("area", Some(Dimension::Area)),
+        ("pressure", Some(Dimension::Pressure)),
+        ("shear", Some(Dimension::Pressure)),
+        ("tension", Some(Dimension::Pressure)),
+        ("strain_position", Some(Dimension::Length)),
+        ("strain", None),
+        ("von_mises", Some(Dimension::Pressure)),
+        ("stiffness", Some(Dimension::Stiffness)),
+        ("energy", Some(Dimension::Energy)),
+        ("dissipation", Some(Dimension::Energy)),
+        ("force", Some(Dimension::Force)),
+        ("load", Some(Dimension::Force)),
+        ("time", Some(Dimension::Time)),
+        ("displacement", Some(Dimension::Length)),
+        ("distance", Some(Dimension::Length)),
+        ("approach", Some(Dimension::Length)),
+        ("offset", Some(Dimension::Length)),
+        ("gap", Some(Dimension::Length)),
+    ];
+    /// How names of other lengths begin.
+    const LENGTHS: [&str; 4] = ["sq_", "max_wear", "mean_film", "error_"];
+    if LENGTHS.iter().any(|begin| column.starts_with(begin)) {
+        return Some(Dimension::Length);
+    }
+    WORDS.iter().find(|(word, _)| column.contains(word)).and_then(|(_, dimension)| *dimension)
+}
 
 /// Writes `sweep.csv`. A stiffness that there is not is an empty cell.
 ///
@@ -279,16 +320,21 @@ fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 }
 
 /// A record whose columns depend on what is recorded, as text.
-struct Row(Vec<(String, String)>);
+pub(super) struct Row(Vec<(String, String)>);
 
 impl Row {
-    fn of(record: &impl Serialize) -> Self {
+    pub(super) fn of(record: &impl Serialize) -> Self {
         let text = serde_json::to_string(record).expect("a record of numbers is JSON");
         serde_json::from_str(&text).expect("a record is an object")
     }
 
     fn columns(&self) -> Vec<String> {
         self.0.iter().map(|(column, _)| column.clone()).collect()
+    }
+
+    /// Columns with their values.
+    pub(super) fn cells(&self) -> &[(String, String)] {
+        &self.0
     }
 
     /// The values in the order of these columns, 0 of those that there are not.

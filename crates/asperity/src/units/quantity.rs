@@ -278,7 +278,14 @@ impl Dimension {
         format!("{} such as \"{}\"", self.noun(), self.example())
     }
 
-    const ALL: [Self; 17] = [
+    /// The SI unit itself, which [`parse`] reads: `Pa`, `m/s`, `rad`.
+    pub fn si(self) -> String {
+        let base = self.scale().base;
+        format!("{}{}", base.symbol(), base.suffix())
+    }
+
+    /// All dimensions.
+    pub const ALL: [Self; 17] = [
         Self::Length,
         Self::Area,
         Self::Volume,

@@ -8,12 +8,21 @@ use std::path::{Path, PathBuf};
 use asperity::Error;
 use asperity::error::CaseError;
 use asperity::study::Case;
+use asperity::study::many::Study;
 
 #[test]
 fn every_bad_input_is_refused_with_the_message_it_holds() {
     let files = files("bad");
     assert!(files.len() > 90, "only {} bad inputs found", files.len());
-    let wrong: Vec<_> = files.iter().filter_map(|file| check(file).err()).collect();
+    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Case::load(file).err()).err()).collect();
+    assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+#[test]
+fn every_bad_study_is_refused_with_the_message_it_holds() {
+    let files = files("bad_studies");
+    assert!(files.len() > 25, "only {} bad studies found", files.len());
+    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Study::load(file).err()).err()).collect();
     assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
 }
 
@@ -59,15 +68,17 @@ fn a_damaged_case_never_panics() {
     });
 }
 
-fn check(file: &Path) -> Result<(), String> {
+fn check(file: &Path, error: Option<Error>) -> Result<(), String> {
     let name = file.file_name().unwrap().to_string_lossy();
-    let found = match Case::load(file) {
-        Err(Error::Case(error)) => error,
-        Err(other) => return Err(format!("{name}: {other:?}")),
-        Ok(_) => return Err(format!("{name}: accepted")),
+    let found = match error {
+        Some(Error::Case(error)) => error,
+        Some(other) => return Err(format!("{name}: {other:?}")),
+        None => return Err(format!("{name}: accepted")),
     };
     let expected = Expected::of(&found.text);
-    let same = found.message == expected.message
+    // Files are named as seen from here.
+    let folder = format!("{}/", env!("CARGO_MANIFEST_DIR"));
+    let same = found.message.replace(&folder, "") == expected.message
         && found.hint == expected.hint
         && found.line == expected.line
         && columns(&found).contains(&expected.column);

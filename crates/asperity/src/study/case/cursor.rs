@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::units::{self, Dimension, MAX_COUNT, NUMBERS};
 
 /// A table `[path]`.
-pub(super) struct Table<'a> {
+pub(in crate::study) struct Table<'a> {
     document: &'a Document,
     path: String,
     span: Range<usize>,
@@ -18,11 +18,11 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn root(document: &'a Document, entries: &'a DeTable<'a>) -> Self {
+    pub(in crate::study) fn root(document: &'a Document, entries: &'a DeTable<'a>) -> Self {
         Self { document, path: String::new(), span: 0..0, entries }
     }
 
-    pub(super) fn get(&self, key: &str) -> Option<Entry<'a>> {
+    pub(in crate::study) fn get(&self, key: &str) -> Option<Entry<'a>> {
         let value = self.entries.get(key)?;
         Some(Entry {
             document: self.document,
@@ -32,13 +32,24 @@ impl<'a> Table<'a> {
         })
     }
 
+    /// All entries, in the order of the file.
+    pub(in crate::study) fn entries(&self) -> Vec<(&'a str, Entry<'a>)> {
+        let mut entries: Vec<_> = self
+            .entries
+            .keys()
+            .filter_map(|key| Some((&**key.get_ref(), self.get(key.get_ref())?)))
+            .collect();
+        entries.sort_by_key(|(_, entry)| entry.span.start);
+        entries
+    }
+
     /// An entry that must exist; `example` is a value for it.
-    pub(super) fn required(&self, key: &str, example: &str) -> Result<Entry<'a>> {
+    pub(in crate::study) fn required(&self, key: &str, example: &str) -> Result<Entry<'a>> {
         let hint = || Some(format!("for example `{key} = {example}`"));
         self.get(key).ok_or_else(|| self.error(format!("missing key '{key}' in {}", self.name()), hint()))
     }
 
-    pub(super) fn table(&self, key: &str) -> Result<Option<Table<'a>>> {
+    pub(in crate::study) fn table(&self, key: &str) -> Result<Option<Table<'a>>> {
         self.get(key).map(Entry::table).transpose()
     }
 
@@ -51,7 +62,7 @@ impl<'a> Table<'a> {
     }
 
     /// An error unless every key is among `known`. `elsewhere` explains a key that has its place in another table.
-    pub(super) fn known(
+    pub(in crate::study) fn known(
         &self,
         known: &[&str],
         elsewhere: impl Fn(&str) -> Option<(String, Option<String>)>,
@@ -89,12 +100,12 @@ impl<'a> Table<'a> {
         }
     }
 
-    pub(super) fn error(&self, message: String, hint: Option<String>) -> Error {
+    pub(in crate::study) fn error(&self, message: String, hint: Option<String>) -> Error {
         self.document.error(&self.path, self.span.clone(), message, hint)
     }
 
     pub(super) fn name(&self) -> String {
-        if self.path.is_empty() { "the case".to_owned() } else { format!("[{}]", self.path) }
+        if self.path.is_empty() { self.document.noun().to_owned() } else { format!("[{}]", self.path) }
     }
 
     pub(super) fn path(&self) -> &str {
@@ -103,7 +114,8 @@ impl<'a> Table<'a> {
 }
 
 /// A key with its value.
-pub(super) struct Entry<'a> {
+#[derive(Clone)]
+pub(in crate::study) struct Entry<'a> {
     document: &'a Document,
     path: String,
     span: Range<usize>,
@@ -111,17 +123,30 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    pub(super) fn error(&self, message: String, hint: Option<String>) -> Error {
+    pub(in crate::study) fn error(&self, message: String, hint: Option<String>) -> Error {
         self.document.error(&self.path, self.span.clone(), message, hint)
     }
 
     /// `'passes' is 0, expected …`, the value as it is written.
-    pub(super) fn unexpected(&self, expected: &str, hint: Option<String>) -> Error {
+    pub(in crate::study) fn unexpected(&self, expected: &str, hint: Option<String>) -> Error {
         let written = match self.value {
             DeValue::Table(_) => "a table".to_owned(),
             _ => self.document.written(self.span.clone()),
         };
         self.error(format!("'{}' is {written}, expected {expected}", self.key()), hint)
+    }
+
+    /// Where the value stands.
+    pub(in crate::study) fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// The value as it stands, of any type.
+    ///
+    /// # Errors
+    /// A whole number beyond ±2⁶³.
+    pub(in crate::study) fn literal(&self) -> Result<toml::Value> {
+        literal(self.value).ok_or_else(|| self.unexpected("whole numbers within ±2⁶³", None))
     }
 
     fn wrong_type(&self, expected: &str) -> Error {
@@ -136,11 +161,11 @@ impl<'a> Entry<'a> {
         self.error(format!("'{}' is {found}, expected {expected}", self.key()), None)
     }
 
-    pub(super) fn key(&self) -> &str {
+    pub(in crate::study) fn key(&self) -> &str {
         self.path.rsplit('.').next().unwrap_or_default()
     }
 
-    pub(super) fn table(self) -> Result<Table<'a>> {
+    pub(in crate::study) fn table(self) -> Result<Table<'a>> {
         match self.value {
             DeValue::Table(entries) => {
                 Ok(Table { document: self.document, path: self.path, span: self.span, entries })
@@ -150,7 +175,7 @@ impl<'a> Entry<'a> {
     }
 
     /// The tables of an array of tables.
-    pub(super) fn tables(&self) -> Result<Vec<Table<'a>>> {
+    pub(in crate::study) fn tables(&self) -> Result<Vec<Table<'a>>> {
         let expected = format!("tables [[{}]]", self.path);
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(&expected)) };
         let table = |item: &'a toml::Spanned<DeValue<'a>>| match item.get_ref() {
@@ -165,15 +190,15 @@ impl<'a> Entry<'a> {
         items.iter().map(table).collect()
     }
 
-    pub(super) fn is_array(&self) -> bool {
+    pub(in crate::study) fn is_array(&self) -> bool {
         matches!(self.value, DeValue::Array(_))
     }
 
-    pub(super) fn is_table(&self) -> bool {
+    pub(in crate::study) fn is_table(&self) -> bool {
         matches!(self.value, DeValue::Table(_))
     }
 
-    pub(super) fn text(&self) -> Result<&'a str> {
+    pub(in crate::study) fn text(&self) -> Result<&'a str> {
         self.value.as_str().ok_or_else(|| self.wrong_type("a string"))
     }
 
@@ -195,7 +220,7 @@ impl<'a> Entry<'a> {
     }
 
     /// A number without a unit.
-    pub(super) fn number(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
+    pub(in crate::study) fn number(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
         self.number_or_infinite(|value| value.is_finite() && good(value), expected)
     }
 
@@ -234,7 +259,7 @@ impl<'a> Entry<'a> {
     }
 
     /// A finite quantity.
-    pub(super) fn quantity(&self, dimension: Dimension) -> Result<f64> {
+    pub(in crate::study) fn quantity(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
         if !value.is_finite() {
             return Err(self.unexpected(&expectation(dimension, ""), None));
@@ -243,7 +268,7 @@ impl<'a> Entry<'a> {
     }
 
     /// A finite quantity above 0.
-    pub(super) fn positive(&self, dimension: Dimension) -> Result<f64> {
+    pub(in crate::study) fn positive(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
         if !(value.is_finite() && value > 0.0) {
             return Err(self.unexpected(&expectation(dimension, " above 0"), None));
@@ -285,7 +310,7 @@ impl<'a> Entry<'a> {
     }
 
     /// A whole number of at least `least`.
-    pub(super) fn whole(&self, least: u64) -> Result<u64> {
+    pub(in crate::study) fn whole(&self, least: u64) -> Result<u64> {
         let expected = format!("a whole number of at least {least}");
         match self.value {
             DeValue::Integer(digits) => u64::from_str_radix(digits.as_str(), digits.radix())
@@ -298,7 +323,7 @@ impl<'a> Entry<'a> {
     }
 
     /// [`whole`](Self::whole), as a number of things in memory.
-    pub(super) fn count(&self, least: usize) -> Result<usize> {
+    pub(in crate::study) fn count(&self, least: usize) -> Result<usize> {
         match usize::try_from(self.whole(least as u64)?) {
             Ok(count) if count <= MAX_COUNT => Ok(count),
             _ => Err(self.unexpected("a whole number of at most 10⁹", None)),
@@ -327,7 +352,7 @@ impl<'a> Entry<'a> {
     }
 
     /// The entries of an array; `expected` says what they are.
-    pub(super) fn items(&self, expected: &str) -> Result<Vec<Entry<'a>>> {
+    pub(in crate::study) fn items(&self, expected: &str) -> Result<Vec<Entry<'a>>> {
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(expected)) };
         let entry = |item: &'a toml::Spanned<DeValue<'a>>| Entry {
             document: self.document,
@@ -361,7 +386,7 @@ impl<'a> Entry<'a> {
     }
 
     /// What one of several words stands for.
-    pub(super) fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
+    pub(in crate::study) fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
         let words = || choices.iter().map(|(word, _)| *word);
         let expected =
             format!("one of {}", words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", "));
@@ -372,6 +397,29 @@ impl<'a> Entry<'a> {
             .map(|(_, choice)| *choice)
             .ok_or_else(|| self.unexpected(&expected, did_you_mean(text, words())))
     }
+}
+
+/// A value with its places taken off; none of a whole number that is too large.
+fn literal(value: &DeValue<'_>) -> Option<toml::Value> {
+    Some(match value {
+        DeValue::String(text) => toml::Value::String(text.to_string()),
+        DeValue::Integer(digits) => {
+            toml::Value::Integer(i64::from_str_radix(digits.as_str(), digits.radix()).ok()?)
+        }
+        DeValue::Float(digits) => toml::Value::Float(digits.as_str().parse().ok()?),
+        DeValue::Boolean(flag) => toml::Value::Boolean(*flag),
+        DeValue::Datetime(date) => toml::Value::Datetime(*date),
+        DeValue::Array(items) => {
+            toml::Value::Array(items.iter().map(|item| literal(item.get_ref())).collect::<Option<_>>()?)
+        }
+        DeValue::Table(entries) => {
+            let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
+                let key: &std::borrow::Cow<'_, str> = key.get_ref();
+                Some((key.to_string(), literal(value.get_ref())?))
+            };
+            toml::Value::Table(entries.iter().map(entry).collect::<Option<_>>()?)
+        }
+    })
 }
 
 /// What a quantity is called here that textbooks write as `symbol`, if the table knows it.
@@ -398,7 +446,7 @@ fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
 }
 
 /// The nearest of `words`, if it is near.
-fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
+pub(in crate::study) fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
     let likeness = |candidate: &str| strsim::jaro_winkler(candidate, &word.to_lowercase());
     let nearest = words.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
     (likeness(nearest) > 0.8).then(|| format!("did you mean `{nearest}`?"))

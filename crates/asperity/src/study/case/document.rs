@@ -12,6 +12,8 @@ use crate::error::{CaseError, Error};
 /// What an error needs in order to show its place.
 #[derive(Debug, Clone, Default)]
 pub(in crate::study) struct Document {
+    /// What the file is: "the case".
+    noun: &'static str,
     file: PathBuf,
     text: String,
     /// The places of values and of headers of tables, by dotted key.
@@ -20,11 +22,20 @@ pub(in crate::study) struct Document {
 
 impl Document {
     pub(super) fn new(file: PathBuf, text: &str) -> Self {
-        Self { file, text: text.to_owned(), spans: BTreeMap::new() }
+        Self::of("the case", file, text)
+    }
+
+    /// The text of a file that is called `noun` in messages.
+    pub(in crate::study) fn of(noun: &'static str, file: PathBuf, text: &str) -> Self {
+        Self { noun, file, text: text.to_owned(), spans: BTreeMap::new() }
+    }
+
+    pub(super) fn noun(&self) -> &'static str {
+        self.noun
     }
 
     /// Parses the text; the document then knows where each key stands.
-    pub(super) fn parse<'i>(&mut self, text: &'i str) -> Result<Spanned<DeTable<'i>>, Error> {
+    pub(in crate::study) fn parse<'i>(&mut self, text: &'i str) -> Result<Spanned<DeTable<'i>>, Error> {
         let root = DeTable::parse(text).map_err(|error| {
             let quotes = error.message().contains("must be quoted");
             let hint = quotes.then(|| "a quantity with a unit is a string: `\"210 GPa\"`".to_owned());
@@ -86,7 +97,7 @@ impl Document {
         self.error(key, self.place(key), message, hint)
     }
 
-    pub(super) fn error(
+    pub(in crate::study) fn error(
         &self,
         key: &str,
         span: Range<usize>,
@@ -112,6 +123,6 @@ impl Document {
     }
 }
 
-pub(super) fn join(path: &str, key: &str) -> String {
+pub(in crate::study) fn join(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }

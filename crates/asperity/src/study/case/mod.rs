@@ -3,7 +3,7 @@
 //! Everything is checked that the file alone can tell; each mistake is shown where it stands. A [`Case`] is in SI
 //! and serialises under the keys of the file, so that a summary holds the case that was computed.
 
-mod cursor;
+pub(in crate::study) mod cursor;
 pub(in crate::study) mod document;
 mod friction;
 mod hardness;
@@ -285,7 +285,7 @@ pub struct Output {
 }
 
 /// The largest case file that is read.
-const MAX_CASE_BYTES: u64 = 4 << 20;
+pub(in crate::study) const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
     /// Whether a body is coated.

@@ -37,6 +37,9 @@ pub(super) struct Lock {
     held: Option<File>,
 }
 
+/// The name of a case file that may lie beside its own results.
+pub(in crate::study) const CASE_FILE: &str = "case.toml";
+
 /// The file that a run locks. It stays when the run is over: only its lock says that there is one.
 const LOCK: &str = ".lock";
 
@@ -128,12 +131,13 @@ fn admit(directory: &Path, existing: Existing) -> Result<()> {
     }
 }
 
-/// Whether there is nothing but what a run leaves that ended before its `case.json`.
+/// Whether there is nothing but what a run leaves that ended before its `case.json`, and a case file.
 fn is_vacant(directory: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
         let name = entry.file_name();
         let left = name == LOCK
+            || name == CASE_FILE
             || atomic::is_temporary(&name)
             || name == OsStr::new("fields") && entry.file_type()?.is_dir() && is_vacant(&entry.path())?;
         if !left {

@@ -35,6 +35,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+pub(super) use entry::CASE_FILE;
 pub use entry::Existing;
 pub(super) use write::add_bodies;
 pub use write::{PassWriter, Writer};

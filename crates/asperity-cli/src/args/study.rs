@@ -1,0 +1,70 @@
+//! Arguments of `asperity study`.
+
+use std::path::PathBuf;
+
+use asperity::study::many::Task;
+use clap::Args;
+
+/// Compute a study: many cases made of one, over axes of values or the rows of a table
+///
+/// Each case is a folder DIR/cases/0001 with its case.toml and its results; DIR/table.csv, table.h5 and study.html tell of all of
+/// them. Any number of processes, on any machines with a common file system, may work on one study at the same time; where one
+/// is stopped or killed, another or the same command goes on. Exit code 1 if a case has failed.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  asperity example study\n  asperity study study/load.toml\n  asperity study load.toml --task \
+$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT --threads 1"
+)]
+pub(crate) struct Study {
+    /// Study file
+    #[arg(value_name = "STUDY.toml")]
+    pub(crate) study: PathBuf,
+    /// Directory of the study; by default the study file's name without its end
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Of the cases only the I-th, and every N-th after it
+    #[arg(long, value_name = "I/N", value_parser = task)]
+    pub(crate) task: Option<Task>,
+    /// Compute nothing: print what is left, and who is at it
+    #[arg(long, conflicts_with_all = ["collect", "retry"])]
+    pub(crate) list: bool,
+    /// Compute nothing: make the tables and the page of what is there
+    #[arg(long, conflicts_with = "retry")]
+    pub(crate) collect: bool,
+    /// Compute again what has failed
+    #[arg(long)]
+    pub(crate) retry: bool,
+    /// Compute more than 5000 cases
+    #[arg(long)]
+    pub(crate) yes: bool,
+    /// Threads, at most 1024: so many cases at a time; by default the share of a scheduler or container, else all cores
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// No progress, only warnings and errors
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+fn task(text: &str) -> Result<Task, String> {
+    let numbers =
+        text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+    match numbers {
+        Some((number, of)) if (1..=of).contains(&number) => Ok(Task { number, of }),
+        Some((0, of)) => Err(format!("tasks are numbered from 1: 1/{of} to {of}/{of}")),
+        Some((_, of)) => Err(format!("there are {of} tasks: 1/{of} to {of}/{of}")),
+        None => Err("expected two whole numbers such as 3/40".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_task_is_one_of_all() {
+        assert_eq!(task("3/40"), Ok(Task { number: 3, of: 40 }));
+        assert_eq!(task("5/4").unwrap_err(), "there are 4 tasks: 1/4 to 4/4");
+        assert!(task("0/4").unwrap_err().contains("from 1"));
+        assert!(task("4").is_err() && task("-1/4").is_err() && task("1/0").is_err());
+    }
+}

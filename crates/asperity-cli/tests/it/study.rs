@@ -1,0 +1,445 @@
+//! Studies: many cases made of one, by processes that come and go.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::{Duration, SystemTime};
+
+use asperity::io::fields::Fields;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::{asperity, change, command, files, ok, refused, spawn, stderr, wait_for};
+
+/// A rough body against a flat one, of few cells.
+const CASE: &str = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+hardness = "4 GPa"
+topography = { generate = "low-pass", shape = [16, 16], pitch = "1 um", sq = "20 nm", cutoff = "6 um", seed = 1 }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "flat" }
+[contact]
+load = "2 mN"
+"#;
+
+const STUDY: &str = r#"
+base = "case.toml"
+[axes]
+contact.load = ["1 mN", 0.002]
+"lower.topography.sq" = { from = "10 nm", to = "40 nm", count = 3, spacing = "log" }
+"lower.topography.seed" = { seeds = 2, first = 7 }
+[[exclude]]
+"contact.load" = { above = "1.5 mN" }
+"lower.topography.sq" = ["10 nm"]
+"#;
+
+// ---- plan, cases, tables ---------------------------------------------------------------------------------
+
+#[test]
+fn each_case_has_the_numbers_that_it_has_when_it_is_run_alone() {
+    let folder = folder_with(STUDY);
+    let output = asperity(&folder, "study load.toml");
+    assert_eq!(ok(&output), "");
+    assert!(
+        stderr(&output).contains("10 of 10 cases are done, 0 have failed; table.csv"),
+        "{}",
+        stderr(&output)
+    );
+    let path = |name: &str| folder.path().join(name);
+    let plan = fs::read_to_string(path("load/plan.csv")).unwrap();
+    let lines: Vec<&str> = plan.lines().collect();
+    assert_eq!(lines[0], "case,contact.load (N),lower.topography.sq (m),lower.topography.seed");
+    assert_eq!(lines[1..3], ["0001,0.001,1e-8,7", "0002,0.001,1e-8,8"]);
+    // The largest load on the smoothest surface is left out.
+    assert_eq!((lines.len(), lines[7], lines[10]), (11, "0007,0.002,2e-8,7", "0010,0.002,4e-8,8"));
+
+    let rows = table(&path("load/table.csv"));
+    assert_eq!(rows.len(), 10);
+    for row in &rows {
+        let case = path("load/cases").join(&row["case"]);
+        ok(&asperity(
+            &folder,
+            &format!("run {} --out alone --overwrite --quiet", case.join("case.toml").display()),
+        ));
+        let [of_study, alone] = [summary(&case), summary(&path("alone"))];
+        for key in ["load", "approach", "contact_area", "max_pressure", "mean_gap", "residual"] {
+            assert_eq!(of_study["static"][key], alone["static"][key], "{key}");
+            assert_eq!(row[key].parse::<f64>().unwrap(), alone["static"][key].as_f64().unwrap(), "{key}");
+        }
+        assert_eq!(row["contact.load (N)"].parse::<f64>().unwrap(), alone["case"]["contact"]["load"]);
+        let topography = &alone["case"]["lower"]["topography"];
+        assert_eq!(row["lower.topography.sq (m)"].parse::<f64>().unwrap(), topography["sq"]);
+        assert_eq!(row["lower.topography.seed"].parse::<u64>().unwrap(), topography["seed"]);
+        assert_eq!((row["state"].as_str(), row["message"].as_str()), ("done", ""));
+    }
+    let fields = Fields::open(&path("load/table.h5")).unwrap();
+    for (name, unit) in
+        [("contact.load", "N"), ("contact_area", "m²"), ("lower.topography.seed", ""), ("done", "")]
+    {
+        let column = fields.read(name).unwrap();
+        assert_eq!((column.unit.as_str(), column.values.len()), (unit, 10), "{name}");
+    }
+    let areas: Vec<f64> = rows.iter().map(|row| row["contact_area"].parse().unwrap()).collect();
+    assert_eq!(fields.read("contact_area").unwrap().values.into_raw_vec_and_offset().0, areas);
+
+    let page = fs::read_to_string(path("load/study.html")).unwrap();
+    assert_eq!(page.matches("<th scope=\"row\"><a href=\"cases/").count(), 10);
+    assert!(
+        page.contains("<h3>over contact.load</h3>") && page.contains("contact area over lower.topography.sq")
+    );
+    // Done is done: another call computes nothing.
+    let before = fs::metadata(path("load/cases/0003/summary.json")).unwrap().modified().unwrap();
+    ok(&asperity(&folder, "study load.toml"));
+    assert_eq!(fs::metadata(path("load/cases/0003/summary.json")).unwrap().modified().unwrap(), before);
+    assert!(files(&path("load/claims")).is_empty());
+}
+
+#[test]
+fn a_table_is_a_plan_and_the_plan_of_a_study_is_such_a_table() {
+    let folder = folder_with(
+        "base = \"case.toml\"\ntable = \"rows.csv\"\n[axes]\n\"lower.topography.seed\" = [1, 2]\n",
+    );
+    let rows = "case,contact.load (N),upper.topography.form\n1,0.001,flat\n2,0.002,flat\n";
+    fs::write(folder.path().join("rows.csv"), rows).unwrap();
+    ok(&asperity(&folder, "study load.toml"));
+    let plan = fs::read_to_string(folder.path().join("load/plan.csv")).unwrap();
+    let expected = "case,lower.topography.seed,contact.load (N),upper.topography.form\n0001,1,0.001,flat\n0002,1,0.002,flat\n\
+                    0003,2,0.001,flat\n0004,2,0.002,flat\n";
+    assert_eq!(plan, expected);
+    fs::write(folder.path().join("again.toml"), "base = \"case.toml\"\ntable = \"load/plan.csv\"\n").unwrap();
+    ok(&asperity(&folder, "study again.toml"));
+    assert_eq!(fs::read_to_string(folder.path().join("again/plan.csv")).unwrap(), plan);
+    assert_eq!(contents(&folder, "again/table.csv"), contents(&folder, "load/table.csv"));
+
+    // A mistake in a row is shown there.
+    change(&folder.path().join("rows.csv"), "2,0.002,flat", "2,0.002,flatt");
+    let error = refused(&asperity(&folder, "study load.toml --out other"));
+    assert!(error.contains("'form' is \"flatt\"") && error.contains("rows.csv:3:9"), "{error}");
+    change(&folder.path().join("rows.csv"), "0.002,flatt", ",flat");
+    let error = refused(&asperity(&folder, "study load.toml --out other"));
+    assert!(
+        error.contains("no value of 'contact.load' in this row") && error.contains("rows.csv:3:"),
+        "{error}"
+    );
+}
+
+#[test]
+fn files_are_found_from_where_the_study_lies() {
+    let folder = folder_with("");
+    let make = |seed: usize| {
+        let made = "surface generate low-pass --shape 16x16 --pitch 1um --sq 20nm --cutoff 6um";
+        ok(&asperity(&folder, &format!("{made} --seed {seed} --out there/data/{seed}.npy")));
+    };
+    fs::create_dir_all(folder.path().join("there/data")).unwrap();
+    make(1);
+    make(2);
+    let case = CASE.replace(
+        "{ generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"20 nm\", cutoff = \"6 um\", seed = 1 }",
+        "{ file = \"data/1.npy\", pitch = \"1 um\" }",
+    );
+    fs::write(folder.path().join("there/case.toml"), case).unwrap();
+    let study = "base = \"case.toml\"\n[axes]\n\"contact.load\" = [1e-3, 2e-3]\n";
+    fs::write(folder.path().join("there/loads.toml"), study).unwrap();
+    fs::write(
+        folder.path().join("there/files.toml"),
+        format!("{study}\"lower.topography.file\" = [\"data/1.npy\", \"data/2.npy\"]\n"),
+    )
+    .unwrap();
+    ok(&asperity(&folder, "study there/loads.toml --out results/loads"));
+    ok(&asperity(&folder, "study there/files.toml"));
+    let [loads, files] =
+        ["results/loads", "there/files"].map(|study| table(&folder.path().join(study).join("table.csv")));
+    assert_eq!(files[0]["lower.topography.file"], "data/1.npy");
+    let pressures = |rows: &[BTreeMap<String, String>]| {
+        rows.iter().map(|row| row["max_pressure"].clone()).collect::<Vec<_>>()
+    };
+    let [loads, files] = [pressures(&loads), pressures(&files)];
+    assert_eq!([&files[0], &files[2]], [&loads[0], &loads[1]]);
+    assert_ne!(files[0], files[1]);
+    // The study may be moved as a whole, and a case computed where it lies.
+    fs::rename(folder.path().join("there"), folder.path().join("here")).unwrap();
+    ok(&asperity(&folder, "run here/files/cases/0002/case.toml --out alone"));
+}
+
+// ---- what goes wrong -------------------------------------------------------------------------------------
+
+#[test]
+fn a_case_that_fails_has_a_row_with_its_message_and_is_done_until_it_is_retried() {
+    // Every cell at the hardness bears 1 N.
+    let folder =
+        folder_with("base = \"case.toml\"\n[axes]\n\"contact.load\" = [\"1 mN\", \"2 N\", \"2 mN\"]\n");
+    let path = |name: &str| folder.path().join(name);
+    let output = asperity(&folder, "study load.toml");
+    assert_eq!(output.status.code(), Some(1));
+    let told = "load 2 N exceeds the plastic limit";
+    assert!(stderr(&output).contains(&format!("case 0002: {told}")), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("error: 1 of 3 cases failed\nhint: `--list` tells why"),
+        "{}",
+        stderr(&output)
+    );
+    let rows = table(&path("load/table.csv"));
+    assert_eq!(rows.iter().map(|row| row["state"].as_str()).collect::<Vec<_>>(), ["done", "failed", "done"]);
+    assert!(rows[1]["message"].contains(told) && rows[1]["contact_area"].is_empty());
+    assert!(fs::read_to_string(path("load/study.html")).unwrap().contains(told));
+    let listed = asperity(&folder, "study load.toml --list");
+    assert!(ok(&listed).starts_with(&format!("0002  failed   {told}")), "{listed:?}");
+    assert!(stderr(&listed).contains("2 of 3 cases are done, 1 have failed, 0 are claimed, 0 are open"));
+
+    let modified = |name: &str| fs::metadata(path(name)).unwrap().modified().unwrap();
+    let before = ["load/cases/0001/summary.json", "load/cases/0002/failed.json"].map(modified);
+    assert_eq!(asperity(&folder, "study load.toml").status.code(), Some(1));
+    assert_eq!(["load/cases/0001/summary.json", "load/cases/0002/failed.json"].map(modified), before);
+    assert_eq!(asperity(&folder, "study load.toml --retry").status.code(), Some(1));
+    assert_eq!(modified("load/cases/0001/summary.json"), before[0]);
+    assert!(modified("load/cases/0002/failed.json") > before[1]);
+    // What failed for a reason that has gone.
+    fs::remove_file(path("load/cases/0001/summary.json")).unwrap();
+    fs::write(path("load/cases/0001/failed.json"), "{\"version\": \"0\", \"message\": \"no memory\"}")
+        .unwrap();
+    ok_or_failed(&asperity(&folder, "study load.toml --retry"));
+    assert!(path("load/cases/0001/summary.json").exists() && !path("load/cases/0001/failed.json").exists());
+    assert_eq!(table(&path("load/table.csv"))[0]["state"], "done");
+}
+
+#[test]
+fn a_study_grows_at_its_end_and_is_not_mixed_with_another() {
+    let study = |values: &str| format!("base = \"case.toml\"\n[axes]\n\"contact.load\" = [{values}]\n");
+    let folder = folder_with(&study("\"1 mN\", \"2 mN\""));
+    let write = |text: &str| fs::write(folder.path().join("load.toml"), text).unwrap();
+    ok(&asperity(&folder, "study load.toml"));
+    write(&study("\"1 mN\", \"2 mN\", \"3 mN\""));
+    ok(&asperity(&folder, "study load.toml"));
+    assert_eq!(table(&folder.path().join("load/table.csv")).len(), 3);
+    for (text, told) in [
+        (study("\"2 mN\", \"1 mN\""), "cases of its plan have other values"),
+        (
+            study("\"1 mN\"").replace("contact.load", "contact.mean_pressure"),
+            "both 'load' and 'mean_pressure'",
+        ),
+        (
+            study("1, 2").replace("contact.load", "lower.topography.seed"),
+            "its base or the keys of its axes differ",
+        ),
+    ] {
+        write(&text);
+        let error = refused(&asperity(&folder, "study load.toml"));
+        assert!(error.contains(told), "{error}");
+    }
+    write(&study("\"1 mN\""));
+    change(&folder.path().join("case.toml"), "4 GPa", "3 GPa");
+    let error = refused(&asperity(&folder, "study load.toml"));
+    assert!(
+        error.contains("load holds another study: its base") && error.contains("hint: --out names"),
+        "{error}"
+    );
+    let error = refused(&asperity(&folder, "study load.toml --out ."));
+    assert!(error.contains("is not empty, and holds no study"), "{error}");
+    let error = refused(&asperity(&folder, "study load.toml --collect --out nowhere"));
+    assert!(error.contains("nowhere holds no study"), "{error}");
+    // Neither a title nor how it is written is another study.
+    change(&folder.path().join("case.toml"), "3 GPa", "4 GPa");
+    write(&format!("title = \"named\"\n{}", study("\"1 mN\", \"2 mN\"")));
+    ok(&asperity(&folder, "study load.toml"));
+}
+
+#[test]
+fn bad_usage_of_study_is_told() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"lower.topography.seed\" = { seeds = 6000 }\n");
+    let error = refused(&asperity(&folder, "study load.toml"));
+    assert!(
+        error.contains("the study has 6000 cases") && error.contains("hint: `--yes` computes them"),
+        "{error}"
+    );
+    assert!(!folder.path().join("load").exists());
+    for task in ["5/4", "0/4", "4", "-1/4"] {
+        let error = refused(&asperity(&folder, &format!("study load.toml --task={task}")));
+        assert!(error.contains("--task"), "{error}");
+    }
+    assert!(
+        refused(&asperity(&folder, "study load.toml --task 5/4")).contains("there are 4 tasks: 1/4 to 4/4")
+    );
+    assert!(refused(&asperity(&folder, "study load.toml --list --retry")).contains("cannot be used with"));
+    assert!(refused(&asperity(&folder, "study nowhere.toml")).contains("nowhere.toml"));
+    let listed = asperity(&folder, "study load.toml --list --task 3/4");
+    assert_eq!(ok(&listed).lines().next(), Some("0003  open     lower.topography.seed = 3"));
+    assert_eq!(ok(&listed).lines().count(), 1500);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_full_disk_ends_a_process_and_no_case() {
+    let folder = folder_with(STUDY);
+    let script = format!("ulimit -f 8; exec '{}' study load.toml", env!("CARGO_BIN_EXE_asperity"));
+    let output =
+        std::process::Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("fields.h5: File too large"), "{}", stderr(&output));
+    let there = files(&folder.path().join("load"));
+    assert!(
+        !there.iter().any(|name| name.contains("failed.json") || name.starts_with("claims/")),
+        "{there:?}"
+    );
+    ok(&asperity(&folder, "study load.toml"));
+    assert_eq!(table(&folder.path().join("load/table.csv")).len(), 10);
+}
+
+// ---- many processes --------------------------------------------------------------------------------------
+
+#[test]
+fn tasks_share_a_study_and_the_last_makes_the_tables() {
+    let folder = folder_with(STUDY);
+    ok(&asperity(&folder, "study load.toml --out whole"));
+    let path = |name: &str| folder.path().join("load").join(name);
+    for number in 1..=3 {
+        let output = asperity(&folder, &format!("study load.toml --task {number}/3"));
+        ok(&output);
+        assert_eq!(path("table.csv").exists(), number == 3);
+        let done = [4, 7, 10][number - 1];
+        let told = format!("{done} of 10 cases are done");
+        assert!(stderr(&output).contains(&told), "{told}: {}", stderr(&output));
+        if number == 1 {
+            let listed = ok(&asperity(&folder, "study load.toml --list"));
+            assert!(
+                listed.starts_with("0002  open     contact.load = 1 mN") && listed.lines().count() == 6,
+                "{listed}"
+            );
+            // What is there can be looked at meanwhile.
+            ok(&asperity(&folder, "study load.toml --collect"));
+            assert_eq!(table(&path("table.csv")).len(), 4);
+            fs::remove_file(path("table.csv")).unwrap();
+        }
+    }
+    for name in ["table.csv", "table.h5"] {
+        assert!(
+            contents(&folder, &format!("load/{name}")) == contents(&folder, &format!("whole/{name}")),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_case_that_another_process_computes_is_left_to_it() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"motion.passes\" = [100000, 1]\n");
+    add_motion(&folder);
+    let path = |name: &str| folder.path().join("load").join(name);
+    let mut first = spawn(&folder, "study load.toml --threads 1");
+    wait_for(&mut first, &path("cases/0001/passes.csv"));
+    let output = asperity(&folder, "study load.toml --threads 1");
+    ok(&output);
+    let told = "1 of 2 cases are done, 0 have failed, 1 are under way elsewhere, 0 are left";
+    assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    let listed = ok(&asperity(&folder, "study load.toml --list"));
+    assert!(listed.starts_with("0001  claimed  ") && !listed.contains("gone"), "{listed}");
+    first.kill().unwrap();
+    first.wait().unwrap();
+    // On this machine it is known at once that the process has gone.
+    let listed = ok(&asperity(&folder, "study load.toml --list"));
+    assert!(listed.contains("gone"), "{listed}");
+    let mut next = spawn(&folder, "study load.toml --threads 1");
+    let claimed = std::time::Instant::now();
+    while !path("claims/0001-2").exists() {
+        assert!(claimed.elapsed() < Duration::from_secs(60), "nobody takes the case over");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    crate::support::send("INT", &next);
+    assert_eq!(next.wait().unwrap().code(), Some(130));
+    assert!(files(&path("claims")).is_empty(), "who is interrupted gives back what it had");
+}
+
+/// As many kills as `ASPERITY_KILLS` says.
+#[test]
+fn processes_that_are_killed_at_random_lose_no_case_and_count_none_twice() {
+    let kills: usize = std::env::var("ASPERITY_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(6);
+    let study = "base = \"case.toml\"\nstale_after = \"1 s\"\n[axes]\n\"contact.load\" = { from = \"1 mN\", to = \"5 mN\", count = 5 }\n\
+                 \"lower.topography.seed\" = { seeds = 4 }\n\"motion.passes\" = [2, 12]\n";
+    let folder = folder_with(study);
+    add_motion(&folder);
+    ok(&asperity(&folder, "study load.toml --out whole"));
+    let whole = ["table.csv", "table.h5", "plan.csv"].map(|name| contents(&folder, &format!("whole/{name}")));
+    let mut random = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos() as u64;
+    let mut below = |n: u64| {
+        random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (random >> 33) % n
+    };
+    let (mut killed, mut round) = (0, 0);
+    while killed < kills {
+        round += 1;
+        assert!(round < 20 + 4 * kills, "{killed} of {kills} processes were killed in {round} rounds");
+        let start = || {
+            let mut started =
+                command(&folder, &format!("study load.toml --out killed-{round} --threads 1 --quiet"));
+            started.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+        };
+        let mut processes: Vec<Child> = (0..3).map(|_| start()).collect();
+        while killed < kills && !processes.is_empty() {
+            std::thread::sleep(Duration::from_millis(5 + below(150)));
+            let mut victim = processes.swap_remove(below(processes.len() as u64) as usize);
+            if victim.try_wait().unwrap().is_none() {
+                victim.kill().unwrap();
+                killed += 1;
+                processes.push(start());
+            }
+            victim.wait().unwrap();
+        }
+        for mut process in processes {
+            assert!(process.wait().unwrap().success());
+        }
+        ok(&asperity(&folder, &format!("study load.toml --out killed-{round}")));
+        for (name, whole) in ["table.csv", "table.h5", "plan.csv"].iter().zip(&whole) {
+            assert!(contents(&folder, &format!("killed-{round}/{name}")) == *whole, "round {round}: {name}");
+        }
+        let there = files(&folder.path().join(format!("killed-{round}")));
+        assert_eq!(there.iter().filter(|name| name.ends_with("summary.json")).count(), 40);
+        assert!(!there.iter().any(|name| name.contains("failed.json")), "{there:?}");
+    }
+}
+
+// ---- what they share -------------------------------------------------------------------------------------
+
+fn folder_with(study: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.toml"), CASE).unwrap();
+    fs::write(folder.path().join("load.toml"), study).unwrap();
+    folder
+}
+
+/// The upper body moves over the lower one.
+fn add_motion(folder: &TempDir) {
+    let flat = "topography = { form = \"flat\" }";
+    let ball = "topography = { form = \"sphere\", radius = \"100 um\", shape = [12, 16] }";
+    change(&folder.path().join("case.toml"), flat, ball);
+    let case = fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    fs::write(folder.path().join("case.toml"), case + "[motion]\nstride = 4\n[output]\npressure_every = 0\n")
+        .unwrap();
+}
+
+fn contents(folder: &TempDir, name: &str) -> Vec<u8> {
+    fs::read(folder.path().join(name)).unwrap()
+}
+
+/// The rows of a table, by column.
+fn table(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        // The message comes last, and may hold commas.
+        let cells: Vec<String> = line.splitn(columns.len(), ',').map(str::to_owned).collect();
+        columns.iter().map(|column| (*column).to_owned()).zip(cells).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn summary(directory: &Path) -> Value {
+    serde_json::from_slice(&fs::read(directory.join("summary.json")).unwrap()).unwrap()
+}
+
+fn ok_or_failed(output: &std::process::Output) {
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(output));
+}

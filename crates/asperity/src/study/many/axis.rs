@@ -1,0 +1,306 @@
+//! An axis of a study: a key of the case, and the values that it takes one after the other.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use toml::Value;
+
+use crate::error::Result;
+use crate::study::case::cursor::{Entry, Table};
+use crate::study::case::document::join;
+use crate::units::{self, Dimension};
+
+/// A key of the case and the values that it takes.
+#[derive(Debug, Clone)]
+pub struct Axis {
+    key: String,
+    values: Vec<Stated>,
+    /// The values in SI, where all of them are numbers or quantities.
+    numbers: Option<Vec<f64>>,
+    dimension: Option<Dimension>,
+    is_seed: bool,
+}
+
+/// A value, and where it stands.
+#[derive(Debug, Clone)]
+pub(super) struct Stated {
+    pub(super) value: Value,
+    pub(super) span: Range<usize>,
+}
+
+impl Axis {
+    /// An axis of at least one value. The unit of numbers that have none is not known yet.
+    pub(super) fn new(key: String, values: Vec<Stated>) -> Self {
+        let mut axis = Self { is_seed: key.ends_with("seed"), key, values, numbers: None, dimension: None };
+        let texts: Vec<&str> = axis.values.iter().filter_map(|stated| stated.value.as_str()).collect();
+        let fits = |dimension: &Dimension| texts.iter().all(|text| units::parse(text, *dimension).is_ok());
+        if !texts.is_empty() {
+            axis.dimension = Dimension::ALL.into_iter().find(fits);
+        }
+        axis.measure(axis.dimension);
+        axis
+    }
+
+    /// Gives numbers without a unit the one that the case takes them in, if it takes any.
+    pub(super) fn measure(&mut self, dimension: Option<Dimension>) {
+        self.dimension = dimension;
+        self.numbers = self.values.iter().map(|stated| number(&stated.value, dimension)).collect();
+    }
+
+    /// Whether all values are numbers without a unit.
+    pub(super) fn is_bare(&self) -> bool {
+        self.values.iter().all(|stated| stated.value.is_integer() || stated.value.is_float())
+    }
+
+    /// The dotted key of the case: `contact.load`.
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// The key with the unit that its numbers are told in: `contact.load (N)`.
+    pub fn label(&self) -> String {
+        let unit = self.unit();
+        if unit.is_empty() { self.key.clone() } else { format!("{} ({unit})", self.key) }
+    }
+
+    /// The SI unit of the numbers; empty of pure numbers and of what is no number.
+    pub fn unit(&self) -> String {
+        self.dimension.filter(|_| self.numbers.is_some()).map(Dimension::si).unwrap_or_default()
+    }
+
+    /// What the numbers measure; none of pure numbers and of what is no number.
+    pub fn dimension(&self) -> Option<Dimension> {
+        self.dimension
+    }
+
+    /// The values in SI; none where a value is neither number nor quantity, such as the name of a file.
+    pub fn numbers(&self) -> Option<&[f64]> {
+        self.numbers.as_deref()
+    }
+
+    /// Whether the values are seeds of random numbers: cases that differ in them alone are samples of one thing.
+    pub fn is_seed(&self) -> bool {
+        self.is_seed
+    }
+
+    /// How many values there are.
+    #[expect(clippy::len_without_is_empty, reason = "an axis without values is refused")]
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The value of this index as a cell of a table: a number in SI, or the text.
+    pub fn cell(&self, index: usize) -> String {
+        match (&self.values[index].value, &self.numbers) {
+            (Value::Integer(whole), _) if self.dimension.is_none() => whole.to_string(),
+            (_, Some(numbers)) => format!("{:?}", numbers[index]),
+            (Value::String(text), None) => text.clone(),
+            (other, None) => other.to_string(),
+        }
+    }
+
+    /// The value of this index as people say it: `1 N`.
+    pub fn text(&self, index: usize) -> String {
+        match (&self.values[index].value, &self.numbers, self.dimension) {
+            (Value::String(text), ..) => text.clone(),
+            (_, Some(numbers), Some(dimension)) => units::format(numbers[index], dimension),
+            (Value::Float(number), ..) => format!("{number:?}"),
+            (other, ..) => other.to_string(),
+        }
+    }
+
+    pub(super) fn value(&self, index: usize) -> &Value {
+        &self.values[index].value
+    }
+
+    pub(super) fn span(&self, index: usize) -> Range<usize> {
+        self.values[index].span.clone()
+    }
+}
+
+/// A value in SI, if it is a number or a quantity of the dimension.
+pub(super) fn number(value: &Value, dimension: Option<Dimension>) -> Option<f64> {
+    match value {
+        Value::Integer(whole) => Some(*whole as f64),
+        Value::Float(number) => Some(*number),
+        Value::String(text) => units::parse(text, dimension?).ok(),
+        _ => None,
+    }
+}
+
+/// The axes of the table `[axes]`, in the order of the file.
+pub(super) fn axes(table: &Table<'_>) -> Result<Vec<Axis>> {
+    let mut axes = Vec::new();
+    collect(table, "", &mut axes)?;
+    if axes.is_empty() {
+        let hint = r#"for example `"contact.load" = ["1 N", "2 N"]`"#;
+        return Err(table.error("[axes] has no axis".to_owned(), Some(hint.to_owned())));
+    }
+    Ok(axes)
+}
+
+/// A key may be quoted, `"contact.load"`, or not: then there is a table in between.
+fn collect(table: &Table<'_>, path: &str, axes: &mut Vec<Axis>) -> Result<()> {
+    for (key, entry) in table.entries() {
+        let path = join(path, key);
+        match entry {
+            entry if entry.is_table() && holds_axes(&entry)? => collect(&entry.table()?, &path, axes)?,
+            entry => axes.push(axis(path, &entry)?),
+        }
+    }
+    Ok(())
+}
+
+/// Whether a table holds axes: nothing of a range is a list or a table.
+fn holds_axes(entry: &Entry<'_>) -> Result<bool> {
+    let table = entry.clone().table()?;
+    let entries = table.entries();
+    Ok(!entries.is_empty() && entries.iter().all(|(_, entry)| entry.is_array() || entry.is_table()))
+}
+
+fn axis(key: String, entry: &Entry<'_>) -> Result<Axis> {
+    let values = match () {
+        () if entry.is_array() => listed(&key, entry)?,
+        () if entry.is_table() => ranged(&key, entry)?,
+        () => {
+            let hint = format!("for example `{EXAMPLE}`; what all cases share stands in the base");
+            return Err(entry.error(format!("the axis '{key}' is one value, expected {AXIS}"), Some(hint)));
+        }
+    };
+    let mut seen = BTreeSet::new();
+    if let Some(again) = values.iter().find(|stated| !seen.insert(stated.value.to_string())) {
+        return Err(entry.error(format!("the axis '{key}' has the value {} twice", again.value), None));
+    }
+    Ok(Axis::new(key, values))
+}
+
+/// The expected text of an axis.
+const AXIS: &str = "a list of values or a range";
+const EXAMPLE: &str = r#"{ from = "1 N", to = "5 N", count = 5 }"#;
+
+fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
+    let items = entry.items(AXIS)?;
+    let stated = |item: &Entry<'_>| Ok(Stated { value: item.literal()?, span: item.span() });
+    let values = items.iter().map(stated).collect::<Result<Vec<_>>>()?;
+    if values.is_empty() {
+        let hint = format!("for example `{EXAMPLE}`");
+        return Err(entry.error(format!("the axis '{key}' has no values, expected {AXIS}"), Some(hint)));
+    }
+    Ok(values)
+}
+
+/// `{ from = "1 N", to = "5 N", count = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
+fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
+    let table = entry.clone().table()?;
+    table.known(&["from", "to", "count", "spacing", "seeds", "first"], |_| None)?;
+    let at = |value: Value| Stated { value, span: entry.span() };
+    if let Some(seeds) = table.get("seeds") {
+        if let Some(other) = ["from", "to", "count", "spacing"].iter().find_map(|key| table.get(key)) {
+            let message = format!("'{}' has no meaning beside 'seeds'", other.key());
+            return Err(other.error(message, None));
+        }
+        let first = table.get("first").map_or(Ok(1), |first| first.whole(0))?;
+        let count = seeds.count(1)? as u64;
+        if first.checked_add(count).is_none_or(|end| end > i64::MAX as u64) {
+            return Err(seeds.error("the seeds end beyond 2⁶³".to_owned(), None));
+        }
+        return Ok((first..first + count).map(|seed| at(Value::Integer(seed as i64))).collect());
+    }
+    if let Some(first) = table.get("first") {
+        let hint = "`{ seeds = 20, first = 100 }` are 20 seeds from 100 on".to_owned();
+        return Err(first.error("'first' has no meaning without 'seeds'".to_owned(), Some(hint)));
+    }
+    let [from, to] = ["from", "to"].map(|key| table.required(key, r#""1 N""#));
+    let (from, to) = (from?, to?);
+    let ends = [end(&from)?, end(&to)?];
+    if ends[0].1 != ends[1].1 {
+        let message = format!("the axis '{key}' is from {} to {}", from.literal()?, to.literal()?);
+        return Err(to.error(message, Some("give both ends in one unit".to_owned())));
+    }
+    let count = table.required("count", "5")?;
+    let number = count.count(2)?;
+    let spacing = table.get("spacing").map_or(Ok(Spacing::Linear), |word| {
+        word.word(&[("linear", Spacing::Linear), ("log", Spacing::Log)])
+    })?;
+    let [(a, unit), (b, _)] = &ends;
+    if spacing == Spacing::Log && !(*a > 0.0 && *b > 0.0) {
+        let hint = Some("give ends above 0, or leave `spacing` out".to_owned());
+        return Err(
+            from.error(format!("the axis '{key}' has a logarithmic spacing from or to 0 or less"), hint)
+        );
+    }
+    let numbers = spaced([*a, *b], number, spacing);
+    let whole = from.literal()?.is_integer() && to.literal()?.is_integer();
+    let whole = whole && numbers.iter().all(|number| number.fract() == 0.0);
+    let value = |number: f64| match unit.as_str() {
+        "" if whole => Value::Integer(number as i64),
+        "" => Value::Float(number),
+        unit => Value::String(format!("{number} {unit}")),
+    };
+    Ok(numbers.into_iter().map(|number| at(value(number))).collect())
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Linear,
+    Log,
+}
+
+/// So many numbers from one end to the other, both included, of twelve digits between them.
+fn spaced([from, to]: [f64; 2], count: usize, spacing: Spacing) -> Vec<f64> {
+    let last = count - 1;
+    let number = |k: usize| {
+        let t = k as f64 / last as f64;
+        let between = match spacing {
+            Spacing::Linear => from + (to - from) * t,
+            Spacing::Log => from * (to / from).powf(t),
+        };
+        match k {
+            0 => from,
+            k if k == last => to,
+            _ => format!("{between:.11e}").parse().expect("a number that was written is read"),
+        }
+    };
+    (0..count).map(number).collect()
+}
+
+/// The number of an end of a range, in its own unit, and that unit; empty without one.
+fn end(entry: &Entry<'_>) -> Result<(f64, String)> {
+    let expected = || entry.unexpected("a number, or a quantity such as \"2 N\"", None);
+    let (number, unit) = match entry.literal()? {
+        Value::Integer(whole) => (whole as f64, String::new()),
+        Value::Float(number) => (number, String::new()),
+        Value::String(text) => {
+            let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
+            let mut split = ends.filter_map(|end| Some((text[..end].trim().parse().ok()?, &text[end..])));
+            let (number, unit): (f64, &str) = split.next().ok_or_else(expected)?;
+            (number, unit.trim().to_owned())
+        }
+        _ => return Err(expected()),
+    };
+    if number.is_finite() { Ok((number, unit)) } else { Err(expected()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_meet_their_ends_and_are_round_between_them() {
+        assert_eq!(spaced([0.05, 0.3], 6, Spacing::Linear), [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]);
+        assert_eq!(spaced([1.0, 1000.0], 4, Spacing::Log), [1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(spaced([5.0, 1.0], 2, Spacing::Linear), [5.0, 1.0]);
+    }
+
+    #[test]
+    fn an_axis_of_quantities_is_told_in_si() {
+        let stated = |text: &str| Stated { value: Value::String(text.to_owned()), span: 0..0 };
+        let axis = Axis::new("contact.load".to_owned(), ["500 mN", "2 N"].map(stated).to_vec());
+        assert_eq!(
+            (axis.label(), axis.cell(0), axis.text(0)),
+            ("contact.load (N)".into(), "0.5".into(), "500 mN".into())
+        );
+        let axis = Axis::new("lower.topography.file".to_owned(), ["a.x3p", "5 m.npy"].map(stated).to_vec());
+        assert_eq!((axis.label(), axis.numbers()), ("lower.topography.file".to_owned(), None));
+    }
+}

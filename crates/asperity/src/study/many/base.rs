@@ -1,0 +1,190 @@
+//! The case that the cases of a study are made of: values are put in under their keys.
+
+use std::path::{Component, Path, PathBuf};
+
+use toml::Value;
+
+use super::axis::Axis;
+use crate::error::{CaseError, Error};
+use crate::io::sha256;
+use crate::study::case::document::{Document, join};
+
+/// The base case.
+#[derive(Debug)]
+pub(super) struct Base {
+    /// Its keys; files as seen from where the program was called.
+    table: toml::Table,
+    /// Its text and places.
+    pub(super) document: Document,
+    /// What its keys begin with in the document: `base` where it stands in the study file itself.
+    prefix: &'static str,
+    /// Where the files lie that the axes name.
+    folder: PathBuf,
+}
+
+impl Base {
+    /// A base with the folders of its files and of those that the axes name.
+    pub(super) fn new(
+        mut table: toml::Table,
+        [of_base, of_axes]: [&Path; 2],
+        document: Document,
+        prefix: &'static str,
+    ) -> Self {
+        each_file(&mut table, &|path| of_base.join(path));
+        Self { table, document, prefix, folder: of_axes.to_owned() }
+    }
+
+    /// What all cases share, without what depends on the folder that it is seen from.
+    pub(super) fn digest(&self) -> String {
+        let mut table = self.table.clone();
+        table.remove("title");
+        each_file(&mut table, &|path| path.file_name().map(PathBuf::from).unwrap_or_default());
+        sha256(table.to_string().as_bytes())
+    }
+
+    /// The text of a case with these values. `folder` is where it will lie; without one its files are as seen from here.
+    ///
+    /// # Errors
+    /// The number of the value that has no place, and why.
+    pub(super) fn with<'v>(
+        &self,
+        title: &str,
+        values: impl Iterator<Item = (&'v Axis, &'v Value)>,
+        folder: Option<&Path>,
+    ) -> std::result::Result<String, (usize, String)> {
+        let mut table = self.table.clone();
+        table.insert("title".to_owned(), Value::String(title.to_owned()));
+        for (n, (axis, value)) in values.enumerate() {
+            let mut value = value.clone();
+            let last = axis.key().rsplit('.').next().unwrap_or_default();
+            each_file_of(last, &mut value, &|path| self.folder.join(path));
+            set(&mut table, axis.key(), value).map_err(|message| (n, message))?;
+        }
+        if let Some(folder) = folder {
+            each_file(&mut table, &|path| relative(folder, path));
+        }
+        Ok(table.to_string())
+    }
+
+    /// An error of a case, where this base has its place.
+    pub(super) fn error(&self, error: &CaseError) -> Error {
+        let key = match (self.prefix, error.key.as_str()) {
+            ("", key) => key.to_owned(),
+            (prefix, "") => prefix.to_owned(),
+            (prefix, key) => join(prefix, key),
+        };
+        self.document.error_at(&key, error.message.clone(), error.hint.clone())
+    }
+
+    /// Whether there is something under this dotted key.
+    pub(super) fn has(&self, key: &str) -> bool {
+        let mut parts = key.split('.');
+        let first = parts.next().and_then(|key| self.table.get(key));
+        parts.fold(first, |value, key| inner(value?, key)).is_some()
+    }
+}
+
+fn inner<'v>(value: &'v Value, key: &str) -> Option<&'v Value> {
+    match value {
+        Value::Table(table) => table.get(key),
+        Value::Array(items) => items.get(key.parse::<usize>().ok()?),
+        _ => None,
+    }
+}
+
+/// Puts a value under a dotted key, through tables, which are made where there are none, and arrays of tables: `history.0.load`.
+fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<(), String> {
+    let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+    let Some(rest) = rest else {
+        table.insert(first.to_owned(), value);
+        return Ok(());
+    };
+    match table.entry(first).or_insert_with(|| Value::Table(toml::Table::new())) {
+        Value::Table(inner) => set(inner, rest, value),
+        Value::Array(items) => {
+            let (index, rest) = rest.split_once('.').unwrap_or((rest, ""));
+            let count = items.len();
+            let item = index.parse::<usize>().ok().and_then(|index| items.get_mut(index));
+            match item {
+                Some(Value::Table(inner)) if !rest.is_empty() => set(inner, rest, value),
+                _ => Err(format!(
+                    "'{first}' in the base is a list of {count}, expected '{first}.0.…' and so on"
+                )),
+            }
+        }
+        _ => Err(format!("'{first}' in the base is no table, so that nothing lies in it")),
+    }
+}
+
+/// Changes each path of a file that a case names.
+fn each_file(table: &mut toml::Table, change: &dyn Fn(&Path) -> PathBuf) {
+    table.iter_mut().for_each(|(key, value)| each_file_of(key, value, change));
+}
+
+/// Changes each path of a file in the value of a key.
+fn each_file_of(key: &str, value: &mut Value, change: &dyn Fn(&Path) -> PathBuf) {
+    match value {
+        Value::String(path) if key == "file" => {
+            *path = change(Path::new(path.as_str())).to_string_lossy().into_owned();
+        }
+        Value::Table(inner) => each_file(inner, change),
+        Value::Array(items) => {
+            items.iter_mut().filter_map(Value::as_table_mut).for_each(|inner| each_file(inner, change));
+        }
+        _ => {}
+    }
+}
+
+/// The path of `file` as seen from `folder`, which is there; absolute where there is no way.
+fn relative(folder: &Path, file: &Path) -> PathBuf {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| absolute(path));
+    let from = real(folder);
+    // The name of the file is kept, also where it is a link.
+    let file = absolute(file);
+    let to = match (file.parent(), file.file_name()) {
+        (Some(parent), Some(name)) => real(parent).join(name),
+        _ => file,
+    };
+    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return to;
+    }
+    let up = from.components().skip(common).map(|_| Component::ParentDir);
+    up.chain(to.components().skip(common)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_find_their_place_and_files_are_seen_from_the_case() {
+        let text = "[lower]\ntopography = { file = \"a.npy\" }\n[[history]]\nload = 1\n";
+        let base = Base::new(
+            toml::from_str(text).unwrap(),
+            ["there", "here"].map(Path::new),
+            Document::default(),
+            "",
+        );
+        let mut table = base.table.clone();
+        set(&mut table, "history.0.load", Value::Integer(2)).unwrap();
+        set(&mut table, "friction.coefficient", Value::Float(0.1)).unwrap();
+        assert_eq!(table["history"][0]["load"].as_integer(), Some(2));
+        assert_eq!(table["friction"]["coefficient"].as_float(), Some(0.1));
+        assert!(set(&mut table, "history.1.load", Value::Integer(2)).is_err());
+        assert!(set(&mut table, "history.0", Value::Integer(2)).is_err());
+        assert!(set(&mut table, "lower.topography.file.name", Value::Integer(2)).is_err());
+        assert!(base.has("lower.topography.file") && base.has("history.0") && !base.has("history.1"));
+
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir_all(folder.path().join("study/cases/0001")).unwrap();
+        let from = folder.path().join("study/cases/0001");
+        let file = folder.path().join("data/a.npy");
+        std::fs::create_dir(folder.path().join("data")).unwrap();
+        std::fs::write(&file, "").unwrap();
+        let seen = relative(&from, &file);
+        assert_eq!(seen, Path::new("../../../data/a.npy"));
+        assert_eq!(from.join(seen).canonicalize().unwrap(), file.canonicalize().unwrap());
+    }
+}

@@ -1,0 +1,254 @@
+//! The plan of a study: which values each of its cases has.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Duration;
+
+use rayon::prelude::*;
+
+use super::axis::Axis;
+use super::file::{self, StudyFile};
+use crate::error::{CaseError, Error, Result};
+use crate::io::sha256;
+use crate::study::case::Case;
+use crate::units::Dimension;
+
+/// The most cases that a study has, before those that are left out.
+pub const MAX_CASES: usize = 10_000_000;
+
+/// A study: a base case and the values that its cases have in place of the base's.
+///
+/// Cases are known by their number, from 1. The first axis changes slowest.
+#[derive(Debug)]
+pub struct Study {
+    file: StudyFile,
+    /// For each case the index of a value of each axis, case after case.
+    indices: Vec<u32>,
+}
+
+impl Study {
+    /// Reads a study file and makes its plan. Every value of every axis is tried in one case, so that a mistake is shown before
+    /// anything is computed; what depends on several values, or on what files hold, shows when a case runs.
+    ///
+    /// # Errors
+    /// [`Error::File`] if a file cannot be read, [`Error::Case`] if the study, its table or its base has a mistake.
+    pub fn load(path: &Path) -> Result<Self> {
+        Self::of(file::load(path)?)
+    }
+
+    /// Makes a study of the text of a study file. `path` is its name for errors, in whose folder the files lie that it names.
+    ///
+    /// # Errors
+    /// As [`Study::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        Self::of(file::read(text, path)?)
+    }
+
+    fn of(file: StudyFile) -> Result<Self> {
+        let indices = indices(&file)?;
+        let mut study = Self { file, indices };
+        study.find_units();
+        study.check()?;
+        Ok(study)
+    }
+
+    /// The file's name where it gives none.
+    pub fn title(&self) -> &str {
+        &self.file.title
+    }
+
+    /// The axes of the grid, then those of the table.
+    pub fn axes(&self) -> &[Axis] {
+        &self.file.axes
+    }
+
+    /// How many cases there are.
+    #[expect(clippy::len_without_is_empty, reason = "a study without cases is refused")]
+    pub fn len(&self) -> usize {
+        self.indices.len() / self.axes().len()
+    }
+
+    /// Age from which a claim that was not renewed is another's to take.
+    pub fn stale_after(&self) -> Duration {
+        self.file.stale_after
+    }
+
+    /// The index of the value of each axis in a case, from 1.
+    ///
+    /// # Panics
+    /// If there is no such case.
+    pub fn indices(&self, case: usize) -> &[u32] {
+        let axes = self.axes().len();
+        &self.indices[(case - 1) * axes..case * axes]
+    }
+
+    /// The values of a case, from 1, as people say them: `contact.load = 2 N, friction.coefficient = 0.1`.
+    pub fn text(&self, case: usize) -> String {
+        let values = self.axes().iter().zip(self.indices(case));
+        let values = values.map(|(axis, index)| format!("{} = {}", axis.key(), axis.text(*index as usize)));
+        values.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The case file of a case, from 1, which will lie in `folder`; without one its files are as seen from here.
+    ///
+    /// # Errors
+    /// [`Error::Case`] where a value has no place in the base.
+    pub fn case_file(&self, case: usize, folder: Option<&Path>) -> Result<String> {
+        let title = format!("{}, case {case}: {}", self.title(), self.text(case));
+        let values = self.axes().iter().zip(self.indices(case));
+        let values = values.map(|(axis, index)| (axis, axis.value(*index as usize)));
+        self.file
+            .base
+            .with(&title, values, folder)
+            .map_err(|(axis, message)| self.error_at(case, axis, &message, None))
+    }
+
+    /// The plan as a table: a row per case, its number, the values of its axes.
+    pub fn csv(&self) -> String {
+        let cells: Vec<Vec<String>> = self
+            .axes()
+            .iter()
+            .map(|axis| (0..axis.len()).map(|index| quoted(&axis.cell(index))).collect())
+            .collect();
+        let mut csv = String::from("case");
+        for axis in self.axes() {
+            let _ = write!(csv, ",{}", quoted(&axis.label()));
+        }
+        csv.push('\n');
+        for case in 1..=self.len() {
+            let _ = write!(csv, "{}", name(case));
+            for (cells, index) in cells.iter().zip(self.indices(case)) {
+                let _ = write!(csv, ",{}", cells[*index as usize]);
+            }
+            csv.push('\n');
+        }
+        csv
+    }
+
+    /// What all cases share, by its digest.
+    pub(super) fn digest(&self) -> String {
+        let keys: Vec<&str> = self.axes().iter().map(Axis::key).collect();
+        sha256(format!("{}\n{}", self.file.base.digest(), keys.join("\n")).as_bytes())
+    }
+
+    /// The case as it is read from its file; files as seen from here.
+    fn case(&self, case: usize) -> Result<Case> {
+        Case::parse(&self.case_file(case, None)?, Path::new("case.toml"), Path::new(""))
+    }
+
+    /// Numbers without a unit are in SI: their unit is the one with which the case takes them too.
+    fn find_units(&mut self) {
+        let bare: Vec<usize> = (0..self.axes().len()).filter(|n| self.axes()[*n].is_bare()).collect();
+        for n in bare {
+            let number = self.axes()[n].cell(self.indices(1)[n] as usize);
+            let taken = |dimension: &Dimension| {
+                let quantity = toml::Value::String(format!("{number} {}", dimension.si()));
+                let values = self.axes().iter().zip(self.indices(1)).enumerate();
+                let values = values.map(|(k, (axis, index))| {
+                    (axis, if k == n { &quantity } else { axis.value(*index as usize) })
+                });
+                let text = self.file.base.with("", values, None);
+                text.is_ok_and(|text| Case::parse(&text, Path::new("case.toml"), Path::new("")).is_ok())
+            };
+            let dimension = Dimension::ALL.into_iter().find(taken);
+            self.file.axes[n].measure(dimension);
+        }
+    }
+
+    /// Reads, for each value of each axis, the first case that has it.
+    fn check(&self) -> Result<()> {
+        let mut seen: Vec<Vec<bool>> = self.axes().iter().map(|axis| vec![false; axis.len()]).collect();
+        let mut tried = BTreeSet::new();
+        for case in 1..=self.len() {
+            for (axis, index) in self.indices(case).iter().enumerate() {
+                if !std::mem::replace(&mut seen[axis][*index as usize], true) {
+                    tried.insert(case);
+                }
+            }
+        }
+        let tried: Vec<usize> = tried.into_iter().collect();
+        let wrong = tried.par_iter().find_map_first(|case| Some((*case, self.case(*case).err()?)));
+        match wrong {
+            None => Ok(()),
+            Some((case, Error::Case(error))) if error.file == Path::new("case.toml") => {
+                Err(self.located(case, &error))
+            }
+            Some((_, error)) => Err(error),
+        }
+    }
+
+    /// A mistake of a case at the place of the study that it comes from: the value of an axis, or the base.
+    fn located(&self, case: usize, error: &CaseError) -> Error {
+        let beneath =
+            |key: &str, table: &str| key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'));
+        let of_axis = |axis: &Axis| {
+            let (axis, key) = (axis.key(), error.key.as_str());
+            axis == key || beneath(key, axis) || beneath(axis, key) && !self.file.base.has(key)
+        };
+        match self.axes().iter().position(of_axis) {
+            Some(axis) => self.error_at(case, axis, &error.message, error.hint.clone()),
+            None => self.file.base.error(error),
+        }
+    }
+
+    /// An error at the value of an axis in a case.
+    fn error_at(&self, case: usize, n: usize, message: &str, hint: Option<String>) -> Error {
+        let axis = &self.axes()[n];
+        let span = axis.span(self.indices(case)[n] as usize);
+        let document = match &self.file.rows {
+            Some(rows) if n >= rows.first => &rows.document,
+            _ => &self.file.document,
+        };
+        document.error(axis.key(), span, message, hint)
+    }
+}
+
+/// The name of the folder of a case, from 1.
+pub(super) fn name(case: usize) -> String {
+    format!("{case:04}")
+}
+
+/// A cell of a table of values separated by commas.
+pub(super) fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The indices of all cases that are not left out.
+fn indices(file: &StudyFile) -> Result<Vec<u32>> {
+    let grid = file.rows.as_ref().map_or(file.axes.len(), |rows| rows.first);
+    let lengths: Vec<usize> = file.axes[..grid].iter().map(Axis::len).collect();
+    let rows = file.rows.as_ref().map_or(1, |rows| rows.rows.len());
+    let all = lengths.iter().try_fold(rows, |all, length| all.checked_mul(*length));
+    let all = all.filter(|all| *all <= MAX_CASES).ok_or_else(|| {
+        let factors: Vec<String> =
+            lengths.iter().chain((rows > 1).then_some(&rows)).map(usize::to_string).collect();
+        let message = format!("{} cases are more than 10⁷", factors.join(" × "));
+        file.document.error_at("axes", message, Some("take fewer values, or several studies".to_owned()))
+    })?;
+    let mut indices = Vec::new();
+    let mut case = vec![0; file.axes.len()];
+    for n in 0..all {
+        let mut rest = n;
+        if let Some(table) = &file.rows {
+            case[grid..].copy_from_slice(&table.rows[rest % rows]);
+            rest /= rows;
+        }
+        for (index, length) in case[..grid].iter_mut().zip(&lengths).rev() {
+            *index = (rest % length) as u32;
+            rest /= length;
+        }
+        if !file.exclusions.iter().any(|exclusion| exclusion.holds(&case)) {
+            indices.extend_from_slice(&case);
+        }
+    }
+    if indices.is_empty() {
+        let message = format!("[[exclude]] leaves none of {all} cases");
+        return Err(file.document.error_at("exclude", message, None));
+    }
+    Ok(indices)
+}

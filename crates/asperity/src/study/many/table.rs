@@ -1,0 +1,242 @@
+//! What came of a study: a row per case, the values of its axes and the numbers of its summary.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::Path;
+
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::axis::Axis;
+use super::folder::Folder;
+use super::plan::{Study, name, quoted};
+use crate::error::Result;
+use crate::io::atomic;
+use crate::io::fields::FieldFile;
+use crate::study::results::Results;
+use crate::study::summary::{Outcome, Summary};
+use crate::study::tables;
+
+/// The cases that are done or have failed.
+///
+/// It is the same to the last bit whoever computed them, and how often that was interrupted: no times are in it.
+#[derive(Debug)]
+pub struct Table {
+    axes: Vec<Axis>,
+    /// The numbers of the summaries, in the order in which the cases have them.
+    columns: Vec<String>,
+    rows: Vec<Row>,
+}
+
+/// A case that is over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Its number, from 1.
+    pub case: usize,
+    /// The index of the value of each axis.
+    pub indices: Vec<u32>,
+    /// The numbers of its summary, SI, by column of the table; NaN where it has none. None at all of a case that failed.
+    pub numbers: Vec<f64>,
+    /// How many warnings its summary has.
+    pub warnings: usize,
+    /// Time that the last process to compute it took; 0 of a case that failed.
+    pub wall_time: f64,
+    /// Why it failed, if it did.
+    pub failure: Option<String>,
+}
+
+impl Table {
+    /// Collects what is there of a study.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`] where a summary or a failure cannot be read.
+    pub fn collect(study: &Study, folder: &Folder) -> Result<Self> {
+        let found: Result<Vec<Option<Found>>> =
+            (1..=study.len()).into_par_iter().map(|case| found(folder, case)).collect();
+        let found = found?;
+        let mut columns: Vec<String> = Vec::new();
+        let mut known = BTreeSet::new();
+        for (column, _) in found.iter().flatten().flat_map(|found| &found.numbers) {
+            if known.insert(column.clone()) {
+                columns.push(column.clone());
+            }
+        }
+        let rows = found.into_iter().enumerate().filter_map(|(n, found)| {
+            let Found { numbers, warnings, wall_time, failure } = found?;
+            let numbers: BTreeMap<String, f64> = numbers.into_iter().collect();
+            let numbers =
+                columns.iter().map(|column| numbers.get(column).copied().unwrap_or(f64::NAN)).collect();
+            Some(Row {
+                case: n + 1,
+                indices: study.indices(n + 1).to_vec(),
+                numbers,
+                warnings,
+                wall_time,
+                failure,
+            })
+        });
+        Ok(Self { axes: study.axes().to_vec(), rows: rows.collect(), columns })
+    }
+
+    /// The axes of the study.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The names of the numbers.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The cases, in their order.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Writes the table as text, atomically: a line per case. What a case has not is an empty cell.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_csv(&self, path: &Path) -> Result<()> {
+        atomic::replace(path, self.csv().as_bytes())
+    }
+
+    fn csv(&self) -> String {
+        let labels = self.axes.iter().map(|axis| quoted(&axis.label()));
+        let head: Vec<String> = ["case".to_owned()].into_iter().chain(labels).collect();
+        let mut csv = head.join(",");
+        for column in self.columns.iter().map(String::as_str).chain(["warnings", "state", "message"]) {
+            let _ = write!(csv, ",{column}");
+        }
+        csv.push('\n');
+        for row in &self.rows {
+            let _ = write!(csv, "{}", name(row.case));
+            for (axis, index) in self.axes.iter().zip(&row.indices) {
+                let _ = write!(csv, ",{}", quoted(&axis.cell(*index as usize)));
+            }
+            for number in &row.numbers {
+                csv.push(',');
+                if !number.is_nan() {
+                    let _ = write!(csv, "{number:?}");
+                }
+            }
+            let _ = match &row.failure {
+                None => writeln!(csv, ",{},done,", row.warnings),
+                Some(message) => writeln!(csv, ",,failed,{}", quoted(message)),
+            };
+        }
+        csv
+    }
+
+    /// Writes the table as HDF5, atomically: a dataset per column, each with its unit, along the cases. Of values that are no
+    /// numbers the dataset has the index, and an attribute `KEY: words` of the file the words, each in a line.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn write_hdf5(&self, path: &Path) -> Result<()> {
+        let mut file = FieldFile::new();
+        file.set("version", env!("CARGO_PKG_VERSION"));
+        let mut add = |name: &str, unit: &str, value: &dyn Fn(&Row) -> f64| {
+            let values: Vec<f64> = self.rows.iter().map(value).collect();
+            if !values.is_empty() {
+                file.add_series(name, unit, "case", 1.0, 1.0, &values);
+            }
+        };
+        add("case", "", &|row| row.case as f64);
+        add("done", "", &|row| f64::from(u8::from(row.failure.is_none())));
+        for (n, axis) in self.axes.iter().enumerate() {
+            add(axis.key(), &axis.unit(), &|row| {
+                let index = row.indices[n] as usize;
+                axis.numbers().map_or(index as f64, |numbers| numbers[index])
+            });
+        }
+        for (n, column) in self.columns.iter().enumerate() {
+            let unit = tables::dimension(column).map(|dimension| dimension.si()).unwrap_or_default();
+            add(column, &unit, &|row| row.numbers[n]);
+        }
+        for axis in self.axes.iter().filter(|axis| axis.numbers().is_none()) {
+            let words: Vec<String> = (0..axis.len()).map(|index| axis.text(index)).collect();
+            file.set(&format!("{}: words", axis.key()), words.join("\n").as_str());
+        }
+        let failures: Vec<String> = self
+            .rows
+            .iter()
+            .filter_map(|row| {
+                Some(format!("{}: {}", name(row.case), row.failure.as_ref()?.replace('\n', " ")))
+            })
+            .collect();
+        if !failures.is_empty() {
+            file.set("failures", failures.join("\n").as_str());
+        }
+        file.write(path)
+    }
+}
+
+/// What is there of a case that is over.
+struct Found {
+    numbers: Vec<(String, f64)>,
+    warnings: usize,
+    wall_time: f64,
+    failure: Option<String>,
+}
+
+fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
+    if folder.is_done(case) {
+        let summary = Results::open(&folder.case(case))?.summary()?;
+        let (warnings, wall_time) = (summary.warnings.len(), summary.wall_time_s);
+        return Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }));
+    }
+    let failure = folder.failure(case)?;
+    Ok(failure.map(|message| Found {
+        numbers: Vec::new(),
+        warnings: 0,
+        wall_time: 0.0,
+        failure: Some(message),
+    }))
+}
+
+/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then what has
+/// slid in place, run in, and the last of the most stressed points.
+fn numbers(summary: &Summary) -> Vec<(String, f64)> {
+    let mut numbers = Vec::new();
+    match &summary.outcome {
+        Outcome::Static(record) => add(&mut numbers, "", &**record),
+        Outcome::Sweep(points) => points.last().into_iter().for_each(|point| add(&mut numbers, "", point)),
+        Outcome::Passes(passes) => passes.last().into_iter().for_each(|pass| add(&mut numbers, "", pass)),
+    }
+    if let Some(update) = &summary.sliding {
+        add(&mut numbers, "sliding_", update);
+    }
+    if let Some(running_in) = &summary.running_in {
+        add(&mut numbers, "", running_in);
+    }
+    if let Some(stress) = summary.subsurface.last() {
+        add(&mut numbers, "subsurface_", stress);
+    }
+    numbers
+}
+
+/// Adds the numbers of a record, in its order; of several numbers under one key each has its own column.
+fn add(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
+    for (key, text) in tables::Row::of(record).cells() {
+        // Neither is a result.
+        if key != "wall_time_s" {
+            let value = serde_json::from_str(text).unwrap_or(Value::Null);
+            flatten(numbers, format!("{prefix}{key}"), &value);
+        }
+    }
+}
+
+fn flatten(numbers: &mut Vec<(String, f64)>, key: String, value: &Value) {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    match value {
+        Value::Number(number) => numbers.push((key, number.as_f64().unwrap_or(f64::NAN))),
+        Value::Array(items) if items.len() <= AXES.len() => {
+            items.iter().zip(AXES).for_each(|(item, axis)| flatten(numbers, format!("{key}_{axis}"), item));
+        }
+        Value::Object(items) => {
+            items.iter().for_each(|(inner, item)| flatten(numbers, format!("{key}_{inner}"), item));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,266 @@
+//! Computing what is left of a study: one case after the other, by as many threads and processes as there are.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
+
+use super::claims::{Attempt, Claim, Claims, Worker};
+use super::folder::{Failed, Folder};
+use super::plan::Study;
+use crate::error::{Error, Result};
+use crate::io::atomic;
+use crate::motion::{PassRecord, Progress, SweepRecord, UpdateRecord, Watch};
+use crate::study::case::Case;
+use crate::study::given::Given;
+use crate::study::results::{CASE_FILE, Existing};
+use crate::study::run::run;
+
+/// The cases of a process: every `of`-th, from the `number`-th on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Task {
+    /// From 1.
+    pub number: usize,
+    /// How many tasks share the study.
+    pub of: usize,
+}
+
+impl Task {
+    /// All cases.
+    pub const ALL: Self = Self { number: 1, of: 1 };
+
+    /// Whether a case, from 1, is one of them.
+    pub fn has(self, case: usize) -> bool {
+        (case - 1) % self.of == self.number - 1
+    }
+}
+
+/// The cases that are left to a process, which it claims one after the other.
+#[derive(Debug)]
+pub struct Queue<'s> {
+    study: &'s Study,
+    folder: &'s Folder,
+    claims: Claims,
+    cases: Vec<usize>,
+    next: AtomicUsize,
+    /// Cases that were claimed by others when it was their turn.
+    others: Mutex<Vec<usize>>,
+    /// Failures of before this time are open again.
+    retry_before: Option<SystemTime>,
+}
+
+/// A case that this process has claimed.
+#[derive(Debug)]
+pub struct Turn<'s> {
+    queue: &'s Queue<'s>,
+    case: usize,
+    claim: Claim,
+}
+
+/// What became of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Computed {
+    /// Its results are there.
+    Done,
+    /// There are none, for this reason, which `failed.json` tells.
+    Failed(String),
+    /// Another process has it.
+    Elsewhere,
+}
+
+impl<'s> Queue<'s> {
+    /// What is left of a study to a `task`; with `retry` also what has failed before now.
+    ///
+    /// # Errors
+    /// [`Error::NotExclusive`] on a file system in which two processes could claim one case; [`Error::File`].
+    pub fn new(
+        study: &'s Study,
+        folder: &'s Folder,
+        worker: Worker,
+        task: Task,
+        retry: bool,
+    ) -> Result<Self> {
+        let claims = Claims::enter(&folder.claims(), worker, study.stale_after())?;
+        let retry_before = retry.then(|| claims.now());
+        let queue = Self {
+            study,
+            folder,
+            claims,
+            cases: Vec::new(),
+            next: AtomicUsize::new(0),
+            others: Mutex::default(),
+            retry_before,
+        };
+        let cases = (1..=study.len()).filter(|case| task.has(*case) && !queue.is_over(*case)).collect();
+        Ok(Self { cases, ..queue })
+    }
+
+    /// How many cases were left when it was made.
+    pub fn len(&self) -> usize {
+        self.cases.len()
+    }
+
+    /// Whether none was left when it was made.
+    pub fn is_empty(&self) -> bool {
+        self.cases.is_empty()
+    }
+
+    /// The next case; none where all are done, or claimed by others.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn claim(&'s self) -> Result<Option<Turn<'s>>> {
+        while let Some(case) = self.cases.get(self.next.fetch_add(1, Ordering::Relaxed)) {
+            match self.attempt(*case)? {
+                Some(turn) => return Ok(Some(turn)),
+                None if !self.is_over(*case) => self.others().push(*case),
+                None => {}
+            }
+        }
+        // Once more those that others had: some of these may have gone.
+        let others = std::mem::take(&mut *self.others());
+        for (n, case) in others.iter().enumerate() {
+            match self.attempt(*case)? {
+                Some(turn) => {
+                    self.others().extend(&others[n + 1..]);
+                    return Ok(Some(turn));
+                }
+                None if !self.is_over(*case) => self.others().push(*case),
+                None => {}
+            }
+        }
+        Ok(None)
+    }
+
+    fn attempt(&'s self, case: usize) -> Result<Option<Turn<'s>>> {
+        if self.is_over(case) {
+            return Ok(None);
+        }
+        let Attempt::Ours(claim) = self.claims.claim(case)? else { return Ok(None) };
+        // It may have been finished since.
+        Ok((!self.is_over(case)).then_some(Turn { queue: self, case, claim }))
+    }
+
+    /// Whether nothing is left to do of a case.
+    fn is_over(&self, case: usize) -> bool {
+        let counts = |at: SystemTime| self.retry_before.is_none_or(|before| at > before);
+        self.folder.is_done(case) || self.folder.failed_at(case).is_some_and(counts)
+    }
+
+    fn others(&self) -> std::sync::MutexGuard<'_, Vec<usize>> {
+        self.others.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Turn<'_> {
+    /// The number of the case, from 1.
+    pub fn case(&self) -> usize {
+        self.case
+    }
+
+    /// Reads the case, whose file is written first.
+    ///
+    /// # Errors
+    /// What is wrong with the case; [`Error::File`] where it cannot be written.
+    pub fn load(&self) -> Result<Case> {
+        let folder = self.queue.folder.case(self.case);
+        fs::create_dir_all(&folder).map_err(|source| Error::File { path: folder.clone(), source })?;
+        let path = folder.join(CASE_FILE);
+        let text = self.queue.study.case_file(self.case, Some(&folder))?;
+        // Nobody else writes it, and half of it, after a power cut, is written again.
+        if fs::read_to_string(&path).ok().as_deref() != Some(&text) {
+            fs::write(&path, &text).map_err(|source| Error::File { path: path.clone(), source })?;
+        }
+        Case::load(&path)
+    }
+
+    /// Computes the case, from where a process that was stopped has left it, and keeps its results, or why there are none.
+    /// `admit` may refuse it once it is known.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`] where `watch` asks for it; [`Error::File`] where the study cannot be written to. Of neither is
+    /// anything kept: the case is open again.
+    pub fn compute<T>(self, admit: impl FnOnce(&Case) -> Result<T>, watch: &dyn Watch) -> Result<Computed> {
+        let folder = self.queue.folder.case(self.case);
+        let failure = self.queue.folder.failure_path(self.case);
+        let watch = Watched { watch, claim: &self.claim };
+        let computed = self.load().and_then(|case| {
+            // Of an earlier attempt.
+            let _ = fs::remove_file(&failure);
+            let _admitted = admit(&case)?;
+            let go = |existing| run(&case, Given::default(), &folder, existing, &watch).map(drop);
+            match go(Existing::Resume) {
+                Err(Error::NotResumable { .. } | Error::OtherCase { .. } | Error::SurfaceChanged { .. }) => {
+                    go(Existing::Overwrite)
+                }
+                ended => ended,
+            }
+        });
+        match computed {
+            Ok(()) => Ok(Computed::Done),
+            Err(Error::Interrupted) if self.claim.is_lost() => Ok(Computed::Elsewhere),
+            Err(Error::InUse { .. }) => Ok(Computed::Elsewhere),
+            Err(error) if is_of_the_place(&error, self.queue.folder.path()) => Err(error),
+            Err(error) => {
+                let message = error.to_string();
+                let told = Failed { version: env!("CARGO_PKG_VERSION").to_owned(), message: message.clone() };
+                let text = serde_json::to_vec_pretty(&told).expect("texts can be written");
+                atomic::replace(&failure, &text)?;
+                Ok(Computed::Failed(message))
+            }
+        }
+    }
+}
+
+/// Whether an error is none of the case: somebody asked to stop, or the study cannot be written to.
+fn is_of_the_place(error: &Error, study: &Path) -> bool {
+    match error {
+        Error::Interrupted => true,
+        Error::File { path, source } => {
+            let full = [
+                ErrorKind::StorageFull,
+                ErrorKind::QuotaExceeded,
+                ErrorKind::ReadOnlyFilesystem,
+                ErrorKind::PermissionDenied,
+                ErrorKind::StaleNetworkFileHandle,
+                ErrorKind::FileTooLarge,
+            ];
+            path.starts_with(study) && full.contains(&source.kind())
+        }
+        _ => false,
+    }
+}
+
+/// A watch that also stops once the claim is lost.
+struct Watched<'w> {
+    watch: &'w dyn Watch,
+    claim: &'w Claim,
+}
+
+impl Watch for Watched<'_> {
+    fn at(&self, progress: &Progress) {
+        self.watch.at(progress);
+    }
+
+    fn solving(&self, progress: &Progress) {
+        self.watch.solving(progress);
+    }
+
+    fn pass(&self, record: &PassRecord) {
+        self.watch.pass(record);
+    }
+
+    fn point(&self, record: &SweepRecord) {
+        self.watch.point(record);
+    }
+
+    fn update(&self, record: &UpdateRecord) {
+        self.watch.update(record);
+    }
+
+    fn stop(&self) -> bool {
+        self.claim.is_lost() || self.watch.stop()
+    }
+}
