@@ -213,6 +213,14 @@ class InUse(FileProblem):
     """Another run writes its results there: `path`."""
 
 
+class NotThisStudy(FileProblem):
+    """A directory that is to take a study holds something else: `path`, `what`."""
+
+
+class NotExclusive(FileProblem):
+    """A file system in which two processes can make one and the same file: `path`."""
+
+
 class NoResults(FileProblem):
     """A directory holds no results: `path`."""
 

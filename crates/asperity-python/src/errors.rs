@@ -125,6 +125,8 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
         Error::SurfaceChanged { path, file } => variant!(a, "SurfaceChanged", path = path, file = file),
         Error::NotResumable { path, reason } => variant!(a, "NotResumable", path = path, reason = reason),
         Error::InUse { path } => variant!(a, "InUse", path = path),
+        Error::NotThisStudy { path, what } => variant!(a, "NotThisStudy", path = path, what = what),
+        Error::NotExclusive { path } => variant!(a, "NotExclusive", path = path),
         Error::NoResults { path } => variant!(a, "NoResults", path = path),
         Error::File { path, source } => {
             variant!(a, "File", path = path, errno = source.raw_os_error(), reason = source.to_string())
