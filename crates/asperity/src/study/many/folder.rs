@@ -64,8 +64,8 @@ impl Folder {
                 _ => source,
             })
         })?;
-        // Nothing is swept: others may be at work here.
-        if !folder.identity_path().exists() && !is_empty(path).map_err(failed)? {
+        // Nothing is swept: others may be at work here. What they make first says that it is a study: it is looked for last.
+        if !is_empty(path).map_err(failed)? && !folder.identity_path().exists() {
             return Err(Error::NotThisStudy {
                 path: path.to_owned(),
                 what: "is not empty, and holds no study of asperity",
