@@ -23,7 +23,7 @@ use std::path::PathBuf;
 
 use asperity::study::Results;
 
-use crate::draw::{Charts, Paper};
+use crate::draw::{Charts, Mark, Paper, Series};
 use crate::report::Outcome;
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper, solution as of_solution};
@@ -60,6 +60,16 @@ impl Curves {
     fn new(name: &'static str, title: impl Into<String>, charts: impl Into<Charts>) -> Self {
         Self { name, title: title.into(), charts: charts.into() }
     }
+}
+
+/// A curve: points [x, y].
+type Curve = Vec<[f64; 2]>;
+
+/// The curves of the lower and of the upper body.
+fn of_bodies(curves: [Curve; 2]) -> Vec<Series> {
+    // Broken, so that neither hides the other where they are the same.
+    let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
+    looks.zip(curves).map(|((name, mark), curve)| Series::new(name, curve, mark)).collect()
 }
 
 /// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`

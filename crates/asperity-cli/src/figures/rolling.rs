@@ -2,10 +2,8 @@
 
 use asperity::motion::{PassFlowRecord, PassRecord};
 
-use super::Curves;
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
-
-type Curve = Vec<[f64; 2]>;
+use super::{Curve, Curves, of_bodies};
+use crate::draw::{Axis, Chart, Charts, Series, Unit};
 
 /// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic strain, and range of the
 /// residual displacement; none of bodies that do not flow.
@@ -22,15 +20,10 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
         });
         std::iter::once([0.0, 0.0]).chain(each).collect()
     };
+    // A body that does not flow is not shown.
     let bodies = |curves: [Curve; 2]| -> Vec<Series> {
-        // Broken, so that neither hides the other where they are the same; a body that does not flow is not shown.
-        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
-        let flows = |curve: &Curve| curve.iter().any(|[_, y]| *y != 0.0);
-        looks
-            .zip(curves)
-            .filter(|(_, curve)| flows(curve))
-            .map(|((name, mark), curve)| Series::new(name, curve, mark))
-            .collect()
+        let flows = |series: &Series| series.points.iter().any(|[_, y]| *y != 0.0);
+        of_bodies(curves).into_iter().filter(flows).collect()
     };
     let works = [over(&|flow| flow.plastic_work_lower), over(&|flow| flow.plastic_work_upper)];
     // Of what has shaken down nothing is left, which has no logarithm.

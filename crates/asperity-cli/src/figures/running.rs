@@ -3,13 +3,11 @@
 use asperity::motion::PassRecord;
 use asperity::units::CELSIUS;
 
-use super::Curves;
+use super::{Curve, Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
-
-type Curve = Vec<[f64; 2]>;
 
 /// Roughness, contact area, wear, film and temperature, each where there is any; none of bodies that do not run in.
 pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
@@ -38,11 +36,6 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     };
     let film =
         |body: usize| over(&|p| p.running.map_or(0.0, |r| [r.mean_film_lower, r.mean_film_upper][body]));
-    let bodies = |curves: [Curve; 2]| {
-        // Broken, so that neither hides the other where they are the same.
-        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
-        looks.zip(curves).map(|((name, mark), curve)| Series::new(name, curve, mark)).collect()
-    };
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
     let wear =
         if log { Axis::log("wear volume", Unit::Volume) } else { Axis::linear("wear volume", Unit::Volume) };
@@ -50,11 +43,11 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     let shown: Vec<(Axis, Vec<Series>)> = vec![
         (
             Axis::linear("Sq", Unit::Length),
-            bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
+            of_bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
         ),
         (Axis::linear("real contact area", Unit::Area), alone("both bodies", over(&|p| p.mean_contact_area))),
-        (wear, bodies([worn(0), worn(1)])),
-        (Axis::linear("mean film", Unit::Length), bodies([film(0), film(1)])),
+        (wear, of_bodies([worn(0), worn(1)])),
+        (Axis::linear("mean film", Unit::Length), of_bodies([film(0), film(1)])),
         (Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)),
     ];
     let is_there = |(_, series): &(Axis, Vec<Series>)| {

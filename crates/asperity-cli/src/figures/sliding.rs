@@ -4,9 +4,9 @@ use asperity::io::fields::Fields;
 use asperity::motion::UpdateRecord;
 use asperity::units::CELSIUS;
 
-use super::Curves;
 use super::sheet::Sheet;
 use super::stored::Stored;
+use super::{Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
 use crate::report::Outcome;
 
@@ -54,11 +54,7 @@ pub(crate) fn curves(updates: &[UpdateRecord]) -> Vec<Curves> {
 
 fn charts(updates: &[UpdateRecord]) -> Charts {
     let over = |value: Number| updates.iter().map(|update| [update.distance, value(update)]).collect();
-    let bodies = |values: [Number; 2]| -> Vec<Series> {
-        // Broken, so that neither hides the other where they are the same.
-        let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
-        looks.zip(values).map(|((name, mark), value)| Series::new(name, over(value), mark)).collect()
-    };
+    let bodies = |values: [Number; 2]| of_bodies(values.map(over));
     let alone = |value: Number| vec![Series::new("", over(value), Mark::Line)];
     let shown = [
         (Axis::linear("contact area", Unit::Area), alone(|u| u.contact_area)),

@@ -24,6 +24,12 @@ pub struct FlowedVolume {
     pub residual_stress: TensorField,
     /// Inward displacement r of the surface, m.
     pub displacement: Field,
+    /// Largest accumulated plastic strain, and where it is: x and y from the corner of the body, z from its surface.
+    pub max_strain: (f64, [Metre; 3]),
+    /// Volume that has flowed.
+    pub yielded_volume: CubicMetre,
+    /// Energy stored in the residual stress, −½ ∫ ε : K ε.
+    pub stored_energy: Joule,
 }
 
 impl FlowedVolume {
@@ -48,50 +54,21 @@ impl FlowedVolume {
     }
 
     fn of(body: &mut PlasticBody, side: usize, residual_stress: TensorField) -> Self {
+        let (state, displacement) = (body.state().clone(), body.displacement().clone());
+        let (yielded_volume, (strain, [layer, ix, iy])) = (body.yielded_volume(), body.max_accumulated());
         let volume = body.volume();
+        let (grid, layers) = (*volume.grid(), volume.layers());
         Self {
             body: side,
-            grid: *volume.grid(),
-            faces: volume.layers().faces().to_vec(),
-            state: body.state().clone(),
+            grid,
+            faces: layers.faces().to_vec(),
+            max_strain: (strain, [grid.centre(0, ix), grid.centre(1, iy), layers.centre(layer)]),
+            yielded_volume,
+            stored_energy: -0.5 * volume.inner_product(&residual_stress, &state.strain),
+            state,
             residual_stress,
-            displacement: body.displacement().clone(),
+            displacement,
         }
-    }
-
-    /// Volume of a cell of a layer.
-    fn cell(&self, layer: usize) -> CubicMetre {
-        self.grid.cell_area() * (self.faces[layer + 1] - self.faces[layer])
-    }
-
-    /// The largest accumulated plastic strain and where it is.
-    fn max_strain(&self) -> (f64, [Metre; 3]) {
-        let mut largest = (0.0, [0.0; 3]);
-        for ((layer, ix, iy), strain) in self.state.accumulated.indexed_iter() {
-            if *strain > largest.0 {
-                let depth = 0.5 * (self.faces[layer] + self.faces[layer + 1]);
-                largest = (*strain, [self.grid.centre(0, ix), self.grid.centre(1, iy), depth]);
-            }
-        }
-        largest
-    }
-
-    fn yielded_volume(&self) -> CubicMetre {
-        let layers = self.state.accumulated.outer_iter().enumerate();
-        layers.map(|(n, layer)| self.cell(n) * layer.iter().filter(|p| **p > 0.0).count() as f64).sum()
-    }
-
-    /// −½ ∫ ε : K ε.
-    fn stored_energy(&self) -> Joule {
-        let layers = self.state.strain.outer_iter().zip(self.residual_stress.outer_iter()).enumerate();
-        let energy = layers.map(|(n, (strain, stress))| {
-            let products = strain.outer_iter().zip(stress.outer_iter()).enumerate().map(|(c, (a, b))| {
-                let sum: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-                if c < 3 { sum } else { 2.0 * sum }
-            });
-            self.cell(n) * products.sum::<f64>()
-        });
-        -0.5 * energy.sum::<f64>()
     }
 
     /// Largest principal stress of the residual stress.
@@ -137,8 +114,9 @@ impl FlowedVolume {
                 let square = xx * xx + yy * yy + zz * zz + 2.0 * (yz * yz + xz * xz + xy * xy);
                 (square / 1.5).sqrt()
             });
-            net += self.cell(layer) * cells.sum::<f64>();
-            all += self.cell(layer) * grown.sum();
+            let thickness = self.faces[layer + 1] - self.faces[layer];
+            net += thickness * cells.sum::<f64>();
+            all += thickness * grown.sum();
         }
         if all > 0.0 { net / all } else { 0.0 }
     }
@@ -199,7 +177,7 @@ impl FlowRecord {
     pub(super) fn of(volumes: &[FlowedVolume], sums: &FlowSums) -> Self {
         let (max_plastic_strain, max_plastic_strain_position) = volumes
             .iter()
-            .map(FlowedVolume::max_strain)
+            .map(|volume| volume.max_strain)
             .max_by(|(a, _), (b, _)| a.total_cmp(b))
             .unwrap_or((0.0, [0.0; 3]));
         let displaced = |volume: &FlowedVolume| {
@@ -208,9 +186,9 @@ impl FlowRecord {
         Self {
             max_plastic_strain,
             max_plastic_strain_position,
-            yielded_volume: volumes.iter().map(FlowedVolume::yielded_volume).sum(),
+            yielded_volume: volumes.iter().map(|volume| volume.yielded_volume).sum(),
             plastic_work: sums.plastic_work,
-            stored_energy: volumes.iter().map(FlowedVolume::stored_energy).sum(),
+            stored_energy: volumes.iter().map(|volume| volume.stored_energy).sum(),
             displaced_volume: volumes.iter().map(displaced).sum(),
             max_residual_tension: volumes.iter().map(FlowedVolume::max_tension).fold(0.0, f64::max),
             residual_displacement: volumes.iter().map(FlowedVolume::range).fold(0.0, f64::max),
@@ -256,7 +234,7 @@ impl PassFlowRecord {
             all.find(|(volume, _)| volume.body == body).map_or(0.0, |(volume, before)| value(volume, before))
         };
         let both = |value: &dyn Fn(&FlowedVolume, &PlasticState) -> f64| [0, 1].map(|body| of(body, value));
-        let [max_plastic_strain_lower, max_plastic_strain_upper] = both(&|volume, _| volume.max_strain().0);
+        let [max_plastic_strain_lower, max_plastic_strain_upper] = both(&|volume, _| volume.max_strain.0);
         let [surface_shift_lower, surface_shift_upper] =
             both(&|volume, before| volume.shift(&volume.state.strain) - volume.shift(&before.strain));
         let [residual_displacement_lower, residual_displacement_upper] = both(&|volume, _| volume.range());

@@ -198,6 +198,13 @@ pub(super) fn plasticity(
     };
     known_in(&table)?;
     suits(root, name, bodies)?;
+    if let Some(entry) = root.required_table("contact")?.get("boundary")
+        && boundary.repeats(0) != boundary.repeats(1)
+    {
+        let message = "a boundary periodic along one axis alone has no plastic strain yet";
+        let hint = "use \"free\" or \"periodic\", or give the bodies a `hardness`".to_owned();
+        return Err(entry.error(message.to_owned(), Some(hint)));
+    }
     let depth = table.required("depth", "\"20 um\"")?.positive(Dimension::Length)?;
     let entry = table.required("layers", "16")?;
     let layers = entry.count(1)?;
