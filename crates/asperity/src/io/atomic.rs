@@ -23,6 +23,7 @@ pub fn replace(path: &Path, contents: &[u8]) -> Result<()> {
 ///
 /// # Errors
 /// As [`replace`].
+#[cfg(feature = "study")]
 pub(crate) fn create(path: &Path, contents: &[u8]) -> Result<bool> {
     let failed = |source| Error::File { path: path.to_owned(), source };
     let mut temporary = create_in(path.parent().unwrap_or(Path::new("."))).map_err(failed)?;
