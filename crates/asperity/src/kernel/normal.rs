@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use crate::grid::Field;
 use crate::kernel::cell::{asinh_term, integral};
+use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
 /// Normal displacement of the pair at `(x, y)` per unit pressure on the cell centred at the origin, m/Pa.
@@ -22,7 +23,7 @@ pub fn normal_displacement(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pasca
 
 /// Coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa: the first row of the influence matrix.
 pub fn influence_table(shape: [usize; 2], pitch: [Metre; 2], modulus: Pascal) -> Field {
-    Field::from_shape_fn(shape, |(i, j)| {
+    parallel::field(shape, |i, j| {
         normal_displacement(i as f64 * pitch[0], j as f64 * pitch[1], pitch, modulus)
     })
 }

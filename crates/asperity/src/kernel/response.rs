@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::grid::Field;
 use crate::kernel::{Coefficients, HalfSpaces, Line};
 use crate::material::Compliances;
+use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
 /// What a normal pressure does to the surfaces of a pair of bodies in the normal direction.
@@ -63,7 +64,7 @@ pub trait Influence: Send + Sync {
 
     /// Displacements of all cells `[i, j]` at the offsets `(i Δx, j Δy)`, m/Pa.
     fn table(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
-        Field::from_shape_fn(shape, |(i, j)| self.at(i as f64 * pitch[0], j as f64 * pitch[1]))
+        parallel::field(shape, |i, j| self.at(i as f64 * pitch[0], j as f64 * pitch[1]))
     }
 }
 

@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayViewMut2, Axis};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_traits::Zero;
 use rustfft::{Fft, FftNum, FftPlanner};
 
 use crate::grid::Field;
+use crate::math::parallel;
 
 /// Columns that are transformed together: one or two cache lines of a row.
 const STRIP: usize = 8;
-/// Rows whose piece of a strip is turned into columns at a time.
-const BLOCK: usize = 8;
+/// Complex numbers that a thread transforms at the least, so that it is worth its while.
+const SHARE: usize = 1 << 16;
 /// Room between the columns of a strip: without it columns of a power of two share their cache lines' places.
 const ROOM: usize = 8;
 
@@ -44,6 +45,16 @@ impl<T: FftNum> Plans<T> {
     /// Number of frequencies along y.
     pub(super) fn half(&self) -> usize {
         self.shape[1] / 2 + 1
+    }
+
+    /// Rows that a thread takes at the least.
+    fn rows_at_once(&self) -> usize {
+        SHARE.div_ceil(self.shape[1])
+    }
+
+    /// Strips that a thread takes at the least.
+    pub(super) fn strips_at_once(&self) -> usize {
+        SHARE.div_ceil(STRIP * self.shape[0])
     }
 
     /// Scratch for any of the plans.
@@ -94,26 +105,50 @@ impl Plans<f64> {
     /// `ky ≤ My/2`, `kx ≤ Mx/2`.
     pub(crate) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
         let [mx, my] = self.shape;
-        let mut scratch = self.scratch();
-        let mut spectrum = Field::zeros([self.half(), mx / 2 + 1]);
-        let mut row = self.along_y.make_input_vec();
-        let mut half = self.along_y.make_output_vec();
-        for (ix, values) in table.outer_iter().enumerate() {
-            for (iy, value) in row.iter_mut().enumerate() {
-                *value = parity[1].extend(iy, my, |iy| values[iy]);
-            }
-            let forward = self.along_y.process_with_scratch(&mut row, &mut half, &mut scratch);
-            forward.expect("lengths come from the plan");
-            spectrum.column_mut(ix).iter_mut().zip(&half).for_each(|(s, h)| *s = parity[1].part(*h));
-        }
-        let mut column = vec![Complex::zero(); mx];
-        for mut spectrum in spectrum.outer_iter_mut() {
-            for (ix, value) in column.iter_mut().enumerate() {
-                *value = Complex::from(parity[0].extend(ix, mx, |ix| spectrum[ix]));
-            }
-            self.along_x.process_with_scratch(&mut column, &mut scratch);
-            spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = parity[0].part(*c));
-        }
+        let half = self.half();
+        let mut scratch = Scratch::new(self);
+        // Of each row of the table its transform along y, of which one part is not zero.
+        let mut rows = Field::zeros([mx / 2 + 1, half]);
+        let parts = table.outer_iter().zip(rows.outer_iter_mut());
+        parallel::each(
+            parts,
+            self.rows_at_once(),
+            &mut scratch,
+            || Scratch::new(self),
+            |scratch, (values, mut to)| {
+                let Scratch { row, columns, plan } = scratch;
+                for (iy, value) in row.iter_mut().enumerate() {
+                    *value = parity[1].extend(iy, my, |iy| values[iy]);
+                }
+                let line = &mut columns[..half];
+                self.along_y.process_with_scratch(row, line, plan).expect("lengths come from the plan");
+                to.iter_mut().zip(line).for_each(|(to, value)| *to = parity[1].part(*value));
+            },
+        );
+        let mut spectrum = Field::zeros([half, mx / 2 + 1]);
+        let strips = spectrum.axis_chunks_iter_mut(Axis(0), STRIP).zip(rows.axis_chunks_iter(Axis(1), STRIP));
+        parallel::each(
+            strips,
+            self.strips_at_once(),
+            &mut scratch,
+            || Scratch::new(self),
+            |scratch, (mut to, rows)| {
+                let Scratch { columns, plan, .. } = scratch;
+                for (ix, row) in rows.outer_iter().enumerate() {
+                    for (column, value) in columns.chunks_exact_mut(mx + ROOM).zip(row) {
+                        column[ix] = Complex::from(*value);
+                    }
+                }
+                for (column, mut to) in columns.chunks_exact_mut(mx + ROOM).zip(to.outer_iter_mut()) {
+                    let column = &mut column[..mx];
+                    for ix in 0..mx {
+                        column[ix] = Complex::from(parity[0].extend(ix, mx, |ix| column[ix].re));
+                    }
+                    self.along_x.process_with_scratch(column, plan);
+                    to.iter_mut().zip(column).for_each(|(to, value)| *to = parity[0].part(*value));
+                }
+            },
+        );
         spectrum
     }
 }
@@ -129,11 +164,13 @@ pub(crate) struct Kernel<T> {
 }
 
 impl Kernel<f64> {
-    /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `transform`, for
-    /// `kx ≤ Mx/2`, `ky ≤ My/2`.
-    pub(crate) fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> f64) -> Self {
-        let half = shape.map(|n| n / 2 + 1);
-        let spectrum = Field::from_shape_fn([half[1], half[0]], |(ky, kx)| transform(kx, ky));
+    /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `spectrum[[ky, kx]]`, for `ky ≤ My/2`,
+    /// `kx ≤ Mx/2`.
+    ///
+    /// # Panics
+    /// If the spectrum has another shape.
+    pub(crate) fn from_spectrum(shape: [usize; 2], spectrum: Field) -> Self {
+        assert_eq!(spectrum.dim(), (shape[1] / 2 + 1, shape[0] / 2 + 1), "shape of the spectrum");
         Self::normalised(Plans::new(shape), spectrum)
     }
 
@@ -169,7 +206,8 @@ impl Kernel<f64> {
 ///
 /// Rows that are zero are not transformed, columns are transformed in strips that go forth, through the kernel and
 /// back while they are in cache, and only the rows of the field come back: with a kernel of twice the size about
-/// half the work of whole transforms. Nothing is allocated after construction.
+/// half the work of whole transforms. Rows and strips are worked on in parallel. One thread allocates nothing after
+/// construction.
 pub(crate) struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
     transform: Transform<T>,
@@ -193,112 +231,88 @@ impl<T: FftNum> Convolution<T> {
         let Self { kernel, transform, scratch } = self;
         let plans = &kernel.plans;
         transform.rows_forward(plans, input, scratch);
-        for first in strips(plans) {
-            transform.columns_forward(plans, first, scratch);
-            for (c, column) in transform.columns(plans, first).enumerate() {
-                let spectrum = kernel.spectrum.row(first + c);
-                let spectrum = spectrum.as_slice().expect("rows are contiguous");
-                let (front, back) = column.split_at_mut(plans.shape[0] / 2 + 1);
-                front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
-                back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
-            }
-            transform.columns_back(plans, first, scratch);
-        }
+        parallel::each(
+            transform.strips(),
+            plans.strips_at_once(),
+            scratch,
+            || Scratch::new(plans),
+            |scratch, mut strip| {
+                strip.forward(plans, scratch);
+                for (ky, column) in strip.columns(plans, scratch) {
+                    let spectrum = kernel.spectrum.row(ky);
+                    let spectrum = spectrum.as_slice().expect("rows are contiguous");
+                    let (front, back) = column.split_at_mut(plans.shape[0] / 2 + 1);
+                    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
+                    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
+                }
+                strip.back(plans, scratch);
+            },
+        );
         transform.rows_back(plans, kernel.unit, output, scratch);
     }
 }
 
-/// The first columns of the strips in which columns are transformed.
-pub(super) fn strips<T: FftNum>(plans: &Plans<T>) -> impl Iterator<Item = usize> + use<T> {
-    (0..plans.half()).step_by(STRIP)
-}
-
-/// Scratch of the transforms, which several fields may share.
+/// Scratch of the transforms, for one thread; several fields may share it.
 pub(super) struct Scratch<T> {
+    /// A row of the grid.
     row: Vec<T>,
+    /// The columns of a strip, one after another.
+    columns: Vec<Complex<T>>,
     plan: Vec<Complex<T>>,
 }
 
 impl<T: FftNum> Scratch<T> {
     pub(super) fn new(plans: &Plans<T>) -> Self {
-        Self { row: vec![T::zero(); plans.shape[1]], plan: plans.scratch() }
+        Self {
+            row: vec![T::zero(); plans.shape[1]],
+            columns: vec![Complex::zero(); (STRIP * (plans.shape[0] + ROOM)).max(plans.half())],
+            plan: plans.scratch(),
+        }
     }
 }
 
-/// A field on its way through the transforms: its rows, and one strip of columns.
+/// A field between the transforms of its rows and those of its columns.
 pub(super) struct Transform<T> {
     rows: Array2<Complex<T>>,
-    strip: Vec<Complex<T>>,
 }
 
 impl<T: FftNum> Transform<T> {
-    /// A convolution for fields of `shape`, which may be smaller than the plans.
+    /// A transform of fields of `shape`, which may be smaller than the plans.
     pub(super) fn new(plans: &Plans<T>, shape: [usize; 2]) -> Self {
         let [mx, my] = plans.shape;
         assert!(shape[0] <= mx && shape[1] <= my, "kernel smaller than the field");
-        Self {
-            rows: Array2::from_elem([shape[0], plans.half()], Complex::zero()),
-            strip: vec![Complex::zero(); STRIP * (mx + ROOM)],
-        }
+        Self { rows: Array2::from_elem([shape[0], plans.half()], Complex::zero()) }
     }
 
+    /// Transforms the rows of `input`.
     pub(super) fn rows_forward(&mut self, plans: &Plans<T>, input: &Array2<T>, scratch: &mut Scratch<T>) {
         assert_eq!(input.nrows(), self.rows.nrows(), "shape of the field");
         let ny = input.ncols();
-        for (values, mut half) in input.outer_iter().zip(self.rows.outer_iter_mut()) {
-            if values.iter().all(T::is_zero) {
-                half.fill(Complex::zero());
-                continue;
-            }
-            let row = &mut scratch.row;
-            row[..ny].iter_mut().zip(values).for_each(|(r, p)| *r = *p);
-            row[ny..].fill(T::zero());
-            let half = half.as_slice_mut().expect("rows are contiguous");
-            let forward = plans.along_y.process_with_scratch(row, half, &mut scratch.plan);
-            forward.expect("lengths of the plan");
-        }
+        let rows = input.outer_iter().zip(self.rows.outer_iter_mut());
+        parallel::each(
+            rows,
+            plans.rows_at_once(),
+            scratch,
+            || Scratch::new(plans),
+            |scratch, (values, mut half)| {
+                if values.iter().all(T::is_zero) {
+                    half.fill(Complex::zero());
+                    return;
+                }
+                let row = &mut scratch.row;
+                row[..ny].iter_mut().zip(values).for_each(|(r, p)| *r = *p);
+                row[ny..].fill(T::zero());
+                let half = half.as_slice_mut().expect("rows are contiguous");
+                let forward = plans.along_y.process_with_scratch(row, half, &mut scratch.plan);
+                forward.expect("lengths of the plan");
+            },
+        );
     }
 
-    /// The columns of the strip that begins at `first`.
-    pub(super) fn columns(
-        &mut self,
-        plans: &Plans<T>,
-        first: usize,
-    ) -> impl Iterator<Item = &mut [Complex<T>]> {
-        let mx = plans.shape[0];
-        let width = STRIP.min(plans.half() - first);
-        self.strip.chunks_exact_mut(mx + ROOM).take(width).map(move |column| &mut column[..mx])
-    }
-
-    pub(super) fn columns_forward(&mut self, plans: &Plans<T>, first: usize, scratch: &mut Scratch<T>) {
-        let (nx, half) = (self.rows.nrows(), plans.half());
-        let rows = self.rows.as_slice_mut().expect("standard layout");
-        let width = STRIP.min(half - first);
-        for (block, rows) in rows.chunks(BLOCK * half).enumerate() {
-            for (c, column) in self.strip.chunks_exact_mut(plans.shape[0] + ROOM).take(width).enumerate() {
-                let column = &mut column[block * BLOCK..][..rows.len() / half];
-                column.iter_mut().zip(rows.chunks_exact(half)).for_each(|(v, row)| *v = row[first + c]);
-            }
-        }
-        for column in self.columns(plans, first) {
-            column[nx..].fill(Complex::zero());
-            plans.along_x.process_with_scratch(column, &mut scratch.plan);
-        }
-    }
-
-    pub(super) fn columns_back(&mut self, plans: &Plans<T>, first: usize, scratch: &mut Scratch<T>) {
-        for column in self.columns(plans, first) {
-            plans.back_x.process_with_scratch(column, &mut scratch.plan);
-        }
-        let half = plans.half();
-        let rows = self.rows.as_slice_mut().expect("standard layout");
-        let width = STRIP.min(half - first);
-        for (block, rows) in rows.chunks_mut(BLOCK * half).enumerate() {
-            for (c, column) in self.strip.chunks_exact(plans.shape[0] + ROOM).take(width).enumerate() {
-                let column = &column[block * BLOCK..][..rows.len() / half];
-                column.iter().zip(rows.chunks_exact_mut(half)).for_each(|(v, row)| row[first + c] = *v);
-            }
-        }
+    /// The strips in which columns are transformed.
+    pub(super) fn strips(&mut self) -> impl ExactSizeIterator<Item = Strip<'_, T>> {
+        let strips = self.rows.axis_chunks_iter_mut(Axis(1), STRIP).enumerate();
+        strips.map(|(number, rows)| Strip { first: number * STRIP, rows })
     }
 
     /// Brings the rows back, times `unit`.
@@ -311,16 +325,72 @@ impl<T: FftNum> Transform<T> {
     ) {
         assert_eq!(output.nrows(), self.rows.nrows(), "shape of the field");
         let my = plans.shape[1];
-        for (mut half, mut values) in self.rows.outer_iter_mut().zip(output.outer_iter_mut()) {
-            let half = half.as_slice_mut().expect("rows are contiguous");
-            // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
-            half[0].im = T::zero();
-            if my.is_multiple_of(2) {
-                half[my / 2].im = T::zero();
+        let rows = self.rows.outer_iter_mut().zip(output.outer_iter_mut());
+        parallel::each(
+            rows,
+            plans.rows_at_once(),
+            scratch,
+            || Scratch::new(plans),
+            |scratch, (mut half, mut values)| {
+                let half = half.as_slice_mut().expect("rows are contiguous");
+                // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
+                half[0].im = T::zero();
+                if my.is_multiple_of(2) {
+                    half[my / 2].im = T::zero();
+                }
+                let back = plans.back_y.process_with_scratch(half, &mut scratch.row, &mut scratch.plan);
+                back.expect("lengths of the plan");
+                values.iter_mut().zip(&scratch.row).for_each(|(u, r)| *u = *r * unit);
+            },
+        );
+    }
+}
+
+/// Some neighbouring frequencies along y, whose columns are transformed together.
+pub(super) struct Strip<'a, T> {
+    first: usize,
+    rows: ArrayViewMut2<'a, Complex<T>>,
+}
+
+impl<T: FftNum> Strip<'_, T> {
+    /// Frequency along y and column of each, in the scratch.
+    pub(super) fn columns<'s>(
+        &self,
+        plans: &Plans<T>,
+        scratch: &'s mut Scratch<T>,
+    ) -> impl Iterator<Item = (usize, &'s mut [Complex<T>])> + use<'s, T> {
+        let (first, mx) = (self.first, plans.shape[0]);
+        let columns = scratch.columns.chunks_exact_mut(mx + ROOM).take(self.rows.ncols()).enumerate();
+        columns.map(move |(c, column)| (first + c, &mut column[..mx]))
+    }
+
+    /// Transforms the columns into the scratch.
+    pub(super) fn forward(&self, plans: &Plans<T>, scratch: &mut Scratch<T>) {
+        let [mx, _] = plans.shape;
+        let nx = self.rows.nrows();
+        for (ix, row) in self.rows.outer_iter().enumerate() {
+            let row = row.to_slice().expect("rows are contiguous");
+            for (column, value) in scratch.columns.chunks_exact_mut(mx + ROOM).zip(row) {
+                column[ix] = *value;
             }
-            let back = plans.back_y.process_with_scratch(half, &mut scratch.row, &mut scratch.plan);
-            back.expect("lengths of the plan");
-            values.iter_mut().zip(&scratch.row).for_each(|(u, r)| *u = *r * unit);
+        }
+        for column in scratch.columns.chunks_exact_mut(mx + ROOM).take(self.rows.ncols()) {
+            column[nx..mx].fill(Complex::zero());
+            plans.along_x.process_with_scratch(&mut column[..mx], &mut scratch.plan);
+        }
+    }
+
+    /// Transforms the columns in the scratch back.
+    pub(super) fn back(&mut self, plans: &Plans<T>, scratch: &mut Scratch<T>) {
+        let [mx, _] = plans.shape;
+        for column in scratch.columns.chunks_exact_mut(mx + ROOM).take(self.rows.ncols()) {
+            plans.back_x.process_with_scratch(&mut column[..mx], &mut scratch.plan);
+        }
+        for (ix, row) in self.rows.outer_iter_mut().enumerate() {
+            let row = row.into_slice().expect("rows are contiguous");
+            for (column, value) in scratch.columns.chunks_exact(mx + ROOM).zip(row) {
+                *value = column[ix];
+            }
         }
     }
 }

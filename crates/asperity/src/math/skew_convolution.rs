@@ -7,7 +7,7 @@ use realfft::num_complex::Complex64;
 use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
-use crate::math::convolution::{Plans, Scratch, Transform, strips};
+use crate::math::convolution::{Plans, Scratch, Transform};
 
 /// A cyclic kernel that is even along y, in Fourier space, with the plans of its size.
 pub(crate) struct SkewKernel {
@@ -23,10 +23,10 @@ impl SkewKernel {
         let (mut transform, mut scratch) = (Transform::new(&plans, plans.shape), Scratch::new(&plans));
         let mut spectrum = Array2::from_elem([plans.half(), plans.shape[0]], Complex64::zero());
         transform.rows_forward(&plans, values, &mut scratch);
-        for first in strips(&plans) {
-            transform.columns_forward(&plans, first, &mut scratch);
-            for (c, column) in transform.columns(&plans, first).enumerate() {
-                spectrum.row_mut(first + c).iter_mut().zip(column).for_each(|(s, value)| *s = *value);
+        for strip in transform.strips() {
+            strip.forward(&plans, &mut scratch);
+            for (ky, column) in strip.columns(&plans, &mut scratch) {
+                spectrum.row_mut(ky).iter_mut().zip(column).for_each(|(s, value)| *s = *value);
             }
         }
         Self::normalised(plans, spectrum)
@@ -74,12 +74,12 @@ impl SkewConvolution {
         let Self { kernel, transform, scratch } = self;
         let plans = &kernel.plans;
         transform.rows_forward(plans, input, scratch);
-        for first in strips(plans) {
-            transform.columns_forward(plans, first, scratch);
-            for (c, column) in transform.columns(plans, first).enumerate() {
-                column.iter_mut().zip(kernel.spectrum.row(first + c)).for_each(|(v, k)| *v *= k);
+        for mut strip in transform.strips() {
+            strip.forward(plans, scratch);
+            for (ky, column) in strip.columns(plans, scratch) {
+                column.iter_mut().zip(kernel.spectrum.row(ky)).for_each(|(v, k)| *v *= k);
             }
-            transform.columns_back(plans, first, scratch);
+            strip.back(plans, scratch);
         }
         transform.rows_back(plans, 1.0, output, scratch);
     }

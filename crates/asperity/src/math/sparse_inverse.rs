@@ -9,12 +9,12 @@ pub(crate) struct SparseInverse {
     shape: [usize; 2],
     /// The row of G for each pattern of free neighbours.
     rows: [[f32; MEMBERS]; 1 << NEIGHBOURS],
-    /// For each free cell its row of the table: bit k is set where neighbour k is free.
-    patterns: Vec<u8>,
 }
 
 /// Number of causal neighbours.
 const NEIGHBOURS: usize = 6;
+/// Rows before a cell that have neighbours of it.
+pub(crate) const ROWS_ABOVE: usize = 2;
 /// Number of members of a row: the neighbours, and last the cell itself.
 const MEMBERS: usize = NEIGHBOURS + 1;
 /// The nearest neighbours that come before a cell in memory.
@@ -47,30 +47,30 @@ impl SparseInverse {
             members.iter().zip(solved).for_each(|(&k, y)| row[k] = (y * scale) as f32);
             row
         });
-        Self { shape, rows, patterns: Vec::with_capacity(shape[0] * shape[1]) }
+        Self { shape, rows }
     }
 
-    /// Adapts to the flat `free` cells, of which `is_free` knows each.
-    pub(crate) fn adapt(&mut self, free: impl Iterator<Item = usize>, is_free: impl Fn(usize) -> bool) {
+    /// The pattern of a flat `cell`: bit k is set where neighbour k `is_free`.
+    pub(crate) fn pattern(&self, cell: usize, is_free: impl Fn(usize) -> bool) -> u8 {
         let [nx, ny] = self.shape.map(|n| n as isize);
-        self.patterns.clear();
-        self.patterns.extend(free.map(|cell| {
-            let (ix, iy) = (cell as isize / ny, cell as isize % ny);
-            let free = |(di, dj): (isize, isize)| {
-                let (i, j) = (ix + di, iy + dj);
-                (0..nx).contains(&i) && (0..ny).contains(&j) && is_free((i * ny + j) as usize)
-            };
-            (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
-        }));
+        let (ix, iy) = (cell as isize / ny, cell as isize % ny);
+        let free = |(di, dj): (isize, isize)| {
+            let (i, j) = (ix + di, iy + dj);
+            (0..nx).contains(&i) && (0..ny).contains(&j) && is_free((i * ny + j) as usize)
+        };
+        (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
     }
 
-    /// Adds GᵀG r to `z`: fields on the grid, zero where it is not `free`, whose cells come as they were adapted to.
-    pub(crate) fn add(&self, free: impl Iterator<Item = usize>, r: &[f32], z: &mut [f32]) {
+    /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern.
+    ///
+    /// `r` and `z` have, besides these rows, the [`ROWS_ABOVE`] before them, from whose first cell the cells count; there is
+    /// nothing but zeros before the first row of a grid. `r` is zero where it is not free.
+    pub(crate) fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) {
         let back = CAUSAL.map(|(di, dj)| (-di * self.shape[1] as isize - dj) as usize);
-        for (cell, pattern) in free.zip(&self.patterns) {
-            let row = &self.rows[*pattern as usize];
+        for (cell, pattern) in cells {
+            let row = &self.rows[pattern as usize];
             // Absent neighbours have the coefficient 0, whatever cell they are taken for.
-            let neighbours = back.map(|distance| cell.saturating_sub(distance));
+            let neighbours = back.map(|distance| cell - distance);
             let mut product = row[NEIGHBOURS] * r[cell];
             neighbours.iter().zip(row).for_each(|(&neighbour, g)| product += g * r[neighbour]);
             z[cell] += row[NEIGHBOURS] * product;

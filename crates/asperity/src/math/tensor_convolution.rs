@@ -6,7 +6,8 @@ use realfft::num_complex::Complex64;
 use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
-use crate::math::convolution::{Parity, Plans, Scratch, Transform, strips};
+use crate::math::convolution::{Parity, Plans, Scratch, Transform};
+use crate::math::parallel;
 
 /// Parities along x and y of the components xx, xy, yy, xz, yz and zz of the tensor.
 const PARITIES: [[Parity; 2]; 6] = [
@@ -92,7 +93,7 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
 pub(crate) struct TensorConvolution {
     kernel: Arc<TensorKernel>,
     transforms: [Transform<f64>; 3],
-    scratch: Scratch<f64>,
+    scratch: [Scratch<f64>; 3],
 }
 
 impl TensorConvolution {
@@ -103,7 +104,7 @@ impl TensorConvolution {
     pub(crate) fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
         Self {
             transforms: std::array::from_fn(|_| Transform::new(&kernel.plans, shape)),
-            scratch: Scratch::new(&kernel.plans),
+            scratch: scratch(&kernel.plans),
             kernel,
         }
     }
@@ -126,36 +127,49 @@ impl TensorConvolution {
         let (forward, back) = (both(given, meet(asked)), both(asked, meet(given)));
         for ((transform, field), forward) in transforms.iter_mut().zip(input).zip(forward) {
             if let (Some(field), true) = (field, forward) {
-                transform.rows_forward(plans, field, scratch);
+                transform.rows_forward(plans, field, &mut scratch[0]);
             }
         }
-        for first in strips(plans) {
-            for (transform, forward) in transforms.iter_mut().zip(forward) {
-                if forward {
-                    transform.columns_forward(plans, first, scratch);
-                } else {
-                    transform.columns(plans, first).for_each(|column| column.fill(Complex64::zero()));
+        let [x, y, z] = transforms.each_mut().map(Transform::strips);
+        let strips = x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
+        parallel::each(
+            strips,
+            plans.strips_at_once(),
+            scratch,
+            || self::scratch(plans),
+            |scratch, mut strips| {
+                for ((strip, scratch), forward) in strips.iter().zip(&mut *scratch).zip(forward) {
+                    if forward {
+                        strip.forward(plans, scratch);
+                    } else {
+                        strip.columns(plans, scratch).for_each(|(_, column)| column.fill(Complex64::zero()));
+                    }
                 }
-            }
-            let [x, y, z] = transforms.each_mut();
-            let columns = x.columns(plans, first).zip(y.columns(plans, first)).zip(z.columns(plans, first));
-            for (c, ((x, y), z)) in columns.enumerate() {
-                kernel.multiply(first + c, [x, y, z]);
-            }
-            for (transform, back) in transforms.iter_mut().zip(back) {
-                if back {
-                    transform.columns_back(plans, first, scratch);
+                let [x, y, z] = scratch.each_mut();
+                let columns = strips[0].columns(plans, x).zip(strips[1].columns(plans, y));
+                for (((ky, x), (_, y)), (_, z)) in columns.zip(strips[2].columns(plans, z)) {
+                    kernel.multiply(ky, [x, y, z]);
                 }
-            }
-        }
+                for ((strip, scratch), back) in strips.iter_mut().zip(scratch).zip(back) {
+                    if back {
+                        strip.back(plans, scratch);
+                    }
+                }
+            },
+        );
         for ((transform, field), back) in transforms.iter_mut().zip(output).zip(back) {
             match field {
-                Some(field) if back => transform.rows_back(plans, 1.0, field, scratch),
+                Some(field) if back => transform.rows_back(plans, 1.0, field, &mut scratch[0]),
                 Some(field) => field.fill(0.0),
                 None => {}
             }
         }
     }
+}
+
+/// Scratch for the transforms of three fields.
+fn scratch(plans: &Plans<f64>) -> [Scratch<f64>; 3] {
+    std::array::from_fn(|_| Scratch::new(plans))
 }
 
 impl TensorKernel {

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::SharedResponse;
-use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency};
+use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency, parallel};
 use crate::operator::{Boundary, Operator};
 
 /// What all operators of one periodic grid share: the spectrum of the influence coefficients.
@@ -22,11 +22,12 @@ impl PeriodicKernel {
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Arc<Self> {
         let response = response.into();
         let [nx, ny] = grid.shape;
-        let kernel = MixedKernel::new(Kernel::from_transform(grid.shape, |k, l| {
+        let spectrum = parallel::field([ny / 2 + 1, nx / 2 + 1], |l, k| {
             let qx = angular_frequency(k, nx, grid.pitch[0]);
             let qy = angular_frequency(l, ny, grid.pitch[1]);
             response.harmonic_displacement(qx, qy)
-        }));
+        });
+        let kernel = MixedKernel::new(Kernel::from_spectrum(grid.shape, spectrum));
         let (mut unit, mut displacement) = (grid.zeros(), grid.zeros());
         unit[[0, 0]] = 1.0;
         MixedConvolution::new(Arc::clone(&kernel), grid.shape).apply(&unit, &mut displacement);

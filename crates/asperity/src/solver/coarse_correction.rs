@@ -2,10 +2,11 @@
 //! axis.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
+use std::ops::Range;
 use std::sync::Arc;
 
-use crate::grid::SingleField;
-use crate::math::{Convolution, Kernel, fft::angular_frequency};
+use crate::grid::{Field, SingleField};
+use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::{Edge, Operator};
 use crate::solver::sets::Sets;
 
@@ -51,7 +52,7 @@ impl CoarseCorrection {
         let longest = grid.extent()[0].max(grid.extent()[1]);
         let stiffness = |qx: f64, qy: f64| 1.0 / operator.harmonic_displacement(qx, qy);
         let mean = if operator.boundary().leaves_mean_free() { stiffness(TAU / longest, 0.0) } else { 0.0 };
-        let kernel = Kernel::from_transform(shape, |k, l| {
+        let spectrum = Field::from_shape_fn([shape[1] / 2 + 1, shape[0] / 2 + 1], |(l, k)| {
             let qx = angular_frequency(k, shape[0], grid.pitch[0] * factor[0]);
             let qy = angular_frequency(l, shape[1], grid.pitch[1] * factor[1]);
             let wide = match (k, l) {
@@ -67,6 +68,7 @@ impl CoarseCorrection {
             };
             wide / cells
         });
+        let kernel = Kernel::from_spectrum(shape, spectrum);
         Self {
             stiffness: Convolution::new(Arc::new(kernel.to_single()), shape),
             mean_stiffness: (mean / cells) as f32,
@@ -81,30 +83,42 @@ impl CoarseCorrection {
 
     /// Adapts to the free cells of `sets`.
     pub(super) fn adapt(&mut self, sets: &Sets) {
-        let (free, all) = (sets.free().len() as f32, sets.of().len() as f32);
+        let (free, all) = (sets.free_cells() as f32, sets.of().len() as f32);
         self.open = 1.0 - (free - 1.0) / all;
         self.bilinear.restrict(sets, |_| 1.0, &mut self.weight);
         self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
     }
 
-    /// Restricts `r` to the nodes and solves there; writes the residual without its smooth part into `rest`: `(I − T) A r`
-    /// with T = P D Pᵀ, a smoothing.
-    pub(super) fn split(&mut self, sets: &Sets, r: &[f32], rest: &mut [f32]) {
+    /// Restricts `r` to the nodes and solves there.
+    pub(super) fn solve(&mut self, sets: &Sets, r: &[f32]) {
         self.restrict(sets, r);
-        let scale = 1.0 / self.cells;
-        self.bilinear.interpolate(sets, &self.restricted, |cell, wide| rest[cell] = r[cell] - scale * wide);
         self.stiffness.apply(&self.restricted, &mut self.solved);
         self.solved +=
             self.mean_stiffness * self.restricted.sum() / (self.restricted.len() as f32 * self.open.powi(2));
         self.solved *= &self.weight;
     }
 
-    /// Takes the smooth part out of `z`, and adds the coarse solution for the `r` that was split before:
+    /// Writes the restricted residual without its smooth part into `rest`, for the free cells of some `rows`, the first of which
+    /// begins at `rest[0]`: `(I − T) A r` with T = P D Pᵀ, a smoothing.
+    pub(super) fn without_smooth_part(&self, sets: &Sets, rows: Range<usize>, r: &[f32], rest: &mut [f32]) {
+        let columns = sets.bands().columns();
+        let scale = 1.0 / self.cells;
+        let first = rows.start * columns;
+        self.bilinear.interpolate(sets, rows, &self.restricted, |cell, wide| {
+            rest[cell - first] = r[cell] - scale * wide;
+        });
+    }
+
+    /// Takes the smooth part out of `z`, and adds the coarse solution for the `r` that was solved for before:
     /// `(I − T)ᵀ z + P D B D Pᵀ A r`.
     pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) {
         self.restrict(sets, z);
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
-        self.bilinear.interpolate(sets, &self.solved, |cell, wide| z[cell] += wide);
+        let bands = sets.bands();
+        parallel::map(bands.rows().zip(bands.cut_mut(z)), |(rows, z)| {
+            let first = rows.start * bands.columns();
+            self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| z[cell - first] += wide);
+        });
     }
 
     /// Computes the restricted residual D Pᵀ A r.
@@ -118,60 +132,99 @@ impl CoarseCorrection {
 struct Bilinear {
     /// For each row (column) of cells: the node before it, and how far it is from there to the next, 0 … 1.
     along: [Vec<(usize, f32)>; 2],
-    /// Scratch: values at the nodes along a row of cells, the first once more at the end.
-    line: Vec<f32>,
 }
 
 impl Bilinear {
     fn new(fine: [usize; 2], coarse: [usize; 2]) -> Self {
-        Self { along: [0, 1].map(|axis| nodes(fine[axis], coarse[axis])), line: vec![0.0; coarse[1] + 1] }
+        Self { along: [0, 1].map(|axis| nodes(fine[axis], coarse[axis])) }
     }
 
-    /// `f` of each free cell and its value between `nodes`.
-    fn interpolate(&mut self, sets: &Sets, nodes: &SingleField, mut f: impl FnMut(usize, f32)) {
-        let Self { along, line } = self;
-        for (row, first, free) in sets.rows() {
-            let (node, share) = along[0][row];
+    /// `f` of each free cell of some rows and its value between `nodes`.
+    fn interpolate(
+        &self,
+        sets: &Sets,
+        rows: Range<usize>,
+        nodes: &SingleField,
+        mut f: impl FnMut(usize, f32),
+    ) {
+        // Values at the nodes along a row of cells, the first once more at the end.
+        let mut line = vec![0.0; nodes.ncols() + 1];
+        for row in rows {
+            let mut columns = sets.columns(row).peekable();
+            if columns.peek().is_none() {
+                continue;
+            }
+            let (node, share) = self.along[0][row];
             let ends = [nodes.row(node), nodes.row((node + 1) % nodes.nrows())];
             for ((value, a), b) in line.iter_mut().zip(ends[0]).zip(ends[1]) {
                 *value = a + share * (b - a);
             }
             line[nodes.ncols()] = line[0];
-            for &cell in free {
-                let cell = cell as usize;
-                let (node, share) = along[1][cell - first];
-                f(cell, line[node] + share * (line[node + 1] - line[node]));
+            let first = row * sets.bands().columns();
+            for column in columns {
+                let (node, share) = self.along[1][column];
+                f(first + column, line[node] + share * (line[node + 1] - line[node]));
             }
         }
     }
 
     /// The transpose: shares `value` of each free cell out to the nodes around it.
-    fn restrict(&mut self, sets: &Sets, value: impl Fn(usize) -> f32, nodes: &mut SingleField) {
-        let Self { along, line } = self;
+    fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync + Send, nodes: &mut SingleField) {
+        let shape = [nodes.nrows(), nodes.ncols()];
+        let parts = parallel::map(sets.bands().rows(), |rows| self.restrict_rows(sets, rows, &value, shape));
         nodes.fill(0.0);
-        let (rows, columns) = nodes.dim();
-        for (row, first, free) in sets.rows() {
+        for (first, part) in parts {
+            for (number, part) in part.outer_iter().enumerate() {
+                let mut to = nodes.row_mut((first + number) % shape[0]);
+                to += &part;
+            }
+        }
+    }
+
+    /// As [`Self::restrict`] for some rows: the first row of nodes that they have a share in, and what they add to it and to
+    /// those after it.
+    fn restrict_rows(
+        &self,
+        sets: &Sets,
+        rows: Range<usize>,
+        value: impl Fn(usize) -> f32,
+        shape: [usize; 2],
+    ) -> (usize, SingleField) {
+        let [all, columns] = shape;
+        let first = self.along[0][rows.start].0;
+        // Between the nodes before the first row and after the last one; where these go round, all.
+        let count = ((rows.len() * all).div_ceil(self.along[0].len()) + 2).min(all);
+        let mut part = SingleField::zeros([count, columns]);
+        let mut line = vec![0.0; columns + 1];
+        for row in rows {
+            let start = row * sets.bands().columns();
             line.fill(0.0);
-            let (mut last, mut sums) = (0, [0.0; 2]);
-            for &cell in free {
-                let cell = cell as usize;
-                let (node, share) = along[1][cell - first];
+            let (mut last, mut sums, mut any) = (0, [0.0; 2], false);
+            for column in sets.columns(row) {
+                any = true;
+                let (node, share) = self.along[1][column];
                 if node != last {
                     line[last] += sums[0];
                     line[last + 1] += sums[1];
                     (last, sums) = (node, [0.0; 2]);
                 }
-                let second = share * value(cell);
-                sums[0] += value(cell) - second;
+                let value = value(start + column);
+                let second = share * value;
+                sums[0] += value - second;
                 sums[1] += second;
+            }
+            if !any {
+                continue;
             }
             line[last] += sums[0];
             line[last + 1] += sums[1];
             line[0] += line[columns];
-            let (node, share) = along[0][row];
-            nodes.row_mut(node).iter_mut().zip(&*line).for_each(|(n, v)| *n += (1.0 - share) * v);
-            nodes.row_mut((node + 1) % rows).iter_mut().zip(&*line).for_each(|(n, v)| *n += share * v);
+            let (node, share) = self.along[0][row];
+            let node = (node + all - first) % all;
+            part.row_mut(node).iter_mut().zip(&line).for_each(|(n, v)| *n += (1.0 - share) * v);
+            part.row_mut((node + 1) % all).iter_mut().zip(&line).for_each(|(n, v)| *n += share * v);
         }
+        (first, part)
     }
 }
 

@@ -18,10 +18,11 @@ const MAX_OFFSETS: usize = 200;
 /// Pressures with their bounds that are summed and changed all together.
 pub(super) trait Cells {
     /// The sums over the cells of `terms` of each pressure and its bounds.
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N];
+    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send)
+    -> [f64; N];
 
     /// Replaces each pressure by a function of it and its bounds.
-    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync);
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send);
 
     /// The range of the pressures and of their bounds.
     fn range(&mut self) -> Range;
@@ -34,37 +35,50 @@ pub(super) struct Bounded<'a> {
 }
 
 impl Cells for Bounded<'_> {
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N] {
-        sum_within(self.pressure.as_slice().expect("standard layout"), self.bounds, terms)
+    fn sum<const N: usize>(
+        &mut self,
+        terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send,
+    ) -> [f64; N] {
+        sum_within(self.pressure.as_slice().expect("standard layout"), 0, self.bounds, terms)
     }
 
-    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync) {
-        map_within(self.pressure.as_slice_mut().expect("standard layout"), self.bounds, change);
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send) {
+        map_within(self.pressure.as_slice_mut().expect("standard layout"), 0, self.bounds, change);
     }
 
     fn range(&mut self) -> Range {
-        Range::of(self.pressure.as_slice().expect("standard layout"), self.bounds)
+        let pressure = self.pressure.as_slice().expect("standard layout");
+        Range::new(extremes(pressure), pressure.len(), self.bounds)
     }
 }
 
-/// The sums over the cells of `terms` of each value and the bounds of its cell.
+/// The sums over some cells, the `first` of which is that of the grid, of `terms` of each value and the bounds of its cell.
 pub(super) fn sum_within<T: Copy, const N: usize>(
     values: &[T],
+    first: usize,
     bounds: &Bounds,
     terms: impl Fn(T, Interval) -> [f64; N],
 ) -> [f64; N] {
-    with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(cell))))
+    with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(first + cell))))
 }
 
-/// Replaces each pressure by `change` of it and its bounds.
+/// Replaces the pressures of some cells, the `first` of which is that of the grid, by `change` of each and its bounds.
 pub(super) fn map_within(
     pressures: &mut [Pascal],
+    first: usize,
     bounds: &Bounds,
     change: impl Fn(Pascal, Interval) -> Pascal,
 ) {
     with_bounds!(bounds, of => {
-        pressures.iter_mut().enumerate().for_each(|(cell, p)| *p = change(*p, of(cell)));
+        pressures.iter_mut().enumerate().for_each(|(cell, p)| *p = change(*p, of(first + cell)));
     });
+}
+
+/// The least and the largest of some values.
+pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
+    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], y| {
+        [min.min((*y).into()), max.max((*y).into())]
+    })
 }
 
 impl Terms<'_> {
@@ -134,18 +148,15 @@ pub(super) struct Range {
 }
 
 impl Range {
-    pub(super) fn of<T: Copy + Into<f64>>(values: &[T], bounds: &Bounds) -> Self {
-        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
-        for y in values {
-            (min, max) = (min.min((*y).into()), max.max((*y).into()));
-        }
+    /// The range of `count` pressures between the `extremes` given.
+    pub(super) fn new([min, max]: [Pascal; 2], count: usize, bounds: &Bounds) -> Self {
         let max_upper = match bounds.upper() {
             CellValues::Uniform(_) => None,
             CellValues::Field(upper) => {
                 Some(upper.iter().copied().filter(|upper| upper.is_finite()).fold(0.0, f64::max))
             }
         };
-        Self { min, max, count: values.len(), min_lower: bounds.lower().min(), max_upper }
+        Self { min, max, count, min_lower: bounds.lower().min(), max_upper }
     }
 
     /// The range of two sets of cells together.

@@ -1,5 +1,9 @@
 //! Which cells are at a bound, and which are free.
 
+use std::ops::Range;
+use std::slice;
+
+use crate::math::{Bands, parallel};
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
 
@@ -25,55 +29,56 @@ impl Set {
     }
 }
 
-/// The set of each cell of a grid, and a list of the free ones.
+/// The set of each cell of a grid, and lists of the free ones.
 pub(super) struct Sets {
+    bands: Bands,
     /// The set of each cell.
     of: Vec<Set>,
-    /// Cells in a row of the grid.
-    columns: usize,
-    /// Flat indices of the free cells, increasing.
-    free: Vec<u32>,
-    /// Number of free cells before each row of the grid; last, the number of all.
+    /// The free cells of each band.
+    free: Vec<FreeCells>,
+}
+
+/// The free cells of a band of rows.
+pub(super) struct FreeCells {
+    /// Their indices in the band, increasing.
+    cells: Vec<u32>,
+    /// Number of free cells before each row of the band; last, the number of all.
     before: Vec<u32>,
 }
 
 impl Sets {
     pub(super) fn new(shape: [usize; 2]) -> Self {
-        Self {
-            of: vec![Set::Lower; shape[0] * shape[1]],
-            columns: shape[1],
-            free: Vec::with_capacity(shape[0] * shape[1]),
-            before: vec![0; shape[0] + 1],
-        }
+        let bands = Bands::of(shape);
+        let free = |rows: Range<usize>| FreeCells { cells: Vec::new(), before: vec![0; rows.len() + 1] };
+        Self { bands, of: vec![Set::Lower; shape[0] * shape[1]], free: bands.rows().map(free).collect() }
     }
 
-    /// Puts each cell at the bound that its pressure in `pressures` is at or beyond.
-    pub(super) fn assign(&mut self, pressures: impl Iterator<Item = Pascal>, bounds: &Bounds) {
+    /// Puts each cell at the bound that its `pressure` is at or beyond.
+    pub(super) fn assign(&mut self, pressure: impl Fn(usize) -> Pascal + Sync + Send, bounds: &Bounds) {
         with_bounds!(bounds, of => {
-            self.put(pressures.enumerate().map(|(cell, p)| Set::of(p, of(cell))));
+            self.put(|cell| Set::of(pressure(cell), of(cell)));
         });
     }
 
-    /// Frees the cells that are `free`, and puts all others at their lower bound.
-    pub(super) fn free_where(&mut self, free: impl Iterator<Item = bool>) {
-        self.put(free.map(|free| if free { Set::Free } else { Set::Lower }));
+    /// Frees the cells that are free, and puts all others at their lower bound.
+    pub(super) fn free_where(&mut self, is_free: impl Fn(usize) -> bool + Sync + Send) {
+        self.put(|cell| if is_free(cell) { Set::Free } else { Set::Lower });
     }
 
     /// Replaces the sets of all cells.
-    fn put(&mut self, mut sets: impl Iterator<Item = Set>) {
-        self.free.clear();
-        let rows = self.of.chunks_exact_mut(self.columns).zip(&mut self.before);
-        for (row, (cells, before)) in rows.enumerate() {
-            *before = self.free.len() as u32;
-            let first = row * self.columns;
-            for (column, (cell, set)) in cells.iter_mut().zip(sets.by_ref()).enumerate() {
-                *cell = set;
-                if set == Set::Free {
-                    self.free.push((first + column) as u32);
-                }
-            }
-        }
-        *self.before.last_mut().expect("one more than rows") = self.free.len() as u32;
+    fn put(&mut self, set: impl Fn(usize) -> Set + Sync + Send) {
+        let Self { bands, of, free } = self;
+        let parts = bands.cut_mut(of).zip(free).enumerate();
+        parallel::map(parts, |(band, (of, free))| {
+            let first = bands.first(band);
+            of.iter_mut().enumerate().for_each(|(cell, value)| *value = set(first + cell));
+            free.list(of, bands.columns());
+        });
+    }
+
+    /// The bands of the grid.
+    pub(super) fn bands(&self) -> Bands {
+        self.bands
     }
 
     /// The set of each cell.
@@ -86,17 +91,45 @@ impl Sets {
         self.of[cell] == Set::Free
     }
 
-    /// Flat indices of the free cells, increasing.
-    pub(super) fn free(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.free.iter().map(|cell| *cell as usize)
+    /// Number of free cells.
+    pub(super) fn free_cells(&self) -> usize {
+        self.free.iter().map(|band| band.cells.len()).sum()
     }
 
-    /// The rows with free cells: the number of each, its first cell, and its free cells.
-    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, usize, &[u32])> {
-        let rows = self.before.windows(2).enumerate();
-        let rows =
-            rows.map(|(row, ends)| (row, row * self.columns, &self.free[ends[0] as usize..ends[1] as usize]));
-        rows.filter(|(.., free)| !free.is_empty())
+    /// The free cells of each band.
+    pub(super) fn in_bands(&self) -> slice::Iter<'_, FreeCells> {
+        self.free.iter()
+    }
+
+    /// The columns of the free cells of a row of the grid.
+    pub(super) fn columns(&self, row: usize) -> impl Iterator<Item = usize> + '_ {
+        let [band, row] = self.bands.place(row);
+        self.free[band].columns(row, self.bands.columns())
+    }
+}
+
+impl FreeCells {
+    /// Lists the cells of a band that are free in the sets `of` its cells.
+    fn list(&mut self, of: &[Set], columns: usize) {
+        self.cells.clear();
+        self.cells.reserve_exact(of.iter().filter(|set| **set == Set::Free).count());
+        for (row, of) in of.chunks(columns).enumerate() {
+            self.before[row] = self.cells.len() as u32;
+            let cells = of.iter().enumerate().filter(|(_, set)| **set == Set::Free);
+            self.cells.extend(cells.map(|(column, _)| (row * columns + column) as u32));
+        }
+        *self.before.last_mut().expect("one more than rows") = self.cells.len() as u32;
+    }
+
+    /// Indices of the free cells in their band, increasing.
+    pub(super) fn cells(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.cells.iter().map(|cell| *cell as usize)
+    }
+
+    /// The columns of the free cells of a row of the band.
+    fn columns(&self, row: usize, columns: usize) -> impl Iterator<Item = usize> + '_ {
+        let cells = &self.cells[self.before[row] as usize..self.before[row + 1] as usize];
+        cells.iter().map(move |cell| *cell as usize - row * columns)
     }
 }
 
@@ -105,27 +138,48 @@ mod tests {
     use super::*;
     use crate::grid::Field;
 
+    /// Flat indices of the free cells.
+    fn free(sets: &Sets) -> Vec<usize> {
+        let bands = sets.in_bands().enumerate();
+        let cells = bands.map(|(band, free)| free.cells().map(move |cell| sets.bands().first(band) + cell));
+        cells.flatten().collect()
+    }
+
     #[test]
     fn a_cell_is_at_the_bound_that_its_pressure_is_at_or_beyond() {
         let upper = Field::from_shape_fn([2, 3], |(i, j)| (1 + i + j) as f64);
         let bounds = Bounds::up_to(upper).above(-1.0);
         let mut sets = Sets::new([2, 3]);
-        sets.assign([-2.0, -1.0, 3.0, 1.5, 3.5, -0.5].into_iter(), &bounds);
+        let pressures = [-2.0, -1.0, 3.0, 1.5, 3.5, -0.5];
+        sets.assign(|cell| pressures[cell], &bounds);
         let expected = [Set::Lower, Set::Lower, Set::Upper, Set::Free, Set::Upper, Set::Free];
         assert_eq!(sets.of(), expected);
-        assert_eq!(sets.free().collect::<Vec<_>>(), [3, 5]);
-        let rows: Vec<_> = sets.rows().map(|(row, first, free)| (row, first, free.to_vec())).collect();
-        assert_eq!(rows, [(1, 3, vec![3, 5])]);
+        assert_eq!(free(&sets), [3, 5]);
+        let columns = [0, 1].map(|row| sets.columns(row).collect::<Vec<_>>());
+        assert_eq!(columns, [vec![], vec![0, 2]]);
         assert!(sets.is_free(5) && !sets.is_free(4));
     }
 
     #[test]
     fn sets_given_anew_leave_nothing_of_the_old() {
         let mut sets = Sets::new([3, 4]);
-        sets.free_where((0..12).map(|_| true));
-        assert_eq!((sets.free().len(), sets.rows().count()), (12, 3));
-        sets.free_where((0..12).map(|cell| cell == 6));
-        assert_eq!(sets.free().collect::<Vec<_>>(), [6]);
+        sets.free_where(|_| true);
+        assert_eq!((sets.free_cells(), sets.columns(2).count()), (12, 4));
+        sets.free_where(|cell| cell == 6);
+        assert_eq!(free(&sets), [6]);
         assert_eq!(sets.of().iter().filter(|set| **set == Set::Lower).count(), 11);
+    }
+
+    #[test]
+    fn a_large_grid_lists_its_free_cells_band_by_band() {
+        let shape = [300, 1000];
+        let mut sets = Sets::new(shape);
+        let is_free = |cell: usize| (cell * 7 + cell / 1000).is_multiple_of(5);
+        sets.free_where(is_free);
+        assert!(sets.in_bands().len() > 3);
+        let expected: Vec<usize> = (0..300_000).filter(|cell| is_free(*cell)).collect();
+        assert_eq!(free(&sets), expected);
+        let by_row = (0..300).flat_map(|row| sets.columns(row).map(move |column| row * 1000 + column));
+        assert_eq!(by_row.collect::<Vec<_>>(), expected);
     }
 }

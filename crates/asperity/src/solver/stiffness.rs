@@ -41,7 +41,11 @@ pub fn normal_stiffness(
     }
     let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
     let mut sets = Sets::new(grid.shape);
-    sets.free_where(elastic.iter().copied());
+    {
+        let elastic = elastic.as_standard_layout();
+        let elastic = elastic.as_slice().expect("standard layout");
+        sets.free_where(|cell| elastic[cell]);
+    }
     let mut preconditioner = Preconditioner::new(operator);
     preconditioner.adapt(&sets);
     let (mut rate, mut residual) = (grid.zeros(), mask.clone());

@@ -1,7 +1,7 @@
 //! The division of heat between two bodies, as a linear system on the cells in contact.
 
 use crate::error::{Error, Result};
-use crate::math::SparseInverse;
+use crate::math::{ROWS_ABOVE, SparseInverse};
 
 /// Relative residual at which heat is divided, ‖b − A x‖ ≤ TOLERANCE ‖b‖.
 pub(super) const TOLERANCE: f64 = 1e-10;
@@ -13,7 +13,11 @@ pub(super) struct Preconditioner {
     sparse: SparseInverse,
     /// Which cells are in contact.
     touching: Vec<bool>,
-    /// Residual and its image on the whole grid, zero but where there is contact.
+    /// For each cell in contact the pattern of its neighbours.
+    patterns: Vec<u8>,
+    /// Cells before those of the grid in `whole`.
+    above: usize,
+    /// Residual and its image on the whole grid and some rows of nothing above it, zero but where there is contact.
     whole: [Vec<f32>; 2],
 }
 
@@ -23,30 +27,35 @@ impl Preconditioner {
         let cells = shape[0] * shape[1];
         // Coefficients of about 1: single precision knows no SI.
         let unit = influence(0, 0);
+        let above = ROWS_ABOVE * shape[1];
         Self {
             sparse: SparseInverse::new(shape, |i, j| influence(i, j) / unit),
             touching: vec![false; cells],
-            whole: [vec![0.0; cells], vec![0.0; cells]],
+            patterns: Vec::new(),
+            above,
+            whole: [vec![0.0; above + cells], vec![0.0; above + cells]],
         }
     }
 
     /// Adapts to the flat `cells` in contact.
     fn adapt(&mut self, cells: &[u32]) {
-        let Self { sparse, touching, .. } = self;
+        let Self { sparse, touching, patterns, .. } = self;
         cells.iter().for_each(|cell| touching[*cell as usize] = true);
-        sparse.adapt(cells.iter().map(|cell| *cell as usize), |cell| touching[cell]);
+        patterns.clear();
+        patterns.extend(cells.iter().map(|cell| sparse.pattern(*cell as usize, |cell| touching[cell])));
         cells.iter().for_each(|cell| touching[*cell as usize] = false);
     }
 
     /// z = M r on the flat `cells`, but for a factor.
     fn apply(&mut self, cells: &[u32], r: &[f64], z: &mut [f64]) {
-        let [whole, image] = &mut self.whole;
+        let Self { sparse, patterns, above, whole: [whole, image], .. } = self;
+        let place = |cell: &u32| *above + *cell as usize;
         let scale = r.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(r.abs()));
-        cells.iter().zip(r).for_each(|(cell, r)| whole[*cell as usize] = (r / scale) as f32);
-        self.sparse.add(cells.iter().map(|cell| *cell as usize), whole, image);
-        for (cell, z) in cells.iter().zip(z) {
-            *z = f64::from(image[*cell as usize]) * scale;
-            (whole[*cell as usize], image[*cell as usize]) = (0.0, 0.0);
+        cells.iter().zip(r).for_each(|(cell, r)| whole[place(cell)] = (r / scale) as f32);
+        sparse.add(cells.iter().map(place).zip(patterns.iter().copied()), whole, image);
+        for (cell, z) in cells.iter().map(place).zip(z) {
+            *z = f64::from(image[cell]) * scale;
+            (whole[cell], image[cell]) = (0.0, 0.0);
         }
     }
 }

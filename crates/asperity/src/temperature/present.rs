@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use ndarray::s;
 use rayon::prelude::*;
 
 use crate::grid::{Field, Grid};
@@ -173,7 +174,13 @@ impl Ramp {
     pub(super) fn spread(&self, shape: [usize; 2]) -> Spread {
         let kernel = match &self.values {
             Values::Cells(table) => Kernel::from_values(self.padded, table),
-            Values::Waves(table) => Kernel::from_transform(self.padded, |kx, ky| table[[kx, ky]]),
+            Values::Waves(table) => {
+                let [mx, my] = self.padded.map(|n| n / 2 + 1);
+                Kernel::from_spectrum(
+                    self.padded,
+                    table.t().slice(s![..my, ..mx]).as_standard_layout().into_owned(),
+                )
+            }
         };
         Spread::new(kernel, self.padded, shape)
     }

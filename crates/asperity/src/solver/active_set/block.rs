@@ -4,9 +4,10 @@ use ndarray::Array2;
 
 use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
+use crate::math::{Bands, parallel};
 use crate::solver::Terms;
 use crate::solver::bounds::{Interval, with_bounds};
-use crate::solver::feasible::{Range, map_within, sum_within, within};
+use crate::solver::feasible::{Range, extremes, map_within, sum_within, within};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::residual::{Cell, Multiplier, ResidualSums};
 use crate::solver::sets::{Set, Sets};
@@ -25,6 +26,8 @@ const SINGLE_PRECISION: f64 = 4e-7;
 /// kept count of.
 pub(super) struct Block<'a> {
     site: &'a dyn Site,
+    /// In which the cells are worked on in parallel.
+    bands: Bands,
     preconditioner: Preconditioner,
     /// The current pressure p, possibly a little outside its bounds.
     pressure: Field,
@@ -100,6 +103,7 @@ impl<'a> Block<'a> {
         let (preconditioner, near, local) = made.expect("a site lends its operator");
         Self {
             site,
+            bands: Bands::of(shape),
             preconditioner,
             pressure,
             touch: Field::zeros(shape),
@@ -120,25 +124,57 @@ impl<'a> Block<'a> {
 
     /// Whether every pressure is within its bounds.
     pub(super) fn is_within_bounds(&self) -> bool {
-        let pressure = flat(&self.pressure);
-        with_bounds!(self.site.bounds(), of => {
-            pressure.iter().enumerate().all(|(cell, p)| of(cell).clamp(*p) == *p)
-        })
+        let bounds = self.site.bounds();
+        let bands = self.bands.cut(flat(&self.pressure)).enumerate();
+        let within = parallel::map(bands, |(band, pressure)| {
+            let first = self.bands.first(band);
+            with_bounds!(bounds, of => {
+                pressure.iter().enumerate().all(|(cell, p)| of(first + cell).clamp(*p) == *p)
+            })
+        });
+        within.into_iter().all(|within| within)
     }
 
     /// The sums over the cells of `terms` of each pressure and its bounds.
-    pub(super) fn sum<const N: usize>(&self, terms: impl Fn(Pascal, Interval) -> [f64; N]) -> [f64; N] {
-        sum_within(flat(&self.pressure), &self.site.bounds(), terms)
+    pub(super) fn sum<const N: usize>(
+        &self,
+        terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send,
+    ) -> [f64; N] {
+        self.sum_within(&self.pressure, terms)
+    }
+
+    /// The sums over the cells of `terms` of each value and the bounds of its cell.
+    fn sum_within<T: Copy + Sync, const N: usize>(
+        &self,
+        values: &Array2<T>,
+        terms: impl Fn(T, Interval) -> [f64; N] + Sync + Send,
+    ) -> [f64; N] {
+        let bounds = self.site.bounds();
+        let parts = parallel::map(self.bands.cut(flat(values)).enumerate(), |(band, values)| {
+            sum_within(values, self.bands.first(band), &bounds, &terms)
+        });
+        total(parts)
     }
 
     /// Replaces each pressure by a function of it and its bounds.
-    pub(super) fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal) {
-        map_within(flat_mut(&mut self.pressure), &self.site.bounds(), change);
+    pub(super) fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send) {
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        parallel::map(bands.cut_mut(flat_mut(&mut self.pressure)).enumerate(), |(band, pressures)| {
+            map_within(pressures, bands.first(band), &bounds, &change);
+        });
     }
 
     /// The range of the pressures and of their bounds.
     pub(super) fn range(&self) -> Range {
-        Range::of(flat(&self.pressure), &self.site.bounds())
+        self.range_of(&self.pressure)
+    }
+
+    /// The range of some values and of the bounds of the pressure.
+    fn range_of<T: Copy + Into<f64> + Sync>(&self, values: &Array2<T>) -> Range {
+        let bounds = self.site.bounds();
+        let parts = parallel::map(self.bands.cut(flat(values)), |values| extremes(values));
+        let [min, max] = parts.into_iter().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).expect("a band");
+        Range::new([min, max], values.len(), &bounds)
     }
 
     /// Pressure and displacement.
@@ -149,7 +185,7 @@ impl<'a> Block<'a> {
 
     /// Number of free cells.
     pub(super) fn free_cells(&self) -> usize {
-        self.sets.free().len()
+        self.sets.free_cells()
     }
 
     /// Convolutions so far.
@@ -171,9 +207,10 @@ impl<'a> Block<'a> {
 
     /// Computes h + u from the whole pressure, in single precision.
     pub(super) fn convolve_in_single(&mut self) {
-        self.direction.zip_mut_with(&self.pressure, |d, p| *d = *p as f32);
+        zip(self.bands, &mut self.direction, &self.pressure, |d, p| *d = *p as f32);
         self.convolve_direction();
-        self.touch.assign(&self.site.initial_gap());
+        let gap = self.site.initial_gap();
+        zip(self.bands, &mut self.touch, &gap, |touch, h| *touch = *h);
         self.rounding =
             SINGLE_PRECISION * (self.local * self.largest_pressure() - self.max_response).max(0.0);
         self.add_response();
@@ -183,102 +220,125 @@ impl<'a> Block<'a> {
     fn convolve_direction(&mut self) {
         let Self { site, direction, response, .. } = self;
         site.with_operator(&mut |operator| operator.apply_single(direction, response));
-        self.max_response =
-            f64::from(response.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m }));
+        let largest = |part: &[f32]| part.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m });
+        let parts = parallel::map(self.bands.cut(flat(response)), largest);
+        self.max_response = f64::from(parts.into_iter().fold(0.0, f32::max));
         self.convolutions += 1;
     }
 
     /// Adds the response C·d to the displacement.
     fn add_response(&mut self) {
-        self.touch.zip_mut_with(&self.response, |touch, r| *touch += f64::from(*r));
+        zip(self.bands, &mut self.touch, &self.response, |touch, r| *touch += f64::from(*r));
         self.rounding += SINGLE_PRECISION * self.max_response;
     }
 
     /// Largest error of the displacement if it were computed in single precision.
     pub(super) fn rounding_in_single(&self) -> Metre {
         let gap = self.site.initial_gap();
-        let largest =
-            self.touch.iter().zip(&*gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()));
+        let bands = self.bands.cut(flat(&self.touch)).zip(self.bands.cut(flat(&gap)));
+        let parts = parallel::map(bands, |(touch, gap)| {
+            touch.iter().zip(gap).fold(0.0, |most, (touch, h)| f64::max(most, (touch - h).abs()))
+        });
+        let largest = parts.into_iter().fold(0.0, f64::max);
         SINGLE_PRECISION * largest.max(self.local * self.largest_pressure())
     }
 
     /// Largest |p|.
     fn largest_pressure(&self) -> Pascal {
-        self.pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
+        let parts = parallel::map(self.bands.cut(flat(&self.pressure)), |pressure| {
+            pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
+        });
+        parts.into_iter().fold(0.0, f64::max)
     }
 
     /// The work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both over the cell area.
     pub(super) fn work(&self, approach: Metre) -> [f64; 2] {
         let gap = self.site.initial_gap();
-        let (mut work, mut twice_energy) = (0.0, 0.0);
-        ndarray::Zip::from(&self.pressure).and(&self.touch).and(&*gap).for_each(|p, touch, h| {
-            work += p * (approach - h);
-            twice_energy += p * (touch - h);
-        });
-        [work, twice_energy]
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
+        total(parallel::map(bands.zip(self.bands.cut(flat(&gap))), |((pressure, touch), gap)| {
+            let mut sums = [0.0; 2];
+            for ((p, touch), h) in pressure.iter().zip(touch).zip(gap) {
+                sums = [sums[0] + p * (approach - h), sums[1] + p * (touch - h)];
+            }
+            sums
+        }))
     }
 
     /// Multiplies pressure and displacement by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         let gap = self.site.initial_gap();
         self.pressure *= factor;
-        self.touch.zip_mut_with(&gap, |touch, h| *touch = h + factor * (*touch - h));
+        zip(self.bands, &mut self.touch, &gap, |touch, h| *touch = h + factor * (*touch - h));
     }
 
     /// The part of this contact in the multiplier of the load.
     pub(super) fn multiplier(&self) -> Multiplier {
-        let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).enumerate();
-        with_bounds!(self.site.bounds(), of => {
-            Multiplier::of(cells.map(|(cell, (p, touch))| Cell {
-                pressure: *p,
-                displacement: 0.0,
-                touch: *touch,
-                bounds: of(cell),
-            }))
-        })
+        let bounds = self.site.bounds();
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
+        let parts = parallel::map(bands.enumerate(), |(band, (pressure, touch))| {
+            let first = self.bands.first(band);
+            let cells = pressure.iter().zip(touch).enumerate();
+            with_bounds!(bounds, of => {
+                Multiplier::of(cells.map(|(cell, (p, touch))| Cell {
+                    pressure: *p,
+                    displacement: 0.0,
+                    touch: *touch,
+                    bounds: of(first + cell),
+                }))
+            })
+        });
+        parts.into_iter().reduce(Multiplier::and).expect("a band")
     }
 
     /// The sums of this contact for the residual at an approach.
     pub(super) fn residual_sums(&self, approach: Metre, terms: &Terms) -> ResidualSums {
-        let gap = self.site.initial_gap();
-        let cells = flat(&self.pressure).iter().zip(flat(&self.touch)).zip(flat(&gap)).enumerate();
-        with_bounds!(self.site.bounds(), of => {
-            let cells = cells.map(|(cell, ((p, touch), h))| Cell {
-                pressure: *p,
-                displacement: touch - h,
-                touch: *touch,
-                bounds: of(cell),
-            });
-            ResidualSums::of(cells, approach, terms.self_influence)
-        })
+        let (gap, bounds) = (self.site.initial_gap(), self.site.bounds());
+        let self_influence = terms.self_influence;
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
+        let bands = bands.zip(self.bands.cut(flat(&gap))).enumerate();
+        let parts = parallel::map(bands, |(band, ((pressure, touch), gap))| {
+            let first = self.bands.first(band);
+            let cells = pressure.iter().zip(touch).zip(gap).enumerate();
+            with_bounds!(bounds, of => {
+                let cells = cells.map(|(cell, ((p, touch), h))| Cell {
+                    pressure: *p,
+                    displacement: touch - h,
+                    touch: *touch,
+                    bounds: of(first + cell),
+                });
+                ResidualSums::of(cells, approach, self_influence)
+            })
+        });
+        parts.into_iter().reduce(ResidualSums::and).expect("a band")
     }
 
     /// Changes each pressure by as much as closes its gap on a cell of that compliance alone.
     pub(super) fn step_along_gap(&mut self, approach: Metre, compliance: f64) {
-        self.pressure.zip_mut_with(&self.touch, |p, touch| *p += (approach - touch) / compliance);
+        zip(self.bands, &mut self.pressure, &self.touch, |p, touch| *p += (approach - touch) / compliance);
     }
 
     /// Proposes p + (δ − h − u)·stiffness, where one diagonal Newton step takes each cell. Returns the range of the
     /// proposed pressures.
     pub(super) fn propose(&mut self, approach: Metre, stiffness: f64) -> Range {
-        let cells = flat(&self.pressure).iter().zip(flat(&self.touch));
-        for (y, (p, touch)) in flat_mut(&mut self.response).iter_mut().zip(cells) {
-            *y = (p + (approach - touch) * stiffness) as f32;
-        }
-        Range::of(flat(&self.response), &self.site.bounds())
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
+        let bands = bands.zip(self.bands.cut_mut(flat_mut(&mut self.response)));
+        parallel::map(bands, |((pressure, touch), proposed)| {
+            for ((y, p), touch) in proposed.iter_mut().zip(pressure).zip(touch) {
+                *y = (p + (approach - touch) * stiffness) as f32;
+            }
+        });
+        self.range_of(&self.response)
     }
 
     /// What the proposed pressures, offset and brought into their bounds, add up to, and how many are at neither bound.
     pub(super) fn proposed_sum(&self, offset: Pascal) -> [f64; 2] {
-        sum_within(flat(&self.response), &self.site.bounds(), |y, bounds| {
-            within(f64::from(y) + offset, bounds)
-        })
+        self.sum_within(&self.response, |y, bounds| within(f64::from(y) + offset, bounds))
     }
 
     /// Predicts the sets from the proposed pressures, offset.
     pub(super) fn predict_sets(&mut self, approach: Metre, stiffness: f64, offset: Pascal) {
-        let cells = flat(&self.pressure).iter().zip(flat(&self.touch));
-        let proposed = cells.map(|(p, touch)| p + (approach - touch) * stiffness + offset);
+        let (pressure, touch) = (flat(&self.pressure), flat(&self.touch));
+        let proposed = |cell| pressure[cell] + (approach - touch[cell]) * stiffness + offset;
         self.sets.assign(proposed, &self.site.bounds());
         self.residual.fill(0.0);
         self.preconditioner.adapt(&self.sets);
@@ -286,96 +346,126 @@ impl<'a> Block<'a> {
 
     /// Sets the direction to what takes the cells predicted at a bound there. Returns whether any is elsewhere.
     pub(super) fn direct_to_bounds(&mut self) -> bool {
-        let mut any = false;
-        let cells = flat_mut(&mut self.direction).iter_mut().zip(self.sets.of()).zip(flat(&self.pressure));
-        with_bounds!(self.site.bounds(), of => {
-            for (cell, ((d, set), p)) in cells.enumerate() {
-                let distance = match set {
-                    Set::Lower => of(cell).lower - p,
-                    Set::Upper => of(cell).upper - p,
-                    Set::Free => 0.0,
-                };
-                any |= distance != 0.0;
-                *d = distance as f32;
-            }
+        let bounds = self.site.bounds();
+        let bands = self.bands;
+        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(self.sets.of()));
+        let parts = parts.zip(bands.cut(flat(&self.pressure))).enumerate();
+        let elsewhere = parallel::map(parts, |(band, ((direction, sets), pressure))| {
+            let first = bands.first(band);
+            let mut any = false;
+            let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
+            with_bounds!(bounds, of => {
+                for (cell, ((d, set), p)) in cells {
+                    let distance = match set {
+                        Set::Lower => of(first + cell).lower - p,
+                        Set::Upper => of(first + cell).upper - p,
+                        Set::Free => 0.0,
+                    };
+                    any |= distance != 0.0;
+                    *d = distance as f32;
+                }
+            });
+            any
         });
-        any
+        elsewhere.into_iter().any(|any| any)
     }
 
     /// Predicts the residual of the free cells after the step along the direction, by the near field of its response. Returns
     /// its sum.
     pub(super) fn predict_residual(&mut self, approach: Metre) -> f64 {
         self.convolve_near_field();
-        let (touch, predicted) = (flat(&self.touch), flat(&self.response));
-        let residual = flat_mut(&mut self.residual);
-        let mut sum = 0.0;
-        for cell in self.sets.free() {
-            let w = approach - touch[cell] - f64::from(predicted[cell]);
-            sum += w;
-            residual[cell] = w as f32;
-        }
+        let bands = self.bands;
+        let parts = bands.cut(flat(&self.touch)).zip(bands.cut(flat(&self.response)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.residual))).zip(self.sets.in_bands());
+        let [sum] = total(parallel::map(parts, |(((touch, predicted), residual), free)| {
+            let mut sum = 0.0;
+            for cell in free.cells() {
+                let w = approach - touch[cell] - f64::from(predicted[cell]);
+                sum += w;
+                residual[cell] = w as f32;
+            }
+            [sum]
+        }));
         sum
     }
 
     /// Computes C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
     fn convolve_near_field(&mut self) {
         let [nx, ny] = self.site.grid().shape;
-        let reach = [self.near.nrows() - 1, self.near.ncols() / 2];
-        self.response.fill(0.0);
-        let response = flat_mut(&mut self.response);
-        for (cell, &pressure) in flat(&self.direction).iter().enumerate().filter(|(_, d)| **d != 0.0) {
-            let (ix, iy) = (cell / ny, cell % ny);
-            let (first, last) = (iy.saturating_sub(reach[1]), ny.min(iy + reach[1] + 1));
-            for i in ix.saturating_sub(reach[0])..nx.min(ix + reach[0] + 1) {
-                let near = self.near.row(i.abs_diff(ix)).to_slice().expect("rows are contiguous");
-                let near = &near[first + reach[1] - iy..];
-                let row = &mut response[i * ny..][first..last];
-                row.iter_mut().zip(near).for_each(|(u, influence)| *u += influence * pressure);
+        let Self { bands, near, direction, response, .. } = self;
+        let reach = [near.nrows() - 1, near.ncols() / 2];
+        let parts = bands.rows().zip(bands.cut_mut(flat_mut(response)));
+        parallel::map(parts, |(rows, response)| {
+            response.fill(0.0);
+            for ix in rows.start.saturating_sub(reach[0])..nx.min(rows.end + reach[0]) {
+                let reached = ix.saturating_sub(reach[0]).max(rows.start)..(ix + reach[0] + 1).min(rows.end);
+                let from = direction.row(ix).to_slice().expect("rows are contiguous");
+                for (iy, &pressure) in from.iter().enumerate().filter(|(_, d)| **d != 0.0) {
+                    let (first, last) = (iy.saturating_sub(reach[1]), ny.min(iy + reach[1] + 1));
+                    for i in reached.clone() {
+                        let near = near.row(i.abs_diff(ix)).to_slice().expect("rows are contiguous");
+                        let near = &near[first + reach[1] - iy..];
+                        let row = &mut response[(i - rows.start) * ny..][first..last];
+                        row.iter_mut().zip(near).for_each(|(u, influence)| *u += influence * pressure);
+                    }
+                }
             }
-        }
+        });
     }
 
     /// Subtracts a mean from the residual of the free cells.
     pub(super) fn subtract_mean(&mut self, mean: f64) {
-        let residual = flat_mut(&mut self.residual);
-        self.sets.free().for_each(|cell| residual[cell] -= mean as f32);
+        let parts = self.bands.cut_mut(flat_mut(&mut self.residual)).zip(self.sets.in_bands());
+        parallel::map(parts, |(residual, free)| free.cells().for_each(|cell| residual[cell] -= mean as f32));
     }
 
     /// Computes the preconditioned residual z = M r. Returns Σ z, Σ r and Σ r z.
     pub(super) fn precondition(&mut self) -> [f64; 3] {
         let (r, z) = (flat(&self.residual), flat_mut(&mut self.preconditioned));
         self.preconditioner.apply(&self.sets, r, z);
-        let mut sums = [0.0; 3];
-        for cell in self.sets.free() {
-            let (r, z) = (f64::from(r[cell]), f64::from(z[cell]));
-            sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
-        }
-        sums
+        let parts = self.bands.cut(r).zip(self.bands.cut(z)).zip(self.sets.in_bands());
+        total(parallel::map(parts, |((r, z), free)| {
+            let mut sums = [0.0; 3];
+            for cell in free.cells() {
+                let (r, z) = (f64::from(r[cell]), f64::from(z[cell]));
+                sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
+            }
+            sums
+        }))
     }
 
     /// Sets the direction of the free cells to the preconditioned residual without its mean, damped. Returns what the whole
     /// direction adds to Σ p, and what the free cells bear above their lower bounds.
     pub(super) fn direct_free_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
-        let (z, direction) = (flat(&self.preconditioned), flat_mut(&mut self.direction));
         let (damping, mean) = (damping as f32, mean as f32);
-        self.sets.free().for_each(|cell| direction[cell] = damping * (z[cell] - mean));
-        let p = flat(&self.pressure);
-        let borne = with_bounds!(self.site.bounds(), of => {
-            self.sets.free().map(|cell| of(cell).clamp(p[cell]) - of(cell).lower).sum()
-        });
-        let [added] = sums(direction, |_, d| [f64::from(d)]);
-        [added, borne]
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        let parts = bands.cut(flat(&self.preconditioned)).zip(bands.cut(flat(&self.pressure)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction))).zip(self.sets.in_bands());
+        total(parallel::map(parts.enumerate(), |(band, (((z, p), direction), free))| {
+            let first = bands.first(band);
+            free.cells().for_each(|cell| direction[cell] = damping * (z[cell] - mean));
+            let borne = with_bounds!(bounds, of => {
+                let borne = |cell| of(first + cell).clamp(p[cell]) - of(first + cell).lower;
+                free.cells().map(borne).sum()
+            });
+            let [added] = sums(direction, |_, d| [f64::from(d)]);
+            [added, borne]
+        }))
     }
 
     /// Subtracts from the direction of each free cell a uniform part, and one in proportion to the pressure above its lower
     /// bound: the direction then leaves the load as it is.
     pub(super) fn balance_direction(&mut self, each: f64, per_pressure: f64) {
-        let (p, direction) = (flat(&self.pressure), flat_mut(&mut self.direction));
-        with_bounds!(self.site.bounds(), of => {
-            for cell in self.sets.free() {
-                let borne = of(cell).clamp(p[cell]) - of(cell).lower;
-                direction[cell] -= (each + per_pressure * borne) as f32;
-            }
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        let parts = bands.cut(flat(&self.pressure)).zip(bands.cut_mut(flat_mut(&mut self.direction)));
+        parallel::map(parts.zip(self.sets.in_bands()).enumerate(), |(band, ((p, direction), free))| {
+            let first = bands.first(band);
+            with_bounds!(bounds, of => {
+                for cell in free.cells() {
+                    let borne = of(first + cell).clamp(p[cell]) - of(first + cell).lower;
+                    direction[cell] -= (each + per_pressure * borne) as f32;
+                }
+            });
         });
     }
 
@@ -385,81 +475,104 @@ impl<'a> Block<'a> {
             self.convolve_direction();
             self.add_response();
         }
-        let cells = flat_mut(&mut self.pressure).iter_mut().zip(flat(&self.direction)).zip(self.sets.of());
-        with_bounds!(self.site.bounds(), of => {
-            for (cell, ((p, d), set)) in cells.enumerate() {
-                // Exactly at the bounds, whatever the rounding of the sum.
-                *p = match set {
-                    Set::Lower => of(cell).lower,
-                    Set::Upper => of(cell).upper,
-                    Set::Free => *p + f64::from(*d),
-                };
-            }
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        let parts = bands.cut_mut(flat_mut(&mut self.pressure)).zip(bands.cut(flat(&self.direction)));
+        let parts = parts.zip(bands.cut(self.sets.of())).enumerate();
+        parallel::map(parts, |(band, ((pressure, direction), sets))| {
+            let first = bands.first(band);
+            let cells = pressure.iter_mut().zip(direction).zip(sets).enumerate();
+            with_bounds!(bounds, of => {
+                for (cell, ((p, d), set)) in cells {
+                    // Exactly at the bounds, whatever the rounding of the sum.
+                    *p = match set {
+                        Set::Lower => of(first + cell).lower,
+                        Set::Upper => of(first + cell).upper,
+                        Set::Free => *p + f64::from(*d),
+                    };
+                }
+            });
         });
     }
 
     /// Adds the same pressure to all free cells.
     pub(super) fn add_to_free_cells(&mut self, pressure: Pascal) {
-        let p = flat_mut(&mut self.pressure);
-        self.sets.free().for_each(|cell| p[cell] += pressure);
+        let parts = self.bands.cut_mut(flat_mut(&mut self.pressure)).zip(self.sets.in_bands());
+        parallel::map(parts, |(p, free)| free.cells().for_each(|cell| p[cell] += pressure));
     }
 
     /// Sets the direction to zero. Returns Σ (h + u) of the free cells.
     pub(super) fn reset_direction(&mut self) -> f64 {
-        self.direction.fill(0.0);
-        let touch = flat(&self.touch);
-        self.sets.free().map(|cell| touch[cell]).sum()
+        let bands = self.bands;
+        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(flat(&self.touch)));
+        let [sum] = total(parallel::map(parts.zip(self.sets.in_bands()), |((direction, touch), free)| {
+            direction.fill(0.0);
+            [free.cells().map(|cell| touch[cell]).sum()]
+        }));
+        sum
     }
 
     /// Updates the direction to the conjugate one, d = z − mean + β d, and computes C·d. Returns the curvature dᵀC d of the
     /// energy along it, and Σ C·d of the free cells.
     pub(super) fn update_direction(&mut self, mean: f64, beta: f64) -> [f64; 2] {
-        let (z, d) = (flat(&self.preconditioned), flat_mut(&mut self.direction));
         let (mean, beta) = (mean as f32, beta as f32);
-        self.sets.free().for_each(|cell| d[cell] = z[cell] - mean + beta * d[cell]);
+        let bands = self.bands;
+        let parts = bands.cut(flat(&self.preconditioned)).zip(bands.cut_mut(flat_mut(&mut self.direction)));
+        parallel::map(parts.zip(self.sets.in_bands()), |((z, d), free)| {
+            free.cells().for_each(|cell| d[cell] = z[cell] - mean + beta * d[cell]);
+        });
         self.convolve_direction();
-        let (d, c) = (flat(&self.direction), flat(&self.response));
-        let (mut curvature, mut sum) = (0.0, 0.0);
-        for cell in self.sets.free() {
-            curvature += f64::from(d[cell]) * f64::from(c[cell]);
-            sum += f64::from(c[cell]);
-        }
-        [curvature, sum]
+        let parts = bands.cut(flat(&self.direction)).zip(bands.cut(flat(&self.response)));
+        total(parallel::map(parts.zip(self.sets.in_bands()), |((d, c), free)| {
+            let (mut curvature, mut sum) = (0.0, 0.0);
+            for cell in free.cells() {
+                curvature += f64::from(d[cell]) * f64::from(c[cell]);
+                sum += f64::from(c[cell]);
+            }
+            [curvature, sum]
+        }))
     }
 
     /// Moves by `step` times the direction, in the pressure and its displacement, and computes the residual of the free
     /// cells, whose gap is to close at `datum`. Returns its norm and that of the violations of the bounds.
     pub(super) fn step_along_direction(&mut self, step: f64, datum: Metre, terms: &Terms) -> ResidualNorms {
         let c0 = terms.self_influence;
-        let mut norms = ResidualNorms { datum, ..ResidualNorms::default() };
-        let cells = self.sets.of().iter().zip(flat(&self.direction)).zip(flat(&self.response));
-        let cells = cells.zip(flat_mut(&mut self.pressure)).zip(flat_mut(&mut self.touch));
-        let cells = cells.zip(flat_mut(&mut self.residual)).enumerate();
-        with_bounds!(self.site.bounds(), of => {
-            for (cell, (((((set, d), c), p), touch), r)) in cells {
-                *touch += step * f64::from(*c);
-                let w = datum - *touch;
-                let violation = match set {
-                    Set::Lower => w.max(0.0),
-                    Set::Upper => w.min(0.0),
-                    Set::Free => {
-                        *p += step * f64::from(*d);
-                        *r = w as f32;
-                        norms.residual += w * w;
-                        norms.max_residual = norms.max_residual.max(w.abs());
-                        c0 * (*p - of(cell).clamp(*p))
-                    }
-                };
-                norms.violation += violation * violation;
-            }
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
+        let parts = parts.zip(bands.cut(flat(&self.response)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.touch)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.residual))).enumerate();
+        let norms = parallel::map(parts, |(band, (((((sets, d), c), p), touch), r))| {
+            let first = bands.first(band);
+            let mut norms = ResidualNorms { datum, ..ResidualNorms::default() };
+            let cells = sets.iter().zip(d).zip(c).zip(p).zip(touch).zip(r).enumerate();
+            with_bounds!(bounds, of => {
+                for (cell, (((((set, d), c), p), touch), r)) in cells {
+                    *touch += step * f64::from(*c);
+                    let w = datum - *touch;
+                    let violation = match set {
+                        Set::Lower => w.max(0.0),
+                        Set::Upper => w.min(0.0),
+                        Set::Free => {
+                            *p += step * f64::from(*d);
+                            *r = w as f32;
+                            norms.residual += w * w;
+                            norms.max_residual = norms.max_residual.max(w.abs());
+                            c0 * (*p - of(first + cell).clamp(*p))
+                        }
+                    };
+                    norms.violation += violation * violation;
+                }
+            });
+            norms
         });
         self.rounding += SINGLE_PRECISION * step * self.max_response;
-        norms
+        norms.into_iter().reduce(ResidualNorms::and).expect("a band")
     }
 
     /// Keeps the pressure as the last feasible one.
     pub(super) fn keep_feasible(&mut self) {
-        self.feasible.assign(&self.pressure);
+        zip(self.bands, &mut self.feasible, &self.pressure, |feasible, p| *feasible = *p);
     }
 
     /// Convolves the last feasible pressure, for a line search from it.
@@ -473,21 +586,24 @@ impl<'a> Block<'a> {
     /// Slope and curvature of the energy, at an approach, along the line from the last feasible pressure to this one.
     pub(super) fn descent(&self, approach: Metre) -> [f64; 2] {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
-        let (mut slope, mut curvature) = (0.0, 0.0);
-        let cells = flat(&self.feasible).iter().zip(flat(before)).zip(flat(&self.pressure));
-        for (((p, before), target), touch) in cells.zip(flat(&self.touch)) {
-            slope += (approach - before) * (target - p);
-            curvature += (target - p) * (touch - before);
-        }
-        [slope, curvature]
+        let bands = self.bands.cut(flat(&self.feasible)).zip(self.bands.cut(flat(before)));
+        let bands = bands.zip(self.bands.cut(flat(&self.pressure))).zip(self.bands.cut(flat(&self.touch)));
+        total(parallel::map(bands, |(((feasible, before), pressure), touch)| {
+            let (mut slope, mut curvature) = (0.0, 0.0);
+            for (((p, before), target), touch) in feasible.iter().zip(before).zip(pressure).zip(touch) {
+                slope += (approach - before) * (target - p);
+                curvature += (target - p) * (touch - before);
+            }
+            [slope, curvature]
+        }))
     }
 
     /// Goes to the `share` of the line from the last feasible pressure to this one.
     pub(super) fn step_from_feasible(&mut self, share: f64) {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let mix = |to: &mut f64, from: &f64| *to = from + share * (*to - from);
-        self.pressure.zip_mut_with(&self.feasible, mix);
-        self.touch.zip_mut_with(before, mix);
+        zip(self.bands, &mut self.pressure, &self.feasible, mix);
+        zip(self.bands, &mut self.touch, before, mix);
     }
 
     /// Ends a line search: its result is the last feasible pressure.
@@ -501,6 +617,23 @@ impl<'a> Block<'a> {
 fn touch_under(site: &dyn Site, pressure: &Field, touch: &mut Field) {
     site.with_operator(&mut |operator| operator.apply(pressure, touch));
     *touch += &*site.initial_gap();
+}
+
+/// Changes each value of a field by one of another.
+fn zip<A: Send, B: Sync>(
+    bands: Bands,
+    field: &mut Array2<A>,
+    other: &Array2<B>,
+    change: impl Fn(&mut A, &B) + Sync + Send,
+) {
+    parallel::map(bands.cut_mut(flat_mut(field)).zip(bands.cut(flat(other))), |(field, other)| {
+        field.iter_mut().zip(other).for_each(|(value, other)| change(value, other));
+    });
+}
+
+/// The totals of the sums over each band, added in their order.
+fn total<const N: usize>(parts: Vec<[f64; N]>) -> [f64; N] {
+    parts.into_iter().reduce(|a, b| std::array::from_fn(|n| a[n] + b[n])).expect("a band")
 }
 
 /// The values of a field by flat index.

@@ -479,11 +479,14 @@ impl<'a> Iteration<'a> {
 }
 
 impl Cells for Iteration<'_> {
-    fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync) -> [f64; N] {
+    fn sum<const N: usize>(
+        &mut self,
+        terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send,
+    ) -> [f64; N] {
         self.sum_blocks(|block| block.sum(&terms))
     }
 
-    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync) {
+    fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send) {
         self.each(|block| block.map(&change));
     }
 

@@ -221,7 +221,7 @@ impl ShearSolver {
         let free = state.freedom.iter().map(|f| !self.is_diagonal(f));
         let mut is_free = vec![false; self.single[0].len()];
         state.cells.iter().zip(free).for_each(|(cell, free)| is_free[*cell] = free);
-        self.sets.free_where(is_free.into_iter());
+        self.sets.free_where(|cell| is_free[cell]);
         self.preconditioner.adapt(&self.sets);
 
         let mut residual = state.newton_residual();

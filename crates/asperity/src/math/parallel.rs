@@ -1,0 +1,128 @@
+//! Work on the parts of one thing, by all threads that have nothing else to do.
+
+use std::ops::Range;
+use std::slice::{Chunks, ChunksMut};
+
+use rayon::prelude::*;
+
+use crate::grid::Field;
+
+/// Whether other threads may be given a share of the present work.
+///
+/// Not where a thread has tasks of its own that wait for others to take them: they are larger, such as the other positions of
+/// a pass, and come first.
+fn shared_out() -> bool {
+    rayon::current_num_threads() > 1 && rayon_core::current_thread_has_pending_tasks() != Some(true)
+}
+
+/// The results of a `task` on each of some [`Bands`], in their order.
+///
+/// Which threads work on them changes nothing: what is summed over the bands is to be summed in this order.
+pub(crate) fn map<T: Send, R: Send>(
+    bands: impl ExactSizeIterator<Item = T>,
+    task: impl Fn(T) -> R + Sync + Send,
+) -> Vec<R> {
+    if bands.len() > BANDS_AT_ONCE && shared_out() {
+        let bands: Vec<T> = bands.collect();
+        bands.into_par_iter().with_min_len(BANDS_AT_ONCE).map(task).collect()
+    } else {
+        bands.map(task).collect()
+    }
+}
+
+/// Bands that a thread takes at the least, so that it is worth its while.
+pub(crate) const BANDS_AT_ONCE: usize = 4;
+
+/// Performs a `task` on each of some parts. Each thread has scratch of its own: the first the one that is given, the others
+/// what `new` makes.
+///
+/// At least `at_once` parts go to a thread, and few parts all to the present one.
+pub(crate) fn each<T: Send, S>(
+    parts: impl ExactSizeIterator<Item = T>,
+    at_once: usize,
+    scratch: &mut S,
+    new: impl Fn() -> S + Sync + Send,
+    task: impl Fn(&mut S, T) + Sync + Send,
+) {
+    if parts.len() > at_once && shared_out() {
+        let parts: Vec<T> = parts.collect();
+        parts.into_par_iter().with_min_len(at_once).for_each_init(new, task);
+    } else {
+        parts.for_each(|part| task(scratch, part));
+    }
+}
+
+/// The field of a `shape` with this `value` at each `(i, j)`, worked out row by row.
+pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Sync + Send) -> Field {
+    let mut field = Field::zeros(shape);
+    let at_once = FIELD_SHARE.div_ceil(shape[1]);
+    each(
+        field.outer_iter_mut().enumerate(),
+        at_once,
+        &mut (),
+        || (),
+        |(), (i, mut row)| {
+            row.iter_mut().enumerate().for_each(|(j, to)| *to = value(i, j));
+        },
+    );
+    field
+}
+
+/// Values of a field that a thread works out at the least.
+const FIELD_SHARE: usize = 1 << 12;
+
+/// Bands of neighbouring rows, in which a grid is worked on in parallel. They depend on its shape alone, and so does all that is
+/// summed band by band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Bands {
+    /// Rows of a band; the last may have fewer.
+    rows: usize,
+    /// Cells in a row.
+    columns: usize,
+    /// Rows of the grid.
+    all: usize,
+}
+
+/// Cells of a band at the least: smaller grids are one.
+const MIN_CELLS: usize = 1 << 14;
+/// Rows of a band at the least: more than what neighbouring bands have to do with each other.
+const MIN_ROWS: usize = 32;
+
+impl Bands {
+    /// The bands of a grid of `shape`.
+    pub(crate) fn of(shape: [usize; 2]) -> Self {
+        let [all, columns] = shape;
+        Self { rows: MIN_CELLS.div_ceil(columns).max(MIN_ROWS), columns, all }
+    }
+
+    /// Cells in a row.
+    pub(crate) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The number of the band that has a row, and that of the row in it.
+    pub(crate) fn place(&self, row: usize) -> [usize; 2] {
+        [row / self.rows, row % self.rows]
+    }
+
+    /// The rows of each band.
+    pub(crate) fn rows(&self) -> impl ExactSizeIterator<Item = Range<usize>> + use<> {
+        let Self { rows, all, .. } = *self;
+        (0..all.div_ceil(rows)).map(move |band| band * rows..(band * rows + rows).min(all))
+    }
+
+    /// The parts of the values of all cells, one for each band.
+    pub(crate) fn cut<'a, T>(&self, values: &'a [T]) -> Chunks<'a, T> {
+        values.chunks(self.rows * self.columns)
+    }
+
+    /// The parts of the values of all cells, to be changed.
+    pub(crate) fn cut_mut<'a, T>(&self, values: &'a mut [T]) -> ChunksMut<'a, T> {
+        values.chunks_mut(self.rows * self.columns)
+    }
+
+    /// The first cell of a band.
+    pub(crate) fn first(&self, band: usize) -> usize {
+        band * self.rows * self.columns
+    }
+}
