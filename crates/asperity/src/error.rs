@@ -55,6 +55,22 @@ pub enum Error {
         /// What it is on the second grid.
         right: String,
     },
+    /// More ranks than rows of the grid that is divided among them.
+    #[error("{ranks} ranks are too many for a grid of {rows} rows along x")]
+    TooManyRanks {
+        /// Number of ranks.
+        ranks: usize,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// Ranks that are to compute one contact together have not the same.
+    #[error("rank {rank} has another {what} than rank 0")]
+    RanksDiffer {
+        /// The first rank that differs.
+        rank: usize,
+        /// What it has, for example "version of asperity".
+        what: &'static str,
+    },
     /// A combination that has no meaning.
     #[error("{0}")]
     Unsupported(&'static str),
@@ -405,6 +421,10 @@ impl Error {
                 Some("take more increments, so that each of them flows less".into())
             }
             Self::AtIncrement { source, .. } => source.hint(),
+            Self::TooManyRanks { .. } => Some("start fewer: each holds a row or more".into()),
+            Self::RanksDiffer { .. } => {
+                Some("start the same program on every machine, where it finds the same files".into())
+            }
             Self::Memory { .. } => Some("fewer cells take less, and so do fewer threads".into()),
             _ => None,
         }

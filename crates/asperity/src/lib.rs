@@ -92,6 +92,7 @@ pub mod error;
 pub mod grid;
 #[cfg(feature = "formats")]
 pub mod io;
+pub mod ranks;
 mod math;
 pub mod stress;
 pub mod material;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ndarray::{Array2, ArrayViewMut2, Axis};
+use ndarray::{Array2, ArrayView1, ArrayViewMut1, ArrayViewMut2, Axis};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_traits::Zero;
@@ -21,10 +21,10 @@ const ROOM: usize = 8;
 /// The plans of a cyclic grid, for transforms in the precision of `T`.
 pub(crate) struct Plans<T> {
     pub(super) shape: [usize; 2],
-    along_y: Arc<dyn RealToComplex<T>>,
-    back_y: Arc<dyn ComplexToReal<T>>,
-    along_x: Arc<dyn Fft<T>>,
-    back_x: Arc<dyn Fft<T>>,
+    pub(super) along_y: Arc<dyn RealToComplex<T>>,
+    pub(super) back_y: Arc<dyn ComplexToReal<T>>,
+    pub(super) along_x: Arc<dyn Fft<T>>,
+    pub(super) back_x: Arc<dyn Fft<T>>,
 }
 
 impl<T: FftNum> Plans<T> {
@@ -58,7 +58,7 @@ impl<T: FftNum> Plans<T> {
     }
 
     /// Scratch for any of the plans.
-    fn scratch(&self) -> Vec<Complex<T>> {
+    pub(super) fn scratch(&self) -> Vec<Complex<T>> {
         let lengths = [
             self.along_y.get_scratch_len(),
             self.back_y.get_scratch_len(),
@@ -80,7 +80,7 @@ pub(crate) enum Parity {
 
 impl Parity {
     /// The value at `index` of a period of `length` from those `at` up to half of it.
-    fn extend(self, index: usize, length: usize, at: impl Fn(usize) -> f64) -> f64 {
+    pub(super) fn extend(self, index: usize, length: usize, at: impl Fn(usize) -> f64) -> f64 {
         let mirrored = length - index;
         match self {
             Self::Even => at(index.min(mirrored)),
@@ -241,9 +241,7 @@ impl<T: FftNum> Convolution<T> {
                 for (ky, column) in strip.columns(plans, scratch) {
                     let spectrum = kernel.spectrum.row(ky);
                     let spectrum = spectrum.as_slice().expect("rows are contiguous");
-                    let (front, back) = column.split_at_mut(plans.shape[0] / 2 + 1);
-                    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
-                    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
+                    multiply(column, spectrum);
                 }
                 strip.back(plans, scratch);
             },
@@ -287,7 +285,6 @@ impl<T: FftNum> Transform<T> {
     /// Transforms the rows of `input`.
     pub(super) fn rows_forward(&mut self, plans: &Plans<T>, input: &Array2<T>, scratch: &mut Scratch<T>) {
         assert_eq!(input.nrows(), self.rows.nrows(), "shape of the field");
-        let ny = input.ncols();
         let rows = input.outer_iter().zip(self.rows.outer_iter_mut());
         parallel::each(
             rows,
@@ -295,16 +292,8 @@ impl<T: FftNum> Transform<T> {
             scratch,
             || Scratch::new(plans),
             |scratch, (values, mut half)| {
-                if values.iter().all(T::is_zero) {
-                    half.fill(Complex::zero());
-                    return;
-                }
-                let row = &mut scratch.row;
-                row[..ny].iter_mut().zip(values).for_each(|(r, p)| *r = *p);
-                row[ny..].fill(T::zero());
                 let half = half.as_slice_mut().expect("rows are contiguous");
-                let forward = plans.along_y.process_with_scratch(row, half, &mut scratch.plan);
-                forward.expect("lengths of the plan");
+                plans.row_forward(values, half, &mut scratch.row, &mut scratch.plan);
             },
         );
     }
@@ -324,7 +313,6 @@ impl<T: FftNum> Transform<T> {
         scratch: &mut Scratch<T>,
     ) {
         assert_eq!(output.nrows(), self.rows.nrows(), "shape of the field");
-        let my = plans.shape[1];
         let rows = self.rows.outer_iter_mut().zip(output.outer_iter_mut());
         parallel::each(
             rows,
@@ -333,14 +321,7 @@ impl<T: FftNum> Transform<T> {
             || Scratch::new(plans),
             |scratch, (mut half, mut values)| {
                 let half = half.as_slice_mut().expect("rows are contiguous");
-                // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
-                half[0].im = T::zero();
-                if my.is_multiple_of(2) {
-                    half[my / 2].im = T::zero();
-                }
-                let back = plans.back_y.process_with_scratch(half, &mut scratch.row, &mut scratch.plan);
-                back.expect("lengths of the plan");
-                values.iter_mut().zip(&scratch.row).for_each(|(u, r)| *u = *r * unit);
+                plans.row_back(half, unit, values.view_mut(), &mut scratch.row, &mut scratch.plan);
             },
         );
     }
@@ -393,6 +374,52 @@ impl<T: FftNum> Strip<'_, T> {
             }
         }
     }
+}
+
+impl<T: FftNum> Plans<T> {
+    /// Transforms a row, continued by zeros, into `half`; `row` and `scratch` are room to work in.
+    pub(super) fn row_forward(
+        &self,
+        values: ArrayView1<'_, T>,
+        half: &mut [Complex<T>],
+        row: &mut [T],
+        scratch: &mut [Complex<T>],
+    ) {
+        if values.iter().all(T::is_zero) {
+            half.fill(Complex::zero());
+            return;
+        }
+        let (front, rest) = row.split_at_mut(values.len());
+        front.iter_mut().zip(values).for_each(|(r, p)| *r = *p);
+        rest.fill(T::zero());
+        self.along_y.process_with_scratch(row, half, scratch).expect("lengths of the plan");
+    }
+
+    /// Transforms `half` back into the first values of its row, times `unit`; `row` and `scratch` are room to work in.
+    pub(super) fn row_back(
+        &self,
+        half: &mut [Complex<T>],
+        unit: T,
+        values: ArrayViewMut1<'_, T>,
+        row: &mut [T],
+        scratch: &mut [Complex<T>],
+    ) {
+        let my = self.shape[1];
+        // A real field has real spectra at zero and, for even lengths, at the Nyquist frequency.
+        half[0].im = T::zero();
+        if my.is_multiple_of(2) {
+            half[my / 2].im = T::zero();
+        }
+        self.back_y.process_with_scratch(half, row, scratch).expect("lengths of the plan");
+        values.into_iter().zip(row).for_each(|(u, r)| *u = *r * unit);
+    }
+}
+
+/// Multiplies the transform of a column by that of an even kernel, of which `spectrum` is the first half.
+pub(super) fn multiply<T: FftNum>(column: &mut [Complex<T>], spectrum: &[T]) {
+    let (front, back) = column.split_at_mut(column.len() / 2 + 1);
+    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
+    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
 }
 
 #[cfg(test)]

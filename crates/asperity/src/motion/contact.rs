@@ -8,8 +8,11 @@ use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{AtRest, OneOfMany, Watch};
-use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal_watched, solve_sliding};
+use crate::operator::{Boundary, Operators, SlabFft};
+use crate::ranks::{Largest, Slab};
+use crate::solver::{
+    Control, Params, Sliding, Solution, Stats, solve_normal, solve_normal_watched, solve_sliding,
+};
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -238,6 +241,29 @@ pub fn press(
     Ok(StaticContact { record: StaticRecord::new(&solution), solution })
 }
 
+/// Presses a pair as [`press`] does, of which each rank has the rows of its `slab`. All ranks do it together; the record is that
+/// of the whole contact, the solution that of the rows.
+///
+/// # Errors
+/// Those of [`crate::solver::solve_normal`]. The other ranks wait for one that has an error.
+///
+/// # Panics
+/// If the bodies have another shape than the slab.
+pub fn press_slab(
+    pair: &Pair,
+    slab: &Slab,
+    boundary: Boundary,
+    control: Control,
+    params: &Params,
+) -> Result<StaticContact> {
+    pair.check_line(&slab.whole_grid(), boundary)?;
+    let position = pair.at_rest();
+    let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position, None));
+    let mut operator = SlabFft::new(slab.clone(), pair.response().clone(), boundary);
+    let solution = solve_normal(&mut operator, &gap, &bounds, control, None, params)?;
+    Ok(StaticContact { record: StaticRecord::of_slab(&solution, slab), solution })
+}
+
 /// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
 pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
     assert_eq!(pair.lower.heights.dim(), pair.upper.heights.dim(), "shapes of the bodies");
@@ -262,6 +288,32 @@ impl StaticRecord {
             residual: solution.residual,
             shear: None,
             flow: None,
+        }
+    }
+
+    /// The numbers of a contact without friction of which each rank has the solution on its slab.
+    fn of_slab(solution: &Solution, slab: &Slab) -> Self {
+        let own = Self::new(solution);
+        let [load, contact_area, gaps, elastic_energy, plastic_cells, plastic_volume] = slab.merged([
+            own.load,
+            own.contact_area,
+            own.mean_gap * own.apparent_area,
+            own.elastic_energy,
+            own.plastic_cells as f64,
+            own.plastic_volume,
+        ]);
+        let Largest(max_pressure) = slab.merged(Largest(own.max_pressure));
+        let apparent_area = slab.whole_grid().area();
+        Self {
+            load,
+            contact_area,
+            apparent_area,
+            max_pressure,
+            mean_gap: gaps / apparent_area,
+            elastic_energy,
+            plastic_cells: plastic_cells as usize,
+            plastic_volume,
+            ..own
         }
     }
 }

@@ -30,7 +30,7 @@ mod watch;
 mod wear;
 
 pub use body::{Body, State};
-pub use contact::{Contact, StaticContact, press};
+pub use contact::{Contact, StaticContact, press, press_slab};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
 pub use flowed::FlowedVolume;
 pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};

@@ -126,13 +126,20 @@ impl Pair {
     /// The operators of contacts on the cells of a `largest` grid; [`Error::Unsupported`] where the response knows no such
     /// boundary.
     pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {
-        let line = boundary.line(&largest, boundary.datum(&largest));
+        self.check_line(&largest, boundary)?;
+        Ok(Operators::new(largest, self.response.clone(), boundary))
+    }
+
+    /// Refuses a boundary that is periodic along one axis of a grid for bodies whose response to a line of cells is not known, by
+    /// [`Error::Unsupported`].
+    pub(super) fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
+        let line = boundary.line(largest, boundary.datum(largest));
         if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
             return Err(Error::Unsupported(
                 "these bodies have no boundary that is periodic along one axis alone",
             ));
         }
-        Ok(Operators::new(largest, self.response.clone(), boundary))
+        Ok(())
     }
 
     /// The shares of the plastic deformation that the lower and the upper body take where cells of this `hardness` face each

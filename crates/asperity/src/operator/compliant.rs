@@ -5,6 +5,7 @@ use std::ops::DerefMut;
 use crate::error::{Result, check};
 use crate::grid::{CellValues, Field, Grid, SingleField};
 use crate::operator::{Boundary, Operator};
+use crate::ranks::Slab;
 
 /// Another operator, and a compliance κ of each cell by itself: `u = C p + κ p`, as of bodies whose cells wear or creep by κ p
 /// while they are pressed, or of a layer of springs between them.
@@ -43,6 +44,10 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o>> Compliant<P> {
 impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Operator for Compliant<P> {
     fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    fn slab(&self) -> Slab {
+        self.operator.slab()
     }
 
     fn boundary(&self) -> Boundary {

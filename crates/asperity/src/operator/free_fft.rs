@@ -38,7 +38,7 @@ impl FreeFamily {
         Self::with_datum(largest.pitch, response.into(), boundary, boundary.datum(largest))
     }
 
-    fn with_datum(
+    pub(super) fn with_datum(
         pitch: [Metre; 2],
         response: SharedResponse,
         boundary: Boundary,

@@ -8,6 +8,7 @@ mod family;
 mod free_fft;
 mod periodic_fft;
 mod shared;
+mod slab_fft;
 
 pub use boundary::{Boundary, Edge};
 pub use compliant::Compliant;
@@ -16,8 +17,10 @@ pub use direct_sum::DirectSum;
 pub use family::Operators;
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::{PeriodicFft, PeriodicKernel};
+pub use slab_fft::SlabFft;
 
 use crate::grid::{CellValues, Field, Grid, SingleField};
+use crate::ranks::Slab;
 
 /// The composite normal displacement of a pair of bodies under pressure: `u = C p`.
 ///
@@ -25,6 +28,12 @@ use crate::grid::{CellValues, Field, Grid, SingleField};
 pub trait Operator: Send {
     /// The grid that it acts on.
     fn grid(&self) -> &Grid;
+
+    /// The slab that [`Operator::grid`] is of a grid divided among ranks, which then apply it all together: the whole grid
+    /// where there are none. Boundary, influence and harmonics are those of the whole.
+    fn slab(&self) -> Slab {
+        Slab::whole(*self.grid())
+    }
 
     /// What lies beyond the edges of the grid.
     fn boundary(&self) -> Boundary;

@@ -2,6 +2,7 @@
 
 use crate::error::{Result, check_in};
 use crate::grid::CellValues;
+use crate::ranks::Slab;
 use crate::units::{Dimension, Pascal};
 
 /// Bounds of the pressure, cell by cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
@@ -64,6 +65,15 @@ impl Bounds {
     /// The bounds on a grid of about half as many cells along each axis: means over the cells that one stands for.
     pub(crate) fn coarse(&self) -> Self {
         Self { lower: self.lower.coarse(), upper: self.upper.coarse() }
+    }
+
+    /// The bounds of the whole grid of which each rank has those of its `slab`.
+    pub(super) fn collected(&self, slab: &Slab) -> Self {
+        let collected = |values: &CellValues| match values {
+            CellValues::Uniform(value) => CellValues::Uniform(*value),
+            CellValues::Field(field) => CellValues::Field(slab.collected(field)),
+        };
+        Self { lower: collected(&self.lower), upper: collected(&self.upper) }
     }
 
     /// Whether these are bounds for a grid of that shape, and each has a meaning.

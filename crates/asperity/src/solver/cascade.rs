@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::ranks::{Largest, Slab};
 use crate::solver::active_set::{self, Answer};
 use crate::solver::site::Site;
 use crate::solver::watch::Within;
@@ -46,31 +47,38 @@ fn first_guess(
     terms: &Terms,
     tolerance: &dyn Fn(&Residual) -> f64,
 ) -> Result<(Option<Vec<Field>>, f64)> {
-    let large = |site: &&dyn Site| site.grid().shape.iter().all(|n| *n >= MIN_CELLS);
+    let large = |site: &&dyn Site| site.slab().whole_grid().shape.iter().all(|n| *n >= MIN_CELLS);
     if !sites.iter().any(large) {
         return Ok((None, 0.0));
     }
     let kept: Vec<Box<dyn Site>> = sites.iter().map(|site| site.coarse()).collect();
     let coarse: Vec<&dyn Site> = kept.iter().map(Box::as_ref).collect();
-    let cells = |sites: &[&dyn Site]| sites.iter().map(|site| site.grid().cells()).sum::<usize>() as f64;
+    let cells =
+        |sites: &[&dyn Site]| sites.iter().map(|site| site.slab().whole_grid().cells()).sum::<usize>() as f64;
+    let slab = coarse[0].slab();
     let share = cells(&coarse) / cells(sites);
     let within = Within(terms.watch);
     let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*terms };
     coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
-    let bearable: f64 = coarse.iter().map(|site| site.bounds().upper().sum(site.grid().cells())).sum();
+    let [bearable, attraction] = slab.merged(coarse.iter().fold([0.0; 2], |[bearable, attracted], site| {
+        let (bounds, cells) = (site.bounds(), site.grid().cells());
+        [bearable + bounds.upper().sum(cells), attracted + attraction(&bounds, cells)]
+    }));
     if coarse_terms.pressure_sum().is_some_and(|wanted| bearable <= wanted) {
         return Ok((None, 0.0));
     }
-    coarse_terms.attraction = coarse.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum();
+    coarse_terms.attraction = attraction;
     let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance)?;
-    let most = coarse.iter().map(|site| site.bounds().upper().max()).fold(0.0, f64::max);
+    let Largest(most) =
+        slab.merged(Largest(coarse.iter().map(|site| site.bounds().upper().max()).fold(0.0, f64::max)));
     let saturation = coarse_terms.self_influence * most;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
     match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, MAX_COARSE_CONVOLUTIONS) {
         Ok(found) => {
             let coarse = found.fields.iter().zip(sites);
-            let prolonged = coarse.map(|((pressure, _), site)| prolong(pressure, site.grid().shape));
+            let prolonged =
+                coarse.map(|((pressure, _), site)| prolong(pressure, slab.rows().start, &site.slab()));
             let spent = share * (spent + found.stats.convolutions);
             Ok((Some(prolonged.collect()), spent))
         }
@@ -80,7 +88,9 @@ fn first_guess(
     }
 }
 
-/// Prolongs a field: each coarse value on the fine cells that it covers.
-fn prolong(coarse: &Field, shape: [usize; 2]) -> Field {
-    Field::from_shape_fn(shape, |(i, j)| coarse[[i / 2, j / 2]])
+/// Prolongs a field that begins at the row `first` of the coarse grid: each of its values on the cells of the `fine` slab that
+/// it covers.
+fn prolong(coarse: &Field, first: usize, fine: &Slab) -> Field {
+    let offset = fine.rows().start;
+    Field::from_shape_fn(fine.grid().shape, |(i, j)| coarse[[(offset + i) / 2 - first, j / 2]])
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use crate::grid::{Field, SingleField};
 use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::{Edge, Operator};
+use crate::ranks::{Halo, Slab};
 use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
@@ -44,8 +45,10 @@ pub(super) struct CoarseCorrection {
 }
 
 impl CoarseCorrection {
-    pub(super) fn new(operator: &dyn Operator) -> Self {
-        let grid = *operator.grid();
+    /// The correction on the rows of a `halo` of the operator's grid.
+    pub(super) fn new(operator: &dyn Operator, halo: &Halo) -> Self {
+        let slab = operator.slab();
+        let grid = slab.whole_grid();
         let shape = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
         let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
         let cells = factor[0] * factor[1];
@@ -74,16 +77,16 @@ impl CoarseCorrection {
             mean_stiffness: (mean / cells) as f32,
             open: 1.0,
             cells: cells as f32,
-            bilinear: Bilinear::new(grid.shape, shape),
+            bilinear: Bilinear::new(slab, halo, shape),
             weight: SingleField::zeros(shape),
             restricted: SingleField::zeros(shape),
             solved: SingleField::zeros(shape),
         }
     }
 
-    /// Adapts to the free cells of `sets`.
-    pub(super) fn adapt(&mut self, sets: &Sets) {
-        let (free, all) = (sets.free_cells() as f32, sets.of().len() as f32);
+    /// Adapts to the free cells of `sets`, so many on all ranks.
+    pub(super) fn adapt(&mut self, sets: &Sets, free: f64) {
+        let (free, all) = (free as f32, self.bilinear.slab.whole_grid().cells() as f32);
         self.open = 1.0 - (free - 1.0) / all;
         self.bilinear.restrict(sets, |_| 1.0, &mut self.weight);
         self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
@@ -132,11 +135,40 @@ impl CoarseCorrection {
 struct Bilinear {
     /// For each row (column) of cells: the node before it, and how far it is from there to the next, 0 … 1.
     along: [Vec<(usize, f32)>; 2],
+    slab: Slab,
+    /// The rows of this rank among them, which alone are restricted.
+    own: Range<usize>,
+    /// The rows of nodes that the cells of each rank have a share in.
+    reached: Vec<Reached>,
+}
+
+/// Consecutive rows of nodes, cyclic.
+#[derive(Clone, Copy)]
+struct Reached {
+    first: usize,
+    count: usize,
+}
+
+impl Reached {
+    /// The nodes around some rows `along` which they stand, of a grid of so many rows and `all` rows of nodes.
+    fn new(along: &[(usize, f32)], rows: usize, all: usize) -> Self {
+        // Between the nodes before the first row and after the last one; where these go round, all.
+        let count = ((along.len() * all).div_ceil(rows) + 2).min(all);
+        Self { first: along[0].0, count }
+    }
 }
 
 impl Bilinear {
-    fn new(fine: [usize; 2], coarse: [usize; 2]) -> Self {
-        Self { along: [0, 1].map(|axis| nodes(fine[axis], coarse[axis])) }
+    /// Between `coarse` nodes and the rows of a `halo` of a slab.
+    fn new(slab: Slab, halo: &Halo, coarse: [usize; 2]) -> Self {
+        let fine = slab.whole_grid().shape;
+        let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis]));
+        let reached =
+            slab.parts().all().map(|rows| Reached::new(&along[0][rows], fine[0], coarse[0])).collect();
+        let own = halo.own_rows();
+        let first = slab.rows().start - own.start;
+        along[0] = along[0][first..first + halo.shape()[0]].to_vec();
+        Self { along, slab, own, reached }
     }
 
     /// `f` of each free cell of some rows and its value between `nodes`.
@@ -171,13 +203,40 @@ impl Bilinear {
     /// The transpose: shares `value` of each free cell out to the nodes around it.
     fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync + Send, nodes: &mut SingleField) {
         let shape = [nodes.nrows(), nodes.ncols()];
-        let parts = parallel::map(sets.bands().rows(), |rows| self.restrict_rows(sets, rows, &value, shape));
+        let bands: Vec<_> =
+            sets.bands().rows().map(|rows| self.own_of(rows)).filter(|rows| !rows.is_empty()).collect();
+        let parts = parallel::map(bands.into_iter(), |rows| self.restrict_rows(sets, rows, &value, shape));
         nodes.fill(0.0);
         for (first, part) in parts {
             for (number, part) in part.outer_iter().enumerate() {
                 let mut to = nodes.row_mut((first + number) % shape[0]);
                 to += &part;
             }
+        }
+        self.merge(nodes);
+    }
+
+    /// Of some rows those of this rank.
+    fn own_of(&self, rows: Range<usize>) -> Range<usize> {
+        rows.start.max(self.own.start)..rows.end.min(self.own.end)
+    }
+
+    /// Adds up what the ranks have for the `nodes`.
+    fn merge(&self, nodes: &mut SingleField) {
+        if self.slab.is_whole() {
+            return;
+        }
+        let (all, columns) = nodes.dim();
+        let rows = |Reached { first, count }: Reached| (first..first + count).map(move |row| row % all);
+        let ranks = self.slab.ranks();
+        let own = rows(self.reached[ranks.rank()]).flat_map(|row| nodes.row(row).to_vec());
+        let own: Vec<f64> = own.map(f64::from).collect();
+        let counts: Vec<usize> = self.reached.iter().map(|reached| reached.count * columns).collect();
+        let gathered = ranks.gather(&own, &counts);
+        nodes.fill(0.0);
+        let to = self.reached.iter().flat_map(|reached| rows(*reached));
+        for (row, part) in to.zip(gathered.chunks_exact(columns)) {
+            nodes.row_mut(row).iter_mut().zip(part).for_each(|(node, value)| *node += *value as f32);
         }
     }
 
@@ -191,9 +250,8 @@ impl Bilinear {
         shape: [usize; 2],
     ) -> (usize, SingleField) {
         let [all, columns] = shape;
-        let first = self.along[0][rows.start].0;
-        // Between the nodes before the first row and after the last one; where these go round, all.
-        let count = ((rows.len() * all).div_ceil(self.along[0].len()) + 2).min(all);
+        let Reached { first, count } =
+            Reached::new(&self.along[0][rows.clone()], self.slab.whole_grid().shape[0], all);
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
         for row in rows {

@@ -2,6 +2,7 @@
 
 use crate::grid::{CellValues, Field};
 use crate::math::sum::sums;
+use crate::ranks::Merged;
 use crate::solver::Terms;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
@@ -159,8 +160,23 @@ impl Range {
         Self { min, max, count, min_lower: bounds.lower().min(), max_upper }
     }
 
-    /// The range of two sets of cells together.
-    pub(super) fn and(self, other: Self) -> Self {
+    /// Offsets at which every value is at its lower bound, and at which the sum is no less than the one `wanted`.
+    fn bracket(&self, wanted: f64) -> [f64; 2] {
+        let each = match self.max_upper {
+            None => wanted / self.count as f64,
+            // One cell without a bound then bears all, whatever the others attract.
+            Some(upper) => {
+                let attraction = self.min_lower.min(0.0).abs() * self.count as f64;
+                upper.max(wanted.abs() + attraction)
+            }
+        };
+        [self.min_lower - self.max, each - self.min]
+    }
+}
+
+/// The range of several sets of cells together.
+impl Merged for Range {
+    fn and(self, other: Self) -> Self {
         Self {
             min: self.min.min(other.min),
             max: self.max.max(other.max),
@@ -173,17 +189,18 @@ impl Range {
         }
     }
 
-    /// Offsets at which every value is at its lower bound, and at which the sum is no less than the one `wanted`.
-    fn bracket(&self, wanted: f64) -> [f64; 2] {
-        let each = match self.max_upper {
-            None => wanted / self.count as f64,
-            // One cell without a bound then bears all, whatever the others attract.
-            Some(upper) => {
-                let attraction = self.min_lower.min(0.0).abs() * self.count as f64;
-                upper.max(wanted.abs() + attraction)
-            }
+    fn numbers(&self) -> Vec<f64> {
+        // No upper bound is NaN.
+        let max_upper = self.max_upper.unwrap_or(f64::NAN);
+        vec![self.min, self.max, self.count as f64, self.min_lower, max_upper]
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Self {
+        let [min, max, count, min_lower, max_upper] = numbers else {
+            unreachable!("as many numbers as are given")
         };
-        [self.min_lower - self.max, each - self.min]
+        let max_upper = Some(*max_upper).filter(|upper| !upper.is_nan());
+        Self { min: *min, max: *max, count: *count as usize, min_lower: *min_lower, max_upper }
     }
 }
 

@@ -13,6 +13,8 @@ mod preconditioner;
 mod residual;
 mod sets;
 mod site;
+#[cfg(test)]
+mod slabs;
 mod stiffness;
 mod together;
 mod watch;
@@ -39,8 +41,9 @@ use ndarray::Array2;
 
 use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::{Field, Grid};
+use crate::grid::{CellValues, Field, Grid};
 use crate::operator::Operator;
+use crate::ranks::{Largest, Slab};
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
 /// The load or the approach that is prescribed of a contact in the normal direction.
@@ -233,6 +236,8 @@ struct Problem<'a> {
     bounds: &'a Bounds,
     /// Control and constants.
     terms: Terms<'a>,
+    /// The rows of the grid that this rank holds.
+    slab: &'a Slab,
 }
 
 /// The answer of a method to a [`Problem`].
@@ -266,9 +271,9 @@ impl Terms<'_> {
     }
 
     /// Holds the pressure of an answer against the load, which the residual does not see.
-    fn check_load(&self, answer: &Answer) -> Result<()> {
+    fn check_load(&self, answer: &Answer, slab: &Slab) -> Result<()> {
         let Some(wanted) = self.pressure_sum() else { return Ok(()) };
-        let sum = answer.pressure.sum();
+        let [sum] = slab.merged([answer.pressure.sum()]);
         if (sum - wanted).abs() <= LOAD_TOLERANCE * self.sum_scale(wanted) {
             return Ok(());
         }
@@ -296,9 +301,13 @@ fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
 /// which minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h, `start` a pressure near the
 /// answer, if one is known.
 ///
+/// On a grid that is divided among [ranks](crate::ranks) all of them solve it together, by the active set. Each gives the gap,
+/// the bounds and the start on the rows of its [`Operator::slab`], under the one control of all, and has the solution on them:
+/// the load of its solution is what its rows bear.
+///
 /// # Errors
 /// [`Error::OutOfRange`] for input without meaning, [`Error::BeyondPlasticLimit`] for more load than the upper bounds bear,
-/// [`Error::PeriodicFullContact`], [`Error::NotConverged`].
+/// [`Error::PeriodicFullContact`], [`Error::NotConverged`], [`Error::Unsupported`] for another method on several ranks.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid, or a bound is not in standard layout.
@@ -327,11 +336,12 @@ pub(crate) fn solve_normal_watched(
     let shape = (grid.shape[0], grid.shape[1]);
     assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
     assert!(start.is_none_or(|p| p.dim() == shape), "shape of the start");
-    validate(operator, initial_gap, bounds, control, params)?;
+    let slab = operator.slab();
+    validate(operator, &slab, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
-    let attraction = attraction(bounds, grid.cells());
+    let [attraction] = slab.merged([attraction(bounds, grid.cells())]);
     let terms = Terms { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
-    let problem = Problem { initial_gap, bounds, terms };
+    let problem = Problem { initial_gap, bounds, terms, slab: &slab };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,
         Some(datum) => {
@@ -341,7 +351,7 @@ pub(crate) fn solve_normal_watched(
                 load => load,
             };
             let terms = Terms { control: nearer, ..terms };
-            let near = Problem { initial_gap: &near, bounds, terms };
+            let near = Problem { initial_gap: &near, bounds, terms, slab: &slab };
             let answer = solve_as_given(operator, &near, start, params)?;
             Answer { approach: control.approach().unwrap_or(answer.approach + datum), ..answer }
         }
@@ -365,10 +375,13 @@ fn solve_as_given(
     if let Some(answer) = no_contact(problem) {
         return Ok(answer);
     }
-    let Problem { initial_gap, bounds, terms } = *problem;
+    let Problem { initial_gap, bounds, terms, slab } = *problem;
     let answer = match params.method {
+        Method::Direct | Method::PolonskyKeer if !slab.is_whole() => {
+            Err(Error::Unsupported("only the active set solves a contact on several ranks"))
+        }
         Method::Direct => direct::solve(operator, problem, start, params),
-        Method::Auto if initial_gap.len() <= MAX_DIRECT_CELLS => {
+        Method::Auto if slab.is_whole() && initial_gap.len() <= MAX_DIRECT_CELLS => {
             direct::solve(operator, problem, start, params)
         }
         Method::PolonskyKeer => polonsky_keer::solve(operator, problem, start, params),
@@ -382,7 +395,7 @@ fn solve_as_given(
             Ok(Answer { pressure, displacement, approach, residual: eta, stats: found.stats })
         }
     }?;
-    terms.check_load(&answer)?;
+    terms.check_load(&answer, slab)?;
     Ok(answer)
 }
 
@@ -398,16 +411,19 @@ fn self_influence(operator: &dyn Operator) -> f64 {
 /// The lowest height, where the heights are so far from zero against their range, or the depth to which they are pressed
 /// together, that h + u keeps too few digits of u: they are then taken from there, which costs them none.
 fn far_datum(problem: &Problem) -> Option<Metre> {
-    let Problem { initial_gap, bounds, terms } = problem;
+    let Problem { initial_gap, bounds, terms, slab } = problem;
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
     for h in *initial_gap {
         (lowest, highest) = (lowest.min(*h), highest.max(*h));
     }
+    let most = |value: f64| slab.merged(Largest(value)).0;
+    (lowest, highest) = (-most(-lowest), most(highest));
     let depth = match terms.control {
         Control::Approach(approach) => (approach - lowest).max(0.0),
         // No deeper than a single cell sinks under the whole load.
         Control::Load(load) => {
-            terms.self_influence * (load.abs() / terms.cell_area + terms.attraction).min(bounds.upper().max())
+            terms.self_influence
+                * (load.abs() / terms.cell_area + terms.attraction).min(most(bounds.upper().max()))
         }
     };
     let far = lowest.abs() > FAR_DATUM * depth.min(highest - lowest);
@@ -436,12 +452,13 @@ const MAX_DIRECT_CELLS: usize = 400;
 /// Whether a problem and its parameters have a meaning.
 fn validate(
     operator: &dyn Operator,
+    slab: &Slab,
     initial_gap: &Field,
     bounds: &Bounds,
     control: Control,
     params: &Params,
 ) -> Result<()> {
-    let grid = operator.grid();
+    let (grid, whole) = (operator.grid(), slab.whole_grid());
     bounds.validate(grid.shape)?;
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a residual above 0")?;
     if let Some(&value) = initial_gap.iter().find(|h| !h.is_finite()) {
@@ -455,22 +472,23 @@ fn validate(
     }
     match control {
         Control::Load(load) => {
-            let least = grid.cell_area() * bounds.lower().sum(grid.cells());
+            let sum = |values: &CellValues| slab.merged([values.sum(grid.cells())])[0];
+            let least = grid.cell_area() * sum(bounds.lower());
             let expected = match least {
                 0.0 => "a finite load above 0",
                 _ => "a finite load above that of all cells at their lower bounds",
             };
             check_in(Dimension::Force, "load", load, load > least && load.is_finite(), expected)?;
             let limit = match bounds.upper().uniform() {
-                Some(hardness) => hardness * grid.area(),
-                None => grid.cell_area() * bounds.upper().sum(grid.cells()),
+                Some(hardness) => hardness * whole.area(),
+                None => grid.cell_area() * sum(bounds.upper()),
             };
             if load >= limit { Err(Error::BeyondPlasticLimit { load, limit }) } else { Ok(()) }
         }
         Control::Approach(approach) => {
             check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite approach")?;
-            let mean_gap = initial_gap.mean().unwrap_or(0.0);
-            let elastic = bounds.upper().min().is_infinite();
+            let mean_gap = slab.merged([initial_gap.sum()])[0] / whole.cells() as f64;
+            let elastic = !slab.merged(bounds.upper().min().is_finite());
             if operator.leaves_mean_free() && elastic && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });
             }
@@ -483,8 +501,8 @@ fn validate(
 fn no_contact(problem: &Problem) -> Option<Answer> {
     let Control::Approach(approach) = problem.terms.control else { return None };
     let attracts = problem.bounds.lower().min() < 0.0;
-    let apart = !attracts && problem.initial_gap.iter().all(|h| *h >= approach);
-    apart.then(|| Answer {
+    let together = attracts || problem.initial_gap.iter().any(|h| *h < approach);
+    (!problem.slab.merged(together)).then(|| Answer {
         pressure: Field::zeros(problem.initial_gap.raw_dim()),
         displacement: Field::zeros(problem.initial_gap.raw_dim()),
         approach,

@@ -25,7 +25,7 @@ pub(super) fn solve(
     start: Option<&Field>,
     params: &Params,
 ) -> Result<Answer> {
-    let Problem { initial_gap, bounds, terms } = *problem;
+    let Problem { initial_gap, bounds, terms, .. } = *problem;
     let feasible = |pressure: &mut Field| make_feasible(&mut Bounded { pressure, bounds }, &terms);
     let mut pressure = match (start, terms.pressure_sum(), terms.control) {
         (Some(start), ..) => start.clone(),

@@ -3,6 +3,7 @@
 use crate::grid::CellValues;
 use crate::math::{Bands, ROWS_ABOVE, SparseInverse, parallel};
 use crate::operator::Operator;
+use crate::ranks::{Halo, Slab};
 use crate::solver::coarse_correction::CoarseCorrection;
 use crate::solver::sets::Sets;
 
@@ -22,6 +23,11 @@ struct Scratch {
 /// S is the [`SparseInverse`] on the free cells, for the local part of the residual, B the stiffness of the long waves, for its
 /// smooth part; see [`CoarseCorrection`] for P, D and T.
 pub(super) struct Preconditioner {
+    slab: Slab,
+    /// The rows on either side of the slab that S reaches.
+    halo: Halo,
+    /// What is kept on all these rows; none where the grid is not divided among ranks.
+    around: Option<Around>,
     sparse: SparseInverse,
     coarse: CoarseCorrection,
     /// For each free cell of each band the pattern of its neighbours.
@@ -33,13 +39,33 @@ pub(super) struct Preconditioner {
     scaled: Option<(Vec<f32>, Vec<f32>)>,
 }
 
+/// Sets, residual and preconditioned residual of a slab and the rows on either side: there the cells of this rank get the same
+/// as from one process.
+struct Around {
+    sets: Sets,
+    residual: Vec<f32>,
+    preconditioned: Vec<f32>,
+}
+
+impl Around {
+    fn new(shape: [usize; 2]) -> Self {
+        let zeros = || vec![0.0; shape[0] * shape[1]];
+        Self { sets: Sets::new(shape), residual: zeros(), preconditioned: zeros() }
+    }
+}
+
 impl Preconditioner {
     pub(super) fn new(operator: &dyn Operator) -> Self {
-        let bands = Bands::of(operator.grid().shape);
+        let slab = operator.slab();
+        let halo = slab.halo(ROWS_ABOVE);
+        let bands = Bands::of(halo.shape());
         let count = bands.rows().len();
         Self {
-            sparse: sparse_inverse(operator),
-            coarse: CoarseCorrection::new(operator),
+            around: (!slab.is_whole()).then(|| Around::new(halo.shape())),
+            sparse: sparse_inverse(operator, halo.shape()),
+            coarse: CoarseCorrection::new(operator, &halo),
+            slab,
+            halo,
             patterns: vec![Vec::new(); count],
             above: vec![vec![0.0; ROWS_ABOVE * bands.columns()]; count],
             scratch: Scratch::default(),
@@ -52,8 +78,19 @@ impl Preconditioner {
 
     /// Adapts to the free cells of `sets`.
     pub(super) fn adapt(&mut self, sets: &Sets) {
-        let Self { sparse, coarse, patterns, .. } = self;
-        coarse.adapt(sets);
+        let Self { slab, halo, around, sparse, coarse, patterns, .. } = self;
+        let [free] = slab.merged([sets.free_cells() as f64]);
+        let sets = match around {
+            None => sets,
+            Some(Around { sets: all, residual: is_free, .. }) => {
+                let own = is_free[halo.own()].iter_mut().enumerate();
+                own.for_each(|(cell, value)| *value = f32::from(u8::from(sets.is_free(cell))));
+                halo.fill(is_free);
+                all.free_where(|cell| is_free[cell] != 0.0);
+                &*all
+            }
+        };
+        coarse.adapt(sets, free);
         let bands = sets.bands();
         parallel::map(patterns.iter_mut().zip(sets.in_bands()).enumerate(), |(band, (patterns, free))| {
             let first = bands.first(band);
@@ -75,6 +112,17 @@ impl Preconditioner {
 
     /// As [`Self::apply`] where cells do not differ.
     fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+        let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
+        let Around { sets, residual, preconditioned } = &mut around;
+        residual[self.halo.own()].copy_from_slice(r);
+        self.halo.fill(residual);
+        self.apply_on_rows(sets, residual, preconditioned);
+        z.copy_from_slice(&preconditioned[self.halo.own()]);
+        self.around = Some(around);
+    }
+
+    /// As [`Self::apply_alike`] on all rows that a rank looks at, of which those on either side are not right.
+    fn apply_on_rows(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
         coarse.solve(sets, r);
         let bands = sets.bands();
@@ -119,12 +167,12 @@ fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     }
 }
 
-/// The sparse inverse of the operator's influence matrix; periodic coefficients count from the far field.
-fn sparse_inverse(operator: &dyn Operator) -> SparseInverse {
-    let shape = operator.grid().shape;
+/// The sparse inverse of the operator's influence matrix on `rows` of its grid; periodic coefficients count from the far field.
+fn sparse_inverse(operator: &dyn Operator, rows: [usize; 2]) -> SparseInverse {
+    let shape = operator.slab().whole_grid().shape;
     let periodic = operator.boundary().leaves_mean_free();
     let far = if periodic { operator.influence(shape[0] / 2, shape[1] / 2) } else { 0.0 };
-    SparseInverse::new(shape, |i, j| operator.influence(i, j) - far)
+    SparseInverse::new(rows, |i, j| operator.influence(i, j) - far)
 }
 
 #[cfg(test)]
@@ -206,7 +254,7 @@ mod tests {
         let grid = Grid::new([1, 2], [1.0, 1.0]).unwrap();
         let operator = DirectSum::new(grid, 1.0);
         let sets = sets(grid.shape, |_| true);
-        let sparse = sparse_inverse(&operator);
+        let sparse = sparse_inverse(&operator, grid.shape);
         let (c, d) = (operator.influence(0, 0), operator.influence(0, 1));
         let above = ROWS_ABOVE * grid.shape[1];
         let patterns = [0, 1].map(|cell| sparse.pattern(cell, |cell| sets.is_free(cell)));

@@ -1,6 +1,7 @@
 //! The complementarity residual η, by which every answer is judged.
 
 use crate::grid::Field;
+use crate::ranks::Merged;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::solver::{Problem, Terms};
 use crate::units::{Metre, Pascal};
@@ -109,8 +110,16 @@ impl Multiplier {
         this
     }
 
-    /// The multiplier of two sets of cells together.
-    pub(super) fn and(self, other: Self) -> Self {
+    /// The multiplier. Where all cells are at a bound, any approach between the capped and the open cells is in equilibrium:
+    /// the least.
+    pub(super) fn approach(&self) -> Metre {
+        if self.weight > 0.0 { self.moment / self.weight } else { self.max_capped }
+    }
+}
+
+/// The multiplier of several sets of cells together.
+impl Merged for Multiplier {
+    fn and(self, other: Self) -> Self {
         Self {
             weight: self.weight + other.weight,
             moment: self.moment + other.moment,
@@ -118,10 +127,12 @@ impl Multiplier {
         }
     }
 
-    /// The multiplier. Where all cells are at a bound, any approach between the capped and the open cells is in equilibrium:
-    /// the least.
-    pub(super) fn approach(&self) -> Metre {
-        if self.weight > 0.0 { self.moment / self.weight } else { self.max_capped }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.weight, self.moment, self.max_capped]
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Self {
+        Self { weight: numbers[0], moment: numbers[1], max_capped: numbers[2] }
     }
 }
 
@@ -163,8 +174,20 @@ impl ResidualSums {
         Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
     }
 
-    /// The sums of two sets of cells together: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
-    pub(super) fn and(self, other: Self) -> Self {
+    /// The residual of the cells, at the approach of the sums.
+    pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
+        let deviation = (self.squares.max(0.0) / self.cells).sqrt();
+        let local = self_influence * self.max_pressure;
+        let scale = scale(deviation, local.max(self.max_displacement));
+        // What is not a number is no answer, though a maximum would pass over it.
+        let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
+        Residual { eta, approach, scale }
+    }
+}
+
+/// The sums of several sets of cells together: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
+impl Merged for ResidualSums {
+    fn and(self, other: Self) -> Self {
         let cells = self.cells + other.cells;
         let apart = other.mean - self.mean;
         Self {
@@ -177,14 +200,22 @@ impl ResidualSums {
         }
     }
 
-    /// The residual of the cells, at the approach of the sums.
-    pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
-        let deviation = (self.squares.max(0.0) / self.cells).sqrt();
-        let local = self_influence * self.max_pressure;
-        let scale = scale(deviation, local.max(self.max_displacement));
-        // What is not a number is no answer, though a maximum would pass over it.
-        let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
-        Residual { eta, approach, scale }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.largest, self.max_pressure, self.max_displacement, self.cells, self.mean, self.squares]
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Self {
+        let [largest, max_pressure, max_displacement, cells, mean, squares] = numbers else {
+            unreachable!("as many numbers as are given")
+        };
+        Self {
+            largest: *largest,
+            max_pressure: *max_pressure,
+            max_displacement: *max_displacement,
+            cells: *cells,
+            mean: *mean,
+            squares: *squares,
+        }
     }
 }
 

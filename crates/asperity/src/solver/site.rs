@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use crate::grid::{Field, Grid, coarse_means};
 use crate::operator::Operator;
+use crate::ranks::Slab;
 use crate::solver::bounds::Bounds;
 
 /// Where one of the contacts that share an approach takes place.
@@ -13,8 +14,13 @@ use crate::solver::bounds::Bounds;
 /// Its operator and its initial gap are asked for when they are needed and need not be kept between, so that many
 /// contacts at once take little room.
 pub(crate) trait Site: Sync {
-    /// The grid of the contact.
+    /// The grid of the contact, or the rows of it that this rank holds.
     fn grid(&self) -> Grid;
+
+    /// The slab that this is of a grid divided among ranks.
+    fn slab(&self) -> Slab {
+        Slab::whole(self.grid())
+    }
 
     /// Undeformed gap h.
     fn initial_gap(&self) -> Cow<'_, Field>;
@@ -48,6 +54,10 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for OwnedSite<'_, 
         self.grid
     }
 
+    fn slab(&self) -> Slab {
+        self.operator.lock().expect("no holder panics").slab()
+    }
+
     fn initial_gap(&self) -> Cow<'_, Field> {
         Cow::Borrowed(&self.gap)
     }
@@ -61,8 +71,12 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for OwnedSite<'_, 
     }
 
     fn coarse(&self) -> Box<dyn Site> {
+        let fine = self.slab();
         let operator = self.operator.lock().expect("no holder panics").coarse();
-        Box::new(coarse_site(operator, &self.gap, &self.bounds))
+        if fine.is_whole() || !operator.slab().is_whole() {
+            return Box::new(coarse_site(operator, &self.gap, &self.bounds));
+        }
+        Box::new(coarse_site(operator, &fine.collected(&self.gap), &self.bounds.collected(&fine)))
     }
 }
 

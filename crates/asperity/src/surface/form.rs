@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::choice::choice;
 use crate::error::{Result, check_in};
-use crate::grid::Grid;
+use crate::grid::{Field, Grid};
+use crate::ranks::Slab;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
@@ -93,13 +94,23 @@ impl Form {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.
     pub fn on(&self, grid: &Grid) -> Result<Topography> {
-        self.check(grid)?;
+        Topography::new(*grid, self.on_slab(&Slab::whole(*grid), false)?)
+    }
+
+    /// The heights on a `slab` of what [`Form::on`] makes; those of its underside, if it is turned over.
+    ///
+    /// # Errors
+    /// As of [`Form::on`].
+    pub fn on_slab(&self, slab: &Slab, turned_over: bool) -> Result<Field> {
+        let (grid, rows) = (slab.whole_grid(), slab.rows());
+        self.check(&grid)?;
         let extent = grid.extent();
-        let mut heights = grid.zeros();
-        for ((ix, iy), z) in heights.indexed_iter_mut() {
-            *z = self.height(grid.centre(0, ix) - 0.5 * extent[0], grid.centre(1, iy) - 0.5 * extent[1]);
-        }
-        Topography::new(*grid, heights)
+        Ok(Field::from_shape_fn(slab.grid().shape, |(i, iy)| {
+            let at =
+                |ix| self.height(grid.centre(0, ix) - 0.5 * extent[0], grid.centre(1, iy) - 0.5 * extent[1]);
+            let ix = rows.start + i;
+            if turned_over { -at(grid.shape[0] - 1 - ix) } else { at(ix) }
+        }))
     }
 
     /// Height at `(x, y)` from the apex.

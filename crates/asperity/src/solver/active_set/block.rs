@@ -5,6 +5,7 @@ use ndarray::Array2;
 use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
 use crate::math::{Bands, parallel};
+use crate::ranks::{Halo, Largest, Merged, Slab};
 use crate::solver::Terms;
 use crate::solver::bounds::{Interval, with_bounds};
 use crate::solver::feasible::{Range, extremes, map_within, sum_within, within};
@@ -53,6 +54,10 @@ pub(super) struct Block<'a> {
     preconditioned: SingleField,
     /// Influence coefficients up to [`NEAR_FIELD`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
+    /// The rows on either side that they reach.
+    halo: Halo,
+    /// The slab of the grid, where that is divided among ranks.
+    slab: Slab,
     /// Self-influence c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its
     /// transforms.
     local: f64,
@@ -74,9 +79,9 @@ pub(super) struct ResidualNorms {
     pub(super) datum: Metre,
 }
 
-impl ResidualNorms {
-    /// The norms over the cells of two contacts together.
-    pub(super) fn and(self, other: Self) -> Self {
+/// The norms over the cells of several contacts together.
+impl Merged for ResidualNorms {
+    fn and(self, other: Self) -> Self {
         Self {
             residual: self.residual + other.residual,
             violation: self.violation + other.violation,
@@ -84,13 +89,24 @@ impl ResidualNorms {
             datum: self.datum,
         }
     }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.residual, self.violation, self.max_residual, self.datum]
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Self {
+        let [residual, violation, max_residual, datum] = numbers else {
+            unreachable!("as many numbers as are given")
+        };
+        Self { residual: *residual, violation: *violation, max_residual: *max_residual, datum: *datum }
+    }
 }
 
 impl<'a> Block<'a> {
     /// The contact at a site under a pressure that has not been convolved yet.
     pub(super) fn new(site: &'a dyn Site, pressure: Field) -> Self {
-        let shape = site.grid().shape;
-        let reach = shape.map(|n| NEAR_FIELD.min((n - 1) / 2));
+        let (shape, slab) = (site.grid().shape, site.slab());
+        let reach = slab.whole_grid().shape.map(|n| NEAR_FIELD.min((n - 1) / 2));
         let mut made = None;
         site.with_operator(&mut |operator| {
             let near = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
@@ -116,6 +132,8 @@ impl<'a> Block<'a> {
             max_response: 0.0,
             residual: SingleField::zeros(shape),
             preconditioned: SingleField::zeros(shape),
+            halo: slab.halo(reach[0]),
+            slab,
             near,
             local,
             convolutions: 0,
@@ -222,7 +240,9 @@ impl<'a> Block<'a> {
         site.with_operator(&mut |operator| operator.apply_single(direction, response));
         let largest = |part: &[f32]| part.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m });
         let parts = parallel::map(self.bands.cut(flat(response)), largest);
-        self.max_response = f64::from(parts.into_iter().fold(0.0, f32::max));
+        // Of the whole grid: the transforms round what they have together.
+        Largest(self.max_response) =
+            self.slab.merged(Largest(f64::from(parts.into_iter().fold(0.0, f32::max))));
         self.convolutions += 1;
     }
 
@@ -248,7 +268,7 @@ impl<'a> Block<'a> {
         let parts = parallel::map(self.bands.cut(flat(&self.pressure)), |pressure| {
             pressure.iter().fold(0.0, |most, p| f64::max(most, p.abs()))
         });
-        parts.into_iter().fold(0.0, f64::max)
+        self.slab.merged(Largest(parts.into_iter().fold(0.0, f64::max))).0
     }
 
     /// The work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both over the cell area.
@@ -391,15 +411,17 @@ impl<'a> Block<'a> {
 
     /// Computes C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
     fn convolve_near_field(&mut self) {
-        let [nx, ny] = self.site.grid().shape;
-        let Self { bands, near, direction, response, .. } = self;
+        let Self { bands, near, halo, direction, response, .. } = self;
+        let direction = halo.around(flat(direction));
+        let ([nx, ny], above) = (halo.shape(), halo.own_rows().start);
         let reach = [near.nrows() - 1, near.ncols() / 2];
         let parts = bands.rows().zip(bands.cut_mut(flat_mut(response)));
         parallel::map(parts, |(rows, response)| {
             response.fill(0.0);
+            let rows = above + rows.start..above + rows.end;
             for ix in rows.start.saturating_sub(reach[0])..nx.min(rows.end + reach[0]) {
                 let reached = ix.saturating_sub(reach[0]).max(rows.start)..(ix + reach[0] + 1).min(rows.end);
-                let from = direction.row(ix).to_slice().expect("rows are contiguous");
+                let from = &direction[ix * ny..][..ny];
                 for (iy, &pressure) in from.iter().enumerate().filter(|(_, d)| **d != 0.0) {
                     let (first, last) = (iy.saturating_sub(reach[1]), ny.min(iy + reach[1] + 1));
                     for i in reached.clone() {

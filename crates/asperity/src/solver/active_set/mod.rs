@@ -10,9 +10,10 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::ranks::{Largest, Merged, Slab};
 use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
-use crate::solver::residual::{Multiplier, Residual, ResidualSums};
+use crate::solver::residual::Residual;
 use crate::solver::site::Site;
 use crate::solver::watch::go_on;
 use crate::solver::{Control, Stats, Terms, finite};
@@ -91,7 +92,7 @@ pub(super) fn solve(
     let mut state = iteration.residual();
     if let Some(pressure) = terms.pressure_sum() {
         // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
-        let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
+        let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         state.scale = state.scale.max(terms.self_influence * terms.sum_scale(pressure) / cells as f64);
     }
     loop {
@@ -132,6 +133,10 @@ pub(super) fn solve(
 struct Iteration<'a> {
     terms: Terms<'a>,
     blocks: Vec<Block<'a>>,
+    /// The slab that the first block has of a grid divided among ranks; several blocks are whole grids.
+    slab: Slab,
+    /// Number of free cells of all blocks.
+    free_cells: f64,
     /// Ratio of the residual to the violation of the bounds at which conjugate gradients end.
     cg_exit: f64,
     /// Damping of the preconditioned step that is folded into the step to the bounds.
@@ -155,7 +160,7 @@ impl<'a> Iteration<'a> {
         start: Option<Vec<Field>>,
         compliance_factor: f64,
     ) -> Self {
-        let cells: usize = sites.iter().map(|site| site.grid().cells()).sum();
+        let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         let far = start.is_none();
         let pressures = start.unwrap_or_else(|| {
             let guess = |site: &&dyn Site| match terms.control {
@@ -172,6 +177,8 @@ impl<'a> Iteration<'a> {
         let mut iteration = Self {
             terms: *terms,
             blocks,
+            slab: sites[0].slab(),
+            free_cells: 0.0,
             cg_exit: CG_EXIT,
             damping: FIRST_DAMPING,
             compliance_factor,
@@ -192,23 +199,22 @@ impl<'a> Iteration<'a> {
 
     /// Performs a task on each block, in parallel where there are several.
     fn each(&mut self, task: impl Fn(&mut Block<'a>) + Sync) {
-        self.all(task, |(), ()| ());
-    }
-
-    /// The results of a task on each block, merged in the order of the blocks.
-    fn all<R: Send>(&mut self, task: impl Fn(&mut Block<'a>) -> R + Sync, and: impl Fn(R, R) -> R) -> R {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
-            blocks => {
-                let parts: Vec<R> = blocks.par_iter_mut().map(&task).collect();
-                parts.into_iter().reduce(and).expect("a block")
-            }
+            blocks => blocks.par_iter_mut().for_each(&task),
         }
     }
 
-    /// The sums over the blocks of the results of a task on each.
-    fn sum_blocks<const N: usize>(&mut self, task: impl Fn(&mut Block<'a>) -> [f64; N] + Sync) -> [f64; N] {
-        self.all(task, |a, b| std::array::from_fn(|n| a[n] + b[n]))
+    /// The results of a task on each block, merged in the order of the blocks, and of the ranks.
+    fn merged<M: Merged + Send>(&mut self, task: impl Fn(&mut Block<'a>) -> M + Sync) -> M {
+        let part = match self.blocks.as_mut_slice() {
+            [block] => task(block),
+            blocks => {
+                let parts: Vec<M> = blocks.par_iter_mut().map(&task).collect();
+                parts.into_iter().reduce(M::and).expect("a block")
+            }
+        };
+        self.slab.merged(part)
     }
 
     /// Cost so far.
@@ -226,16 +232,11 @@ impl<'a> Iteration<'a> {
         self.blocks.iter().map(Block::rounding).fold(0.0, f64::max)
     }
 
-    /// Number of free cells of all blocks.
-    fn free_cells(&self) -> f64 {
-        self.blocks.iter().map(Block::free_cells).sum::<usize>() as f64
-    }
-
     /// The mean over the free cells of values with this sum, which a direction loses under load control: it keeps the load. 0
     /// under approach control.
     fn mean(&self, sum: f64) -> f64 {
         match self.terms.control {
-            Control::Load(_) => sum / self.free_cells(),
+            Control::Load(_) => sum / self.free_cells,
             Control::Approach(_) => 0.0,
         }
     }
@@ -248,7 +249,7 @@ impl<'a> Iteration<'a> {
 
     /// Under approach control a guess is only as good as its size: the multiple of least energy, at no cost.
     fn scale_to_least_energy(&mut self, approach: Metre) {
-        let [work, twice_energy] = self.sum_blocks(|block| block.work(approach));
+        let [work, twice_energy] = self.merged(|block| block.work(approach));
         if twice_energy > 0.0 {
             let factor = (work / twice_energy).clamp(0.0, 1.0);
             self.each(|block| block.scale(factor));
@@ -260,15 +261,15 @@ impl<'a> Iteration<'a> {
         let terms = self.terms;
         let approach = match terms.control {
             Control::Approach(approach) => approach,
-            Control::Load(_) => self.all(|block| block.multiplier(), Multiplier::and).approach(),
+            Control::Load(_) => self.merged(|block| block.multiplier()).approach(),
         };
-        let sums = self.all(|block| block.residual_sums(approach, &terms), ResidualSums::and);
+        let sums = self.merged(|block| block.residual_sums(approach, &terms));
         sums.residual(approach, terms.self_influence)
     }
 
     /// Whether all pressures are within their bounds and bear the load.
     fn is_feasible(&mut self) -> bool {
-        if !self.blocks.iter().all(Block::is_within_bounds) {
+        if self.merged(|block| !block.is_within_bounds()) {
             return false;
         }
         let [sum] = self.sum(|p, _| [p]);
@@ -280,7 +281,7 @@ impl<'a> Iteration<'a> {
     fn become_feasible(&mut self, max_rounding: Metre) {
         let terms = self.terms;
         make_feasible(self, &terms);
-        let rounding = self.all(|block| block.rounding_in_single(), f64::max);
+        let Largest(rounding) = self.merged(|block| Largest(block.rounding_in_single()));
         if rounding < max_rounding {
             self.each(Block::convolve_in_single);
         } else {
@@ -292,7 +293,7 @@ impl<'a> Iteration<'a> {
     /// gradients. Returns their norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
         self.predict_sets(state.approach);
-        if self.free_cells() == 0.0 {
+        if self.free_cells == 0.0 {
             self.become_feasible(0.0);
             self.step_from_bounds(state.approach);
             return None;
@@ -339,34 +340,37 @@ impl<'a> Iteration<'a> {
         let terms = self.terms;
         let offset = match terms.pressure_sum() {
             Some(wanted) => {
-                let range = self.all(|block| block.propose(approach, stiffness), Range::and);
+                let range = self.merged(|block| block.propose(approach, stiffness));
                 offset_for_sum(range, wanted, terms.sum_accuracy(wanted), |offset| {
-                    self.sum_blocks(|block| block.proposed_sum(offset))
+                    self.merged(|block| block.proposed_sum(offset))
                 })
             }
             None => 0.0,
         };
-        self.each(|block| block.predict_sets(approach, stiffness, offset));
+        [self.free_cells] = self.merged(|block| {
+            block.predict_sets(approach, stiffness, offset);
+            [block.free_cells() as f64]
+        });
     }
 
     /// Takes the cells predicted at a bound there, and the free cells one preconditioned step further, in one convolution:
     /// of the step, or where single precision has left more than `max_rounding`, of the whole pressure in double.
     fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) {
-        if !self.all(Block::direct_to_bounds, |a, b| a || b) {
+        if !self.merged(Block::direct_to_bounds) {
             return;
         }
-        let [sum] = self.sum_blocks(|block| [block.predict_residual(approach)]);
+        let [sum] = self.merged(|block| [block.predict_residual(approach)]);
         let mean = self.mean(sum);
-        let [sum, ..] = self.sum_blocks(|block| {
+        let [sum, ..] = self.merged(|block| {
             block.subtract_mean(mean);
             block.precondition()
         });
         let (mean, damping) = (self.mean(sum), self.damping);
-        let [added, borne] = self.sum_blocks(|block| block.direct_free_cells(mean, damping));
+        let [added, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
         if let Control::Load(_) = self.terms.control {
             // The load does not change: the free cells bear the difference, in proportion.
             let (each, per_pressure) =
-                if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells(), 0.0) };
+                if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));
         }
         let in_double = self.rounding() > max_rounding;
@@ -382,14 +386,14 @@ impl<'a> Iteration<'a> {
     fn restore_the_sum(&mut self) {
         let Some(wanted) = self.terms.pressure_sum() else { return };
         let [sum] = self.sum(|p, _| [p]);
-        let pressure = (wanted - sum) / self.free_cells();
+        let pressure = (wanted - sum) / self.free_cells;
         self.each(|block| block.add_to_free_cells(pressure));
     }
 
     /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the residual.
     /// Returns the norms of both.
     fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
-        let [sum] = self.sum_blocks(|block| [block.reset_direction()]);
+        let [sum] = self.merged(|block| [block.reset_direction()]);
         let mut datum = match self.terms.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.mean(sum),
@@ -400,12 +404,12 @@ impl<'a> Iteration<'a> {
             if self.terms.watch.stop() {
                 break;
             }
-            let [sum, drift, product] = self.sum_blocks(Block::precondition);
+            let [sum, drift, product] = self.merged(Block::precondition);
             let mean = self.mean(sum);
             let product = product - mean * drift;
             let beta = product / product_before;
             product_before = product;
-            let [curvature, sum] = self.sum_blocks(|block| block.update_direction(mean, beta));
+            let [curvature, sum] = self.merged(|block| block.update_direction(mean, beta));
             if !(curvature > 0.0 && product > 0.0) {
                 break;
             }
@@ -427,7 +431,7 @@ impl<'a> Iteration<'a> {
     /// Moves along the direction. Returns the norms of residual and violation: roots of the sums of squares.
     fn step_along_direction(&mut self, step: f64, datum: Metre) -> ResidualNorms {
         let terms = self.terms;
-        let sums = self.all(|block| block.step_along_direction(step, datum, &terms), ResidualNorms::and);
+        let sums = self.merged(|block| block.step_along_direction(step, datum, &terms));
         ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
@@ -473,7 +477,7 @@ impl<'a> Iteration<'a> {
             Control::Load(_) => 0.0,
             Control::Approach(_) => approach,
         };
-        let [slope, curvature] = self.sum_blocks(|block| block.descent(datum));
+        let [slope, curvature] = self.merged(|block| block.descent(datum));
         if slope > 0.0 && curvature > 0.0 { (slope / curvature).min(1.0) } else { 0.0 }
     }
 }
@@ -483,7 +487,7 @@ impl Cells for Iteration<'_> {
         &mut self,
         terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send,
     ) -> [f64; N] {
-        self.sum_blocks(|block| block.sum(&terms))
+        self.merged(|block| block.sum(&terms))
     }
 
     fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send) {
@@ -491,6 +495,6 @@ impl Cells for Iteration<'_> {
     }
 
     fn range(&mut self) -> Range {
-        self.all(|block| block.range(), Range::and)
+        self.merged(|block| block.range())
     }
 }

@@ -80,6 +80,12 @@ impl Autocorrelation {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        let shape = self.shape(grid)?;
+        stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
+    }
+
+    /// The shape of the noise that is filtered to a topography on `grid`, if every parameter has a meaning there.
+    pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         check_in(Dimension::Angle, "lay", self.lay, self.lay.is_finite(), "an angle")?;
         let (distance, reach) = (self.distance(), self.reach());
@@ -101,8 +107,7 @@ impl Autocorrelation {
                 "a length from one pitch to that of the surface",
             )?;
         }
-        let shape = shape_with_margin(grid, reach.map(|length| 3.0 * length));
-        stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
+        Ok(shape_with_margin(grid, reach.map(|length| 3.0 * length)))
     }
 
     /// Spectrum of the autocorrelation, of variance 1, on a period of `shape` samples, as [`symmetric_transform`] has
@@ -111,18 +116,24 @@ impl Autocorrelation {
     /// Where the period is short, its ends meet in a kink and give the spectrum slightly negative values: 0
     /// here.
     fn spectrum(&self, shape @ [nx, ny]: [usize; 2], pitch: [Metre; 2]) -> Field {
-        let distance = self.distance();
-        let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| {
+        let covariance = self.covariance(shape, pitch);
+        let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| covariance(i, j));
+        symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
+    }
+
+    /// The autocorrelation, of variance 1, of samples `[i, j]` apart on a period of `shape`, i no more than half of it.
+    pub(super) fn covariance(&self, [_, ny]: [usize; 2], pitch: [Metre; 2]) -> impl Fn(usize, usize) -> f64 {
+        let (distance, decay) = (self.distance(), self.decay);
+        move |i, j| {
             let j = if 2 * j > ny { j as f64 - ny as f64 } else { j as f64 };
             let s = distance([i as f64 * pitch[0], j * pitch[1]]);
-            let exponent = match self.decay {
+            let exponent = match decay {
                 Decay::Exponential => s,
                 Decay::Gaussian => s * s,
             };
             // Below round-off from here on.
             if exponent > 20.0 { 0.0 } else { (-std::f64::consts::LN_10 * exponent).exp() }
-        });
-        symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
+        }
     }
 
     /// s of a step along x and y.

@@ -1,5 +1,7 @@
 //! White noise through a low-pass filter.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::noise::{shape_with_margin, stationary};
@@ -70,6 +72,13 @@ impl LowPass {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        let shape = self.shape(grid)?;
+        let spectrum = || self.spectrum(shape, grid.pitch, 0..shape[1] / 2 + 1);
+        stationary(grid, shape, seed, self.sq, self.heights, spectrum)
+    }
+
+    /// The shape of the noise that is filtered to a topography on `grid`, if every parameter has a meaning there.
+    pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         for axis in 0..2 {
             let length = self.cutoff[axis];
@@ -84,8 +93,7 @@ impl LowPass {
                 "a wavelength from two pitches to the length of the surface",
             )?;
         }
-        let shape = shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length));
-        stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
+        Ok(shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length)))
     }
 
     /// Coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at `[k + reach, l + reach]`; without a unit.
@@ -107,8 +115,8 @@ impl LowPass {
         })
     }
 
-    /// Spectrum of the filter, `[l, k]` of a transform of `shape`: its response squared.
-    fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2]) -> Field {
+    /// Spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its response squared.
+    pub(super) fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2], l: Range<usize>) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
             let part = |bin| {
                 let frequency = angular_frequency(bin, shape[axis], pitch[axis]);
@@ -124,10 +132,10 @@ impl LowPass {
             };
             (0..shape[axis]).map(part).collect::<Vec<f64>>()
         });
-        Field::from_shape_fn([shape[1] / 2 + 1, shape[0]], |(l, k)| match self.band {
-            Band::Elliptic if x[k] + y[l] < 1.0 => 1.0,
-            Band::Elliptic => 0.0,
-            Band::Rectangular => x[k] * y[l],
+        Field::from_shape_fn([l.len(), shape[0]], |(row, k)| match (self.band, y[l.start + row]) {
+            (Band::Elliptic, y) if x[k] + y < 1.0 => 1.0,
+            (Band::Elliptic, _) => 0.0,
+            (Band::Rectangular, y) => x[k] * y,
         })
     }
 }
@@ -148,7 +156,8 @@ mod tests {
         let n = 512;
         for band in [Band::Elliptic, Band::Rectangular] {
             let filter = LowPass { band, ..LowPass::new(1.0, [16.0, 12.0]) };
-            let h = symmetric_transform(&filter.spectrum([n, n], [1.0; 2]), [n, n]) / (n * n) as f64;
+            let h = symmetric_transform(&filter.spectrum([n, n], [1.0; 2], 0..n / 2 + 1), [n, n])
+                / (n * n) as f64;
             let coefficients = filter.coefficients([1.0; 2], [40, 30]);
             let origin = coefficients[[40, 30]];
             assert!(coefficients.iter().all(|coefficient| *coefficient <= origin));

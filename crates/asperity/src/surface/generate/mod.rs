@@ -6,6 +6,7 @@ mod johnson;
 mod low_pass;
 mod noise;
 mod self_affine;
+mod slab;
 #[cfg(test)]
 mod statistics;
 

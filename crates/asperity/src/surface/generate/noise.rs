@@ -39,7 +39,7 @@ pub(super) fn stationary(
     heights: HeightDistribution,
     spectrum: impl FnOnce() -> Field,
 ) -> Result<Topography> {
-    check("shape", grid.cells() as f64, grid.cells() > 1, "at least two cells, for heights to differ")?;
+    check_cells(grid)?;
     let translation = heights.translation()?;
     let mut spectrum = spectrum();
     if let Some(translation) = &translation {
@@ -58,6 +58,11 @@ pub(super) fn stationary(
     let rms = (heights.iter().map(|z| z * z).sum::<f64>() / cells).sqrt();
     heights *= sq / rms;
     Topography::new(*grid, heights)
+}
+
+/// Refuses a grid on which heights cannot differ.
+pub(super) fn check_cells(grid: &Grid) -> Result<()> {
+    check("shape", grid.cells() as f64, grid.cells() > 1, "at least two cells, for heights to differ")
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Self-affine roughness: a power-law spectrum with random phases.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use ndarray::Array2;
 use rand::{RngExt, SeedableRng};
@@ -57,16 +58,30 @@ impl SelfAffine {
     /// # Errors
     /// [`Error::OutOfRange`] if a parameter has no meaning on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
+        let (mut spectrum, squares) = self.spectrum(grid, seed, 0..grid.shape[1] / 2 + 1)?;
+        let scale = self.scale(grid, squares)?;
+        spectrum.mapv_inplace(|value| value * scale);
+        Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
+    }
+
+    /// The transform `[l, k]` of a topography at the frequencies `among` along y, up to the [`Self::scale`], and what these
+    /// waves add to the squares of height and slope.
+    pub(super) fn spectrum(
+        &self,
+        grid: &Grid,
+        seed: u64,
+        among: Range<usize>,
+    ) -> Result<(Array2<Complex64>, [f64; 2])> {
         let shortest = self.check(grid)?;
-        let [nx, ny] = grid.shape;
+        let [nx, _] = grid.shape;
         let numbers = |axis: usize| {
             let number = |bin| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
             (0..grid.shape[axis]).map(number).collect::<Vec<f64>>()
         };
         let (along_x, along_y) = (numbers(0), numbers(1));
-        let mut spectrum = Array2::<Complex64>::zeros([ny / 2 + 1, nx]);
+        let mut spectrum = Array2::<Complex64>::zeros([among.len(), nx]);
         let (mut height, mut slope) = (0.0, 0.0);
-        for_each_wave([nx, ny], seed, |k, l, phase| {
+        for_each_wave(grid.shape, seed, among.clone(), |k, l, phase| {
             let wave = [along_x[k], along_y[l]];
             let q = wave[0].hypot(wave[1]);
             // A wave on the limit belongs to the surface, whatever the round-off.
@@ -76,29 +91,32 @@ impl SelfAffine {
             let magnitude = self.magnitude(q);
             // The phase is that at the grid's corner, half a cell before the first centre.
             let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
-            spectrum[[l, k]] = Complex64::from_polar(magnitude, phase + to_centre);
+            spectrum[[l - among.start, k]] = Complex64::from_polar(magnitude, phase + to_centre);
             if l == 0 {
                 spectrum[[0, nx - k]] = spectrum[[0, k]].conj();
             }
             height += 2.0 * magnitude * magnitude;
             slope += 2.0 * (q * magnitude).powi(2);
         });
+        Ok((spectrum, [height, slope]))
+    }
+
+    /// The scale of a transform whose waves add these squares of height and slope.
+    pub(super) fn scale(&self, grid: &Grid, [height, slope]: [f64; 2]) -> Result<f64> {
         if height == 0.0 {
             return Err(Error::OutOfRange {
                 quantity: "shortest",
                 dimension: Some(Dimension::Length),
-                value: shortest,
+                value: self.check(grid)?,
                 expected: "a wavelength that fits into the surface",
             });
         }
         // Parseval: ⟨z²⟩ = Σ |ẑ|²/n² for n cells.
-        let scale = grid.cells() as f64
-            * match self.amplitude {
-                Amplitude::Sq(sq) => sq / height.sqrt(),
-                Amplitude::Sdq(sdq) => sdq / slope.sqrt(),
-            };
-        spectrum.mapv_inplace(|value| value * scale);
-        Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
+        let amplitude = match self.amplitude {
+            Amplitude::Sq(sq) => sq / height.sqrt(),
+            Amplitude::Sdq(sdq) => sdq / slope.sqrt(),
+        };
+        Ok(grid.cells() as f64 * amplitude)
     }
 
     /// |ẑ(q)| up to a constant factor.
@@ -130,14 +148,14 @@ impl SelfAffine {
     }
 }
 
-/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x,
+/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves, l `among` some: l periods along y, k along x,
 /// negative ones counted down from nx.
 ///
 /// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so
 /// they depend on the seed and the wave, not on the shape.
-fn for_each_wave([nx, ny]: [usize; 2], seed: u64, mut f: impl FnMut(usize, usize, f64)) {
+fn for_each_wave([nx, ny]: [usize; 2], seed: u64, among: Range<usize>, mut f: impl FnMut(usize, usize, f64)) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    for l in 0..ny.div_ceil(2) {
+    for l in among.start..among.end.min(ny.div_ceil(2)) {
         random.set_stream(l as u64);
         random.set_word_pos(0);
         for number in 0..2 * nx.div_ceil(2) - 1 {

@@ -1,0 +1,201 @@
+//! Convolution of fields of which each rank holds a slab.
+
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use ndarray::Array2;
+use realfft::num_complex::Complex;
+use rustfft::FftNum;
+use rustfft::num_traits::Zero;
+
+use super::convolution::{Parity, Plans, multiply};
+use super::transposition::Transposition;
+use crate::grid::{Field, SingleField};
+use crate::ranks::{Number, Parts, Ranks, Slab};
+
+/// Rows that are turned into columns at a time.
+const BLOCK: usize = 8;
+
+/// A cyclic kernel that is even along both axes, in Fourier space: of which this rank holds its frequencies along y.
+struct Kernel<T> {
+    plans: Plans<T>,
+    /// Real and even: `[ky, kx]` for the ky of this rank and `kx ≤ Mx/2`, as a share of the largest of all.
+    spectrum: Array2<T>,
+    /// The largest of the spectrum, divided by Mx My.
+    unit: T,
+}
+
+impl Kernel<f64> {
+    fn normalised(plans: Plans<f64>, mut spectrum: Field, ranks: &dyn Ranks) -> Self {
+        let own = spectrum.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+        let all = ranks.gather(&[own], &vec![1; ranks.count()]);
+        let largest = all.into_iter().fold(0.0, f64::max);
+        if largest > 0.0 {
+            spectrum /= largest;
+        }
+        let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
+        Self { plans, spectrum, unit }
+    }
+
+    fn to_single(&self) -> Kernel<f32> {
+        Kernel {
+            plans: Plans::new(self.plans.shape),
+            spectrum: self.spectrum.mapv(|s| s as f32),
+            unit: self.unit as f32,
+        }
+    }
+}
+
+/// Convolution in either precision of fields of which each rank holds its rows, with a kernel of their size or a larger one;
+/// what lies beyond the fields counts as zero. It has the bits of [`super::MixedConvolution`].
+///
+/// Each rank transforms its rows; then each has all of some columns, which it takes through the kernel and back; then its rows
+/// again.
+pub(crate) struct SlabConvolution {
+    ranks: Arc<dyn Ranks>,
+    rows: Parts,
+    kernel: Kernel<f64>,
+    single_kernel: OnceLock<Kernel<f32>>,
+    double: Option<Workspace<f64>>,
+    single: Option<Workspace<f32>>,
+}
+
+impl SlabConvolution {
+    /// The convolution of the fields of a `slab` with the kernel of `shape` whose transform at the bins `(kx, ky)` is
+    /// `transform`, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    pub(crate) fn from_transform(
+        slab: &Slab,
+        shape: [usize; 2],
+        transform: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let plans = Plans::new(shape);
+        let columns = columns_of(&**slab.ranks(), plans.half());
+        let spectrum = Field::from_shape_fn([columns.len(), shape[0] / 2 + 1], |(ky, kx)| {
+            transform(kx, columns.start + ky)
+        });
+        Self::new(slab, plans, spectrum)
+    }
+
+    /// The convolution of the fields of a `slab` with the kernel of `shape` that has the values `at(i, j)` at the offsets ±i,
+    /// ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
+    pub(crate) fn from_values(slab: &Slab, shape: [usize; 2], at: impl Fn(usize, usize) -> f64) -> Self {
+        let plans = Plans::new(shape);
+        let ranks = slab.ranks();
+        let (half, rows) = (plans.half(), Parts::even(shape[0] / 2 + 1, ranks.count()));
+        let columns = Parts::even(half, ranks.count());
+        let mut transposition = Transposition::new(Arc::clone(ranks), rows.clone(), columns);
+        let mut scratch = plans.scratch();
+        let (mut row, mut spectrum) = (plans.along_y.make_input_vec(), plans.along_y.make_output_vec());
+        let mut values = vec![0.0; half];
+        for (n, ix) in rows.of(ranks.rank()).enumerate() {
+            values.iter_mut().enumerate().for_each(|(iy, value)| *value = at(ix, iy));
+            for (iy, value) in row.iter_mut().enumerate() {
+                *value = Parity::Even.extend(iy, shape[1], |iy| values[iy]);
+            }
+            let forward = plans.along_y.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
+            forward.expect("lengths come from the plan");
+            transposition.set_rows(n, &spectrum);
+        }
+        transposition.make_columns();
+        let mut spectrum = Field::zeros([transposition.own_columns(), shape[0] / 2 + 1]);
+        let mut front = vec![Complex::zero(); shape[0] / 2 + 1];
+        let mut column = vec![Complex::zero(); shape[0]];
+        for (n, mut spectrum) in spectrum.outer_iter_mut().enumerate() {
+            transposition.column(n, &mut front);
+            for (ix, value) in column.iter_mut().enumerate() {
+                *value = Complex::from(Parity::Even.extend(ix, shape[0], |ix| front[ix].re));
+            }
+            plans.along_x.process_with_scratch(&mut column, &mut scratch);
+            spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = c.re);
+        }
+        Self::new(slab, plans, spectrum)
+    }
+
+    fn new(slab: &Slab, plans: Plans<f64>, spectrum: Field) -> Self {
+        let [rows, columns] = slab.whole_grid().shape;
+        assert!(rows <= plans.shape[0] && columns <= plans.shape[1], "kernel smaller than the field");
+        Self {
+            kernel: Kernel::normalised(plans, spectrum, &**slab.ranks()),
+            ranks: Arc::clone(slab.ranks()),
+            rows: slab.parts().clone(),
+            single_kernel: OnceLock::new(),
+            double: None,
+            single: None,
+        }
+    }
+
+    /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
+    pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
+        let Self { ranks, rows, kernel, double, .. } = self;
+        double.get_or_insert_with(|| Workspace::new(ranks, rows, kernel)).apply(kernel, input, output);
+    }
+
+    /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
+    pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
+        let Self { ranks, rows, kernel, single_kernel, single, .. } = self;
+        let kernel = single_kernel.get_or_init(|| kernel.to_single());
+        single.get_or_insert_with(|| Workspace::new(ranks, rows, kernel)).apply(kernel, input, output);
+    }
+}
+
+/// The frequencies along y of this rank, of so many.
+fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
+    Parts::even(frequencies, ranks.count()).of(ranks.rank())
+}
+
+/// A field on its way through the transforms.
+struct Workspace<T> {
+    transposition: Transposition<T>,
+    row: Vec<T>,
+    /// A few transformed rows.
+    block: Vec<Complex<T>>,
+    column: Vec<Complex<T>>,
+    plan: Vec<Complex<T>>,
+}
+
+impl<T: FftNum + Number> Workspace<T> {
+    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: &Kernel<T>) -> Self {
+        let (plans, [mx, my]) = (&kernel.plans, kernel.plans.shape);
+        let columns = Parts::even(plans.half(), ranks.count());
+        Self {
+            transposition: Transposition::new(Arc::clone(ranks), rows.clone(), columns),
+            row: vec![T::zero(); my],
+            block: vec![Complex::zero(); BLOCK * plans.half()],
+            column: vec![Complex::zero(); mx],
+            plan: plans.scratch(),
+        }
+    }
+
+    fn apply(&mut self, kernel: &Kernel<T>, input: &Array2<T>, output: &mut Array2<T>) {
+        let Self { transposition, row, block, column, plan } = self;
+        let (plans, half) = (&kernel.plans, kernel.plans.half());
+        for first in (0..input.nrows()).step_by(BLOCK) {
+            let count = BLOCK.min(input.nrows() - first);
+            let block = &mut block[..count * half];
+            for (n, half) in block.chunks_exact_mut(half).enumerate() {
+                plans.row_forward(input.row(first + n), half, row, plan);
+            }
+            transposition.set_rows(first, block);
+        }
+        transposition.make_columns();
+        for (n, spectrum) in kernel.spectrum.outer_iter().enumerate() {
+            let rows = transposition.all_rows();
+            let (field, beyond) = column.split_at_mut(rows);
+            transposition.column(n, field);
+            beyond.fill(Complex::zero());
+            plans.along_x.process_with_scratch(column, plan);
+            multiply(column, spectrum.to_slice().expect("rows are contiguous"));
+            plans.back_x.process_with_scratch(column, plan);
+            transposition.set_column(n, &column[..rows]);
+        }
+        transposition.make_rows();
+        for first in (0..output.nrows()).step_by(BLOCK) {
+            let count = BLOCK.min(output.nrows() - first);
+            let block = &mut block[..count * half];
+            transposition.rows(first, block);
+            for (n, half) in block.chunks_exact_mut(half).enumerate() {
+                plans.row_back(half, kernel.unit, output.row_mut(first + n), row, plan);
+            }
+        }
+    }
+}
