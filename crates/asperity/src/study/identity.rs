@@ -5,8 +5,9 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::case::{Case, Source};
-use super::prepare::Bodies;
+use super::prepare::{Bodies, Origin};
 use crate::error::{Error, Result};
+use crate::grid::Grid;
 use crate::io::sha256;
 
 /// What may name a file in a case, the surfaces first.
@@ -15,20 +16,39 @@ const FILES: [&str; 4] = ["/lower/topography", "/upper/topography", "/lower/hard
 /// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each file beside its name, and under
 /// `identity` the digest of all that decides the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
+    resolved_of(
+        case,
+        [&bodies.lower, &bodies.upper].map(|body| Known {
+            grid: *body.topography.grid(),
+            origin: body.origin.as_ref(),
+            hardness_sha256: body.hardness_sha256.as_ref(),
+        }),
+    )
+}
+
+/// What is known of a body besides its case.
+pub(super) struct Known<'a> {
+    pub(super) grid: Grid,
+    pub(super) origin: Option<&'a Origin>,
+    pub(super) hardness_sha256: Option<&'a String>,
+}
+
+/// As [`resolved`], of bodies of which no more than this is known.
+pub(super) fn resolved_of(case: &Case, bodies: [Known<'_>; 2]) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let specs = [&case.lower.topography, &case.upper.topography];
-    let grids = [&bodies.lower, &bodies.upper].map(|body| *body.topography.grid());
-    for (n, body) in [&bodies.lower, &bodies.upper].into_iter().enumerate() {
+    let grids = [&bodies[0], &bodies[1]].map(|body| body.grid);
+    for (n, body) in bodies.iter().enumerate() {
         let (key, spec, other) = (FILES[n], specs[n], grids[1 - n]);
         let topography = resolved.pointer_mut(key).expect("a body has a topography");
         for lacking in spec.lacks() {
             topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
         }
-        let digest = body.origin.as_ref().map(|origin| origin.sha256.clone());
+        let digest = body.origin.map(|origin| origin.sha256.clone());
         if let (Source::File { .. } | Source::Given { .. }, Some(digest)) = (&spec.source, digest) {
             topography["sha256"] = digest.into();
         }
-        if let (Some(digest), Some(map)) = (&body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
+        if let (Some(digest), Some(map)) = (body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
             map["sha256"] = digest.clone().into();
         }
     }

@@ -16,6 +16,7 @@ mod rest; // a static contact
 mod results; // the results directory
 mod review; // what to be wary of in a result
 mod run; // from a case to its results
+mod slabs; // a contact at rest on ranks, each with a slab of it
 mod sliding; // updates of a contact that slides in place, kept one by one
 mod subsurface; // the stress under the surface: where it is wanted, its file
 mod summary; // summary.json
@@ -35,6 +36,7 @@ pub use results::{
     Existing, PassWriter, Results, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };
 pub use run::run;
+pub use slabs::{collect, run_on_ranks};
 pub use sliding::SlidingWriter;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};

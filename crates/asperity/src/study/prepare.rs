@@ -1,5 +1,7 @@
 //! From a case to the two surfaces that meet: read or made, prepared, the upper one turned over.
 
+mod slab;
+
 use std::path::Path;
 
 use rand::{Rng, SeedableRng};
@@ -14,6 +16,7 @@ use crate::io::{sha256, sha256_of};
 use crate::motion::Strategy;
 use crate::surface::{self, Findings, LengthUnit, Preparation, ReadOptions, Resample, Scan, Topography};
 use crate::units::{self, Dimension, Metre};
+pub(super) use slab::{SlabBodies, slab_bodies};
 
 /// Relative difference up to which two pitches are one.
 const SAME_PITCH: f64 = 1e-9;
@@ -116,11 +119,11 @@ pub fn bodies(case: &Case, mut given: Given) -> Result<Bodies> {
     let grid_of = |body: &Prepared| *body.topography.grid();
     let [lower, mut upper] =
         in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other, &mut given))?;
-    let fit = Fit { case, bodies: [&lower, &upper] };
-    fit.check_pitches()?;
     let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
     let axes: &[usize] = if overlap { &[1] } else { &[1, 0] };
-    axes.iter().try_for_each(|&axis| fit.check_shapes(axis))?;
+    let both = [&lower, &upper];
+    let (grids, origins) = (both.map(grid_of), both.map(|body| body.origin.as_ref()));
+    Fit { case, grids, origins }.check(axes)?;
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     Ok(Bodies { lower, upper })
@@ -496,15 +499,19 @@ impl Place<'_> {
 /// Two surfaces that must fit together, and what would make them.
 struct Fit<'a> {
     case: &'a Case,
-    bodies: [&'a Prepared; 2],
+    grids: [Grid; 2],
+    /// What was read.
+    origins: [Option<&'a Origin>; 2],
 }
 
 /// Names of the bodies in messages.
 const NAMES: [&str; 2] = ["lower", "upper"];
 
 impl Fit<'_> {
-    fn grids(&self) -> [Grid; 2] {
-        self.bodies.map(|body| *body.topography.grid())
+    /// Refuses surfaces of different pitches, or of different numbers of cells along one of these axes.
+    fn check(&self, axes: &[usize]) -> Result<()> {
+        self.check_pitches()?;
+        axes.iter().try_for_each(|&axis| self.check_shapes(axis))
     }
 
     fn specs(&self) -> [&TopographySpec; 2] {
@@ -512,19 +519,19 @@ impl Fit<'_> {
     }
 
     fn check_pitches(&self) -> Result<()> {
-        let [lower, upper] = self.grids();
+        let [lower, upper] = self.grids;
         if (0..2).all(|axis| same(lower.pitch[axis], upper.pitch[axis])) {
             return Ok(());
         }
         // What was made can be made on any grid; of two measured surfaces the finer one loses the least.
-        let changed = match self.bodies.map(|body| body.origin.is_some()) {
+        let changed = match self.origins.map(|origin| origin.is_some()) {
             [false, true] => 0,
             [true, false] => 1,
             _ => usize::from(upper.cell_area() < lower.cell_area()),
         };
-        let other = self.grids()[1 - changed];
+        let other = self.grids[1 - changed];
         let one_extent = (0..2).all(|axis| same(lower.extent()[axis], upper.extent()[axis]));
-        let setting = if one_extent && self.bodies[changed].origin.is_some() {
+        let setting = if one_extent && self.origins[changed].is_some() {
             format!("resample = {:?}", other.shape)
         } else if other.pitch[0] == other.pitch[1] {
             format!("pitch = {}", quoted(other.pitch[0]))
@@ -540,7 +547,7 @@ impl Fit<'_> {
     }
 
     fn check_shapes(&self, axis: usize) -> Result<()> {
-        let shapes = self.grids().map(|grid| grid.shape);
+        let shapes = self.grids.map(|grid| grid.shape);
         let [lower, upper] = shapes;
         if lower[axis] == upper[axis] {
             return Ok(());
@@ -562,7 +569,7 @@ impl Fit<'_> {
             );
             return Err(self.case.error_at(&format!("{name}.topography.window"), message, Some(hint)));
         }
-        let source = match &self.bodies[changed].origin {
+        let source = match self.origins[changed] {
             Some(origin) => origin.shape,
             None => spec.source.shape().unwrap_or(shapes[1 - changed]),
         };
@@ -571,7 +578,7 @@ impl Fit<'_> {
         // In samples of the source, where those are not the cells.
         samples[axis] = (samples[axis] * kept).div_ceil(shape[axis]);
         shape[axis] = kept;
-        let is_made = self.bodies[changed].origin.is_none();
+        let is_made = self.origins[changed].is_none();
         let mut settings = if is_made && preparation.window.is_none() && preparation.resample.is_none() {
             vec![format!("shape = {shape:?}")]
         } else {

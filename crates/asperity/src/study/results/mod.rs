@@ -219,7 +219,7 @@ impl Results {
         self.directory.join("case.json")
     }
 
-    fn summary_path(&self) -> PathBuf {
+    pub(in crate::study) fn summary_path(&self) -> PathBuf {
         self.directory.join("summary.json")
     }
 
@@ -259,7 +259,7 @@ impl Results {
         self.fields_folder().join(format!("point-{point:04}.h5"))
     }
 
-    fn static_path(&self) -> PathBuf {
+    pub(in crate::study) fn static_path(&self) -> PathBuf {
         self.directory.join("fields.h5")
     }
 
@@ -268,7 +268,7 @@ impl Results {
         self.directory.join("figures")
     }
 
-    fn fields_folder(&self) -> PathBuf {
+    pub(in crate::study) fn fields_folder(&self) -> PathBuf {
         self.directory.join("fields")
     }
 

@@ -1,0 +1,163 @@
+//! The command `asperity-mpi`: a contact at rest on a grid that is divided among the ranks of MPI.
+
+mod world;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use asperity::Error;
+use asperity::motion::StaticRecord;
+use asperity::ranks::Ranks;
+use asperity::study::{Case, Existing, Outcome, Summary, collect, run_on_ranks};
+use asperity::units::{self, Dimension};
+use clap::{Parser, Subcommand};
+use mpi::Threading;
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::Communicator;
+
+use world::World;
+
+/// A contact at rest on a grid that is divided among ranks, each of which holds a slab of its rows
+#[derive(Debug, Parser)]
+#[command(version, after_help = "For example: mpirun -np 4 asperity-mpi run case.toml --collect")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute the contact at rest of a case, on all ranks that mpirun starts
+    Run {
+        /// Case file, which all ranks can read
+        #[arg(value_name = "CASE.toml")]
+        case: PathBuf,
+        /// Results directory, which all ranks see; by default the case file's name with `-results`
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Replace the results that are there
+        #[arg(long)]
+        overwrite: bool,
+        /// Gather the fields of all ranks into fields.h5 at the end, in the memory of one
+        #[arg(long)]
+        collect: bool,
+    },
+    /// Gather the fields that the ranks of a run have left into fields.h5
+    Collect {
+        /// Results directory
+        #[arg(value_name = "DIR")]
+        results: PathBuf,
+    },
+}
+
+fn main() -> ExitCode {
+    let Some((universe, _)) = mpi::initialize_with_threading(Threading::Serialized) else {
+        return fail(0, "MPI is in use already", None);
+    };
+    let rank = World::new().rank();
+    end_all_on_panic();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            if rank == 0 {
+                let _ = error.print();
+            }
+            drop(universe);
+            return ExitCode::from(error.exit_code() as u8);
+        }
+    };
+    // A rank is one thread: machines with many cores have many ranks.
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    threads.expect("nothing has used the threads before");
+    match run(arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let hint = match &error {
+                Error::Case(case) => case.hint.clone(),
+                other => other.hint(),
+            };
+            fail(rank, &error.to_string(), hint)
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), Error> {
+    match command {
+        Command::Run { case: path, out, overwrite, collect: collects } => {
+            let case = Case::load(&path)?;
+            let directory = out.unwrap_or_else(|| results_of(&path));
+            let existing = if overwrite { Existing::Overwrite } else { Existing::Keep };
+            let ranks: Arc<dyn Ranks> = Arc::new(World::new());
+            let summary = run_on_ranks(&case, &ranks, &directory, existing)?;
+            let memory = ranks.gather(&[peak_memory()], &vec![1; ranks.count()]);
+            if let Some(summary) = summary {
+                if collects {
+                    collect(&directory)?;
+                }
+                tell(&summary, &memory);
+            }
+        }
+        Command::Collect { results } => {
+            if World::new().rank() == 0 {
+                collect(&results)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The directory of the results of a case that names none.
+fn results_of(case: &Path) -> PathBuf {
+    let mut name = case.file_stem().unwrap_or_default().to_owned();
+    name.push("-results");
+    PathBuf::from(name)
+}
+
+/// Prints the contact in numbers, and the peak memory of the ranks.
+fn tell(summary: &Summary, memory: &[f64]) {
+    if let Outcome::Static(record) = &summary.outcome {
+        let StaticRecord { load, approach, contact_area, max_pressure, residual, iterations, .. } = **record;
+        println!("load          {}", units::format(load, Dimension::Force));
+        println!("approach      {}", units::format(approach, Dimension::Length));
+        println!("contact area  {:.4} %", 100.0 * contact_area / record.apparent_area);
+        println!("max pressure  {}", units::format(max_pressure, Dimension::Pressure));
+        println!("residual      {residual:.1e} after {iterations} iterations");
+    }
+    let most = memory.iter().copied().fold(0.0, f64::max);
+    println!("ranks         {}, each of at most {:.1} MB", memory.len(), most / 1e6);
+    println!("time          {:.2} s", summary.wall_time_s);
+}
+
+/// The most memory that this process has had, B; 0 where the system does not tell.
+fn peak_memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let number =
+        peak.and_then(|peak| peak.split_whitespace().next()).and_then(|peak| peak.parse::<f64>().ok());
+    1024.0 * number.unwrap_or(0.0)
+}
+
+/// Says what is wrong and ends all ranks, which would wait for this one.
+fn fail(rank: usize, message: &str, hint: Option<String>) -> ExitCode {
+    // Most errors all ranks have: the first tells of them.
+    if rank > 0 {
+        std::thread::sleep(Duration::from_secs(2));
+    }
+    let of_rank = if rank > 0 { format!(" on rank {rank}") } else { String::new() };
+    eprintln!("error{of_rank}: {message}");
+    if let Some(hint) = hint {
+        eprintln!("hint: {hint}");
+    }
+    SimpleCommunicator::world().abort(1)
+}
+
+/// Has a panic end all ranks.
+fn end_all_on_panic() {
+    let tell = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        tell(panic);
+        SimpleCommunicator::world().abort(101);
+    }));
+}

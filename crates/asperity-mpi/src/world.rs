@@ -1,0 +1,101 @@
+//! The processes that `mpirun` starts, as the library sees them.
+
+use asperity::ranks::Ranks;
+use mpi::Count;
+use mpi::datatype::PartitionMut;
+use mpi::request;
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Equivalence, Source};
+
+/// All processes of `MPI_COMM_WORLD`.
+pub(crate) struct World {
+    rank: usize,
+    count: usize,
+}
+
+impl World {
+    /// As this process sees it, once MPI is there.
+    pub(crate) fn new() -> Self {
+        let world = SimpleCommunicator::world();
+        Self { rank: world.rank() as usize, count: world.size() as usize }
+    }
+
+    /// Sends each other rank its part and takes one from it, the common part at home.
+    fn exchange_parts<T: Equivalence + Copy>(
+        &self,
+        mut sent: &[T],
+        sent_counts: &[usize],
+        mut received: &mut [T],
+        received_counts: &[usize],
+    ) {
+        let world = SimpleCommunicator::world();
+        let process = |rank: usize| world.process_at_rank(rank as Count);
+        let mut own = None;
+        let (mut to, mut from) = (Vec::new(), Vec::new());
+        for (rank, (&out, &back)) in sent_counts.iter().zip(received_counts).enumerate() {
+            let (part, others) = sent.split_at(out);
+            sent = others;
+            let (room, others) = received.split_at_mut(back);
+            received = others;
+            if rank == self.rank {
+                own = Some((part, room));
+                continue;
+            }
+            // What is empty here is empty there, and not sent.
+            if out > 0 {
+                to.push((process(rank), part));
+            }
+            if back > 0 {
+                from.push((process(rank), room));
+            }
+        }
+        request::scope(|scope| {
+            let receives: Vec<_> =
+                from.into_iter().map(|(process, room)| process.immediate_receive_into(scope, room)).collect();
+            let sends: Vec<_> =
+                to.iter().map(|(process, part)| process.immediate_send(scope, *part)).collect();
+            if let Some((part, room)) = own {
+                room.copy_from_slice(part);
+            }
+            receives.into_iter().for_each(request::Request::wait_without_status);
+            sends.into_iter().for_each(request::Request::wait_without_status);
+        });
+    }
+}
+
+impl Ranks for World {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn count(&self) -> usize {
+        self.count
+    }
+
+    fn gather(&self, numbers: &[f64], counts: &[usize]) -> Vec<f64> {
+        let mut gathered = vec![0.0; counts.iter().sum()];
+        let counts: Vec<Count> = counts.iter().map(|count| as_count(*count)).collect();
+        let firsts = counts.iter().scan(0, |next, count| {
+            let first = *next;
+            *next += count;
+            Some(first)
+        });
+        let firsts: Vec<Count> = firsts.collect();
+        let mut parts = PartitionMut::new(&mut gathered[..], counts, firsts);
+        SimpleCommunicator::world().all_gather_varcount_into(numbers, &mut parts);
+        gathered
+    }
+
+    fn exchange(&self, sent: &[f64], out: &[usize], received: &mut [f64], back: &[usize]) {
+        self.exchange_parts(sent, out, received, back);
+    }
+
+    fn exchange_single(&self, sent: &[f32], out: &[usize], received: &mut [f32], back: &[usize]) {
+        self.exchange_parts(sent, out, received, back);
+    }
+}
+
+/// A number of numbers as MPI counts them.
+fn as_count(count: usize) -> Count {
+    Count::try_from(count).expect("fewer than 2³¹ numbers at once: more ranks take less each")
+}

@@ -1,0 +1,107 @@
+//! The surfaces of a case on a grid that is divided among ranks.
+
+use std::sync::Arc;
+
+use ndarray::s;
+
+use super::{Bodies, Fit, Origin, Place, Prepared, bodies, grids, hardness, topography_of};
+use crate::error::Result;
+use crate::grid::{CellValues, Grid};
+use crate::ranks::{Ranks, Slab};
+use crate::study::case::{Body, Case, Layer, Mount, Source, TopographySpec};
+use crate::study::given::Given;
+use crate::surface::{Form, Generator, Preparation, Topography};
+
+/// The two surfaces of a case, of which this rank has its rows.
+pub(in crate::study) struct SlabBodies {
+    /// The grid of both, and the rows.
+    pub(in crate::study) slab: Slab,
+    /// The lower and the upper body.
+    pub(in crate::study) bodies: [SlabBody; 2],
+}
+
+/// The rows of a surface as it goes into the contact.
+pub(in crate::study) struct SlabBody {
+    pub(in crate::study) topography: Topography,
+    pub(in crate::study) hardness: CellValues,
+    pub(in crate::study) hardness_sha256: Option<String>,
+    pub(in crate::study) origin: Option<Origin>,
+}
+
+/// Makes the topographies of a contact at rest by slabs, where both are made and nothing else is done with them; else each rank
+/// reads or makes and prepares them as a whole, of which it keeps its rows.
+///
+/// # Errors
+/// As of [`super::bodies`]; [`crate::Error::TooManyRanks`].
+pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
+    let specs = [&case.lower.topography, &case.upper.topography];
+    if !specs.into_iter().all(by_slabs) {
+        let Bodies { lower, upper } = bodies(case, Given::default())?;
+        let slab = Slab::new(ranks, *upper.topography.grid())?;
+        let bodies = [cut(lower, &slab)?, cut(upper, &slab)?];
+        return Ok(SlabBodies { slab, bodies });
+    }
+    let both = grids(case, &Given::default())?;
+    Fit { case, grids: both, origins: [None; 2] }.check(&[1, 0])?;
+    let slab = Slab::new(ranks, Grid::new(both[1].shape, both[0].pitch)?)?;
+    let bodies = [made(case, "lower", &case.lower, &slab)?, made(case, "upper", &case.upper, &slab)?];
+    Ok(SlabBodies { slab, bodies })
+}
+
+/// Whether each rank makes its rows of a topography alone.
+fn by_slabs(spec: &TopographySpec) -> bool {
+    let source = match &spec.source {
+        Source::Generate { generate, .. } => generate.makes_slabs(),
+        Source::Form { .. } => true,
+        Source::File { .. } | Source::Given { .. } => false,
+    };
+    let layer = |layer: &Layer| match layer {
+        Layer::Generate { generate, .. } => generate.makes_slabs(),
+        Layer::Form { .. } => true,
+    };
+    source && spec.preparation == Preparation::default() && spec.plus.iter().all(layer)
+}
+
+/// A body whose rows this rank makes alone.
+fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
+    let (table, spec) = (topography_of(name), &body.topography);
+    let at = Place { document: case.document(), table: &table, spec };
+    let mount = body.mount.unwrap_or(Mount::TurnedOver);
+    let turned_over = mount == Mount::TurnedOver;
+    let generated = |generate: &Generator, seed| generate.generate_slab(slab, seed, turned_over);
+    let formed = |form: &Form| form.on_slab(slab, turned_over);
+    let mut heights = match &spec.source {
+        Source::Generate { generate, seed, .. } => generated(generate, *seed),
+        Source::Form { form, .. } => formed(form),
+        Source::File { .. } | Source::Given { .. } => unreachable!("heights that are made"),
+    }
+    .map_err(|error| at.parameter(error))?;
+    for (n, layer) in spec.plus.iter().enumerate() {
+        let added = match layer {
+            Layer::Generate { generate, seed } => generated(generate, *seed),
+            Layer::Form { form } => formed(form),
+        };
+        heights += &added.map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
+    }
+    let topography = Topography::new(slab.grid(), heights)?;
+    at.measurable(&topography)?;
+    let given = &mut Given::default();
+    let (hardness, hardness_sha256) = hardness(case, name, body, &slab.whole_grid(), mount, given)?;
+    Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin: None })
+}
+
+/// The rows of a body that is read or made as a whole.
+fn cut(body: Prepared, slab: &Slab) -> Result<SlabBody> {
+    let Prepared { topography, hardness, hardness_sha256, origin, .. } = body;
+    let heights = topography.heights().slice(s![slab.rows(), ..]).to_owned();
+    let topography = Topography::new(slab.grid(), heights)?;
+    Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin })
+}
+
+/// Of the values of all cells those of this rank.
+fn rows_of(values: CellValues, slab: &Slab) -> CellValues {
+    match values {
+        CellValues::Field(field) => CellValues::Field(field.slice(s![slab.rows(), ..]).to_owned()),
+        uniform => uniform,
+    }
+}
