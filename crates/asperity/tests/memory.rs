@@ -4,7 +4,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use asperity::operator::{FreeFft, Operator, PeriodicFft};
+use asperity::operator::{Boundary, Operator, Operators};
 use asperity::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Field, Grid};
@@ -13,12 +13,13 @@ struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
+/// Allocations of a size that grows with the number of cells.
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 
 #[expect(unsafe_code, reason = "an allocator is unsafe; this one hands everything on to the system's")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        CALLS.fetch_add(1, Relaxed);
+        CALLS.fetch_add(usize::from(layout.size() >= LARGE), Relaxed);
         PEAK.fetch_max(HELD.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
         unsafe { System.alloc(layout) }
     }
@@ -36,10 +37,11 @@ static ALLOCATOR: Counting = Counting;
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 const SIDE: usize = 256;
+/// A quarter of a field in single precision, bytes.
+const LARGE: usize = SIDE * SIDE;
 
-fn operators() -> [Box<dyn Operator>; 2] {
-    let grid = Grid::new([SIDE, SIDE], [1.0, 1.0]).unwrap();
-    [Box::new(FreeFft::new(grid, 1.0)), Box::new(PeriodicFft::new(grid, 1.0))]
+fn square() -> Grid {
+    Grid::new([SIDE, SIDE], [1.0, 1.0]).unwrap()
 }
 
 fn rough(grid: &Grid) -> Field {
@@ -56,39 +58,43 @@ fn solve(
 ) -> Solution {
     let load = Control::Load(mean * operator.grid().area());
     let params = Params::default().with_method(Method::ActiveSet).with_tolerance(tolerance);
-    solve_normal(operator, gap, &Bounds::ELASTIC, load, start, &params).unwrap()
+    // Each further thread has scratch of its own.
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    one.install(|| solve_normal(operator, gap, &Bounds::ELASTIC, load, start, &params).unwrap())
 }
 
 #[test]
-fn a_solve_takes_eight_doubles_for_each_cell_besides_the_transforms() {
+fn a_contact_takes_no_more_than_so_many_bytes_for_each_cell() {
     let _alone = ONE_AT_A_TIME.lock().unwrap();
-    for mut operator in operators() {
-        let gap = rough(operator.grid());
+    // Its operator, padded where it is free, and its gap; 16 more are the heights of two bodies.
+    for (boundary, most) in [(Boundary::FREE, 92.0), (Boundary::PERIODIC, 80.0)] {
         for mean in [0.0025, 0.05, 0.5] {
-            // The operator keeps the scratch of its transforms from the first solve on.
-            solve(operator.as_mut(), &gap, mean, None, 1e-6);
             let before = HELD.load(Relaxed);
             PEAK.store(before, Relaxed);
+            let grid = square();
+            let gap = rough(&grid);
+            let mut operator = Operators::new(grid, 1.0, boundary).on(grid.shape);
             let solution = solve(operator.as_mut(), &gap, mean, None, 1e-6);
-            let doubles = (PEAK.load(Relaxed) - before) as f64 / 8.0;
-            let per_cell = 1.0 + doubles / gap.len() as f64;
+            let bytes = (PEAK.load(Relaxed) - before) as f64 / gap.len() as f64;
             let share = solution.contact_cells() as f64 / gap.len() as f64;
-            assert!(per_cell < 8.0, "{per_cell:.2}, the gap included, at {share:.2} in contact");
+            assert!(bytes < most, "{bytes:.1}, at {share:.2} in contact");
         }
     }
 }
 
 #[test]
-fn nothing_is_allocated_from_step_to_step() {
+fn no_field_is_allocated_from_step_to_step() {
     let _alone = ONE_AT_A_TIME.lock().unwrap();
-    for mut operator in operators() {
+    for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+        let mut operator = Operators::new(square(), 1.0, boundary).on([SIDE; 2]);
         let gap = rough(operator.grid());
         let start = solve(operator.as_mut(), &gap, 0.002, None, 1e-6).pressure;
-        let [few, many] = [1e-2, 1e-9].map(|tolerance| {
+        // Of tolerances that need double precision as often: what changes with it is the scratch of the transforms.
+        let [few, many] = [1e-1, 5e-3].map(|tolerance| {
             let before = CALLS.load(Relaxed);
             let solution = solve(operator.as_mut(), &gap, 0.01, Some(&start), tolerance);
             (solution.stats.convolutions, CALLS.load(Relaxed) - before)
         });
-        assert!(few.0 < 0.7 * many.0 && few.1 == many.1, "convolutions and allocations: {few:?}, {many:?}");
+        assert!(few.0 < 0.8 * many.0 && few.1 == many.1, "convolutions and allocations: {few:?}, {many:?}");
     }
 }

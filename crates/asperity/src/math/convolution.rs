@@ -9,7 +9,7 @@ use rustfft::num_traits::Zero;
 use rustfft::{Fft, FftNum, FftPlanner};
 
 use crate::grid::Field;
-use crate::math::parallel;
+use crate::math::parallel::{self, Pool};
 
 /// Columns that are transformed together: one or two cache lines of a row.
 const STRIP: usize = 8;
@@ -106,14 +106,14 @@ impl Plans<f64> {
     pub(crate) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
         let [mx, my] = self.shape;
         let half = self.half();
-        let mut scratch = Scratch::new(self);
+        let scratch = Pool::default();
         // Of each row of the table its transform along y, of which one part is not zero.
         let mut rows = Field::zeros([mx / 2 + 1, half]);
         let parts = table.outer_iter().zip(rows.outer_iter_mut());
         parallel::each(
             parts,
             self.rows_at_once(),
-            &mut scratch,
+            &scratch,
             || Scratch::new(self),
             |scratch, (values, mut to)| {
                 let Scratch { row, columns, plan } = scratch;
@@ -130,7 +130,7 @@ impl Plans<f64> {
         parallel::each(
             strips,
             self.strips_at_once(),
-            &mut scratch,
+            &scratch,
             || Scratch::new(self),
             |scratch, (mut to, rows)| {
                 let Scratch { columns, plan, .. } = scratch;
@@ -157,10 +157,10 @@ impl Plans<f64> {
 /// precision of `T`.
 pub(crate) struct Kernel<T> {
     plans: Plans<T>,
-    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest.
-    spectrum: Array2<T>,
+    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest. Kernels of either precision share it.
+    spectrum: Arc<Field>,
     /// The largest of the spectrum, divided by Mx My.
-    unit: T,
+    unit: f64,
 }
 
 impl Kernel<f64> {
@@ -188,16 +188,12 @@ impl Kernel<f64> {
             spectrum /= largest;
         }
         let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
-        Self { plans, spectrum, unit }
+        Self { plans, spectrum: Arc::new(spectrum), unit }
     }
 
     /// The same kernel for transforms in single precision.
     pub(crate) fn to_single(&self) -> Kernel<f32> {
-        Kernel {
-            plans: Plans::new(self.plans.shape),
-            spectrum: self.spectrum.mapv(|s| s as f32),
-            unit: self.unit as f32,
-        }
+        Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
     }
 }
 
@@ -211,7 +207,7 @@ impl Kernel<f64> {
 pub(crate) struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
     transform: Transform<T>,
-    scratch: Scratch<T>,
+    scratch: Pool<Scratch<T>>,
 }
 
 impl<T: FftNum> Convolution<T> {
@@ -220,7 +216,7 @@ impl<T: FftNum> Convolution<T> {
     /// # Panics
     /// If the kernel is smaller than `shape`.
     pub(crate) fn new(kernel: Arc<Kernel<T>>, shape: [usize; 2]) -> Self {
-        Self { transform: Transform::new(&kernel.plans, shape), scratch: Scratch::new(&kernel.plans), kernel }
+        Self { transform: Transform::new(&kernel.plans, shape), scratch: Pool::default(), kernel }
     }
 
     /// Writes the convolution of `input` into `output`.
@@ -246,8 +242,14 @@ impl<T: FftNum> Convolution<T> {
                 strip.back(plans, scratch);
             },
         );
-        transform.rows_back(plans, kernel.unit, output, scratch);
+        transform.rows_back(plans, real(kernel.unit), output, scratch);
     }
+}
+
+/// A number in the precision of the transforms.
+#[inline]
+pub(super) fn real<T: FftNum>(value: f64) -> T {
+    T::from_f64(value).expect("a real number")
 }
 
 /// Scratch of the transforms, for one thread; several fields may share it.
@@ -283,7 +285,7 @@ impl<T: FftNum> Transform<T> {
     }
 
     /// Transforms the rows of `input`.
-    pub(super) fn rows_forward(&mut self, plans: &Plans<T>, input: &Array2<T>, scratch: &mut Scratch<T>) {
+    pub(super) fn rows_forward(&mut self, plans: &Plans<T>, input: &Array2<T>, scratch: &Pool<Scratch<T>>) {
         assert_eq!(input.nrows(), self.rows.nrows(), "shape of the field");
         let rows = input.outer_iter().zip(self.rows.outer_iter_mut());
         parallel::each(
@@ -310,7 +312,7 @@ impl<T: FftNum> Transform<T> {
         plans: &Plans<T>,
         unit: T,
         output: &mut Array2<T>,
-        scratch: &mut Scratch<T>,
+        scratch: &Pool<Scratch<T>>,
     ) {
         assert_eq!(output.nrows(), self.rows.nrows(), "shape of the field");
         let rows = self.rows.outer_iter_mut().zip(output.outer_iter_mut());
@@ -351,9 +353,8 @@ impl<T: FftNum> Strip<'_, T> {
         let nx = self.rows.nrows();
         for (ix, row) in self.rows.outer_iter().enumerate() {
             let row = row.to_slice().expect("rows are contiguous");
-            for (column, value) in scratch.columns.chunks_exact_mut(mx + ROOM).zip(row) {
-                column[ix] = *value;
-            }
+            let columns = scratch.columns.chunks_exact_mut(mx + ROOM);
+            columns.zip(row).for_each(|(column, value)| column[ix] = *value);
         }
         for column in scratch.columns.chunks_exact_mut(mx + ROOM).take(self.rows.ncols()) {
             column[nx..mx].fill(Complex::zero());
@@ -369,9 +370,8 @@ impl<T: FftNum> Strip<'_, T> {
         }
         for (ix, row) in self.rows.outer_iter_mut().enumerate() {
             let row = row.into_slice().expect("rows are contiguous");
-            for (column, value) in scratch.columns.chunks_exact(mx + ROOM).zip(row) {
-                *value = column[ix];
-            }
+            let columns = scratch.columns.chunks_exact(mx + ROOM);
+            columns.zip(row).for_each(|(column, value)| *value = column[ix]);
         }
     }
 }
@@ -416,10 +416,10 @@ impl<T: FftNum> Plans<T> {
 }
 
 /// Multiplies the transform of a column by that of an even kernel, of which `spectrum` is the first half.
-pub(super) fn multiply<T: FftNum>(column: &mut [Complex<T>], spectrum: &[T]) {
+pub(super) fn multiply<T: FftNum>(column: &mut [Complex<T>], spectrum: &[f64]) {
     let (front, back) = column.split_at_mut(column.len() / 2 + 1);
-    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(*k));
-    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(*k));
+    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));
+    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(real(*k)));
 }
 
 #[cfg(test)]

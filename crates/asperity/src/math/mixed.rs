@@ -26,32 +26,46 @@ impl MixedKernel {
     }
 }
 
-/// Convolution of fields of one shape in either precision; each has its plans and scratch from its first use on.
+/// Convolution of fields of one shape in either precision. It holds the scratch of the one that was asked for last: the two take
+/// turns.
 pub(crate) struct MixedConvolution {
     /// The kernel, which other convolutions may share.
     pub(crate) kernel: Arc<MixedKernel>,
     shape: [usize; 2],
-    double: Option<Convolution<f64>>,
-    single: Option<Convolution<f32>>,
+    latest: Latest,
+}
+
+enum Latest {
+    None,
+    Double(Convolution<f64>),
+    Single(Convolution<f32>),
 }
 
 impl MixedConvolution {
     /// The convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
     pub(crate) fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
-        Self { kernel, shape, double: None, single: None }
+        Self { kernel, shape, latest: Latest::None }
     }
 
     /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
-        let convolution =
-            self.double.get_or_insert_with(|| Convolution::new(self.kernel.double(), self.shape));
-        convolution.apply(input, output);
+        if !matches!(self.latest, Latest::Double(_)) {
+            self.latest = Latest::None;
+            self.latest = Latest::Double(Convolution::new(self.kernel.double(), self.shape));
+        }
+        if let Latest::Double(convolution) = &mut self.latest {
+            convolution.apply(input, output);
+        }
     }
 
     /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
-        let convolution =
-            self.single.get_or_insert_with(|| Convolution::new(self.kernel.single(), self.shape));
-        convolution.apply(input, output);
+        if !matches!(self.latest, Latest::Single(_)) {
+            self.latest = Latest::None;
+            self.latest = Latest::Single(Convolution::new(self.kernel.single(), self.shape));
+        }
+        if let Latest::Single(convolution) = &mut self.latest {
+            convolution.apply(input, output);
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::slice::{Chunks, ChunksMut};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
@@ -33,22 +34,61 @@ pub(crate) fn map<T: Send, R: Send>(
 /// Bands that a thread takes at the least, so that it is worth its while.
 pub(crate) const BANDS_AT_ONCE: usize = 4;
 
-/// Performs a `task` on each of some parts. Each thread has scratch of its own: the first the one that is given, the others
-/// what `new` makes.
+/// Performs a `task` on each of some parts, with scratch that no other thread has meanwhile; `new` makes what the `pool` lacks.
 ///
 /// At least `at_once` parts go to a thread, and few parts all to the present one.
-pub(crate) fn each<T: Send, S>(
+pub(crate) fn each<T: Send, S: Send>(
     parts: impl ExactSizeIterator<Item = T>,
     at_once: usize,
-    scratch: &mut S,
+    pool: &Pool<S>,
     new: impl Fn() -> S + Sync + Send,
     task: impl Fn(&mut S, T) + Sync + Send,
 ) {
     if parts.len() > at_once && shared_out() {
         let parts: Vec<T> = parts.collect();
-        parts.into_par_iter().with_min_len(at_once).for_each_init(new, task);
+        let task = |lent: &mut Lent<S>, part| task(lent.scratch(), part);
+        parts.into_par_iter().with_min_len(at_once).for_each_init(|| pool.lend(&new), task);
     } else {
-        parts.for_each(|part| task(scratch, part));
+        let mut lent = pool.lend(&new);
+        parts.for_each(|part| task(lent.scratch(), part));
+    }
+}
+
+/// Scratch for as many threads as have worked at the same time: it is made once, and then lent.
+pub(crate) struct Pool<S>(Mutex<Vec<S>>);
+
+/// Scratch that goes back to its pool when its holder is done.
+struct Lent<'a, S> {
+    pool: &'a Pool<S>,
+    scratch: Option<S>,
+}
+
+impl<S> Pool<S> {
+    fn lend(&self, new: impl Fn() -> S) -> Lent<'_, S> {
+        let kept = self.kept().pop();
+        Lent { pool: self, scratch: Some(kept.unwrap_or_else(new)) }
+    }
+
+    fn kept(&self) -> MutexGuard<'_, Vec<S>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<S> Default for Pool<S> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<S> Lent<'_, S> {
+    fn scratch(&mut self) -> &mut S {
+        self.scratch.as_mut().expect("not given back yet")
+    }
+}
+
+impl<S> Drop for Lent<'_, S> {
+    fn drop(&mut self) {
+        self.pool.kept().extend(self.scratch.take());
     }
 }
 
@@ -59,7 +99,7 @@ pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Syn
     each(
         field.outer_iter_mut().enumerate(),
         at_once,
-        &mut (),
+        &Pool::default(),
         || (),
         |(), (i, mut row)| {
             row.iter_mut().enumerate().for_each(|(j, to)| *to = value(i, j));

@@ -8,6 +8,7 @@ use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
 use crate::math::convolution::{Plans, Scratch, Transform};
+use crate::math::parallel::{self, Pool};
 
 /// A cyclic kernel that is even along y, in Fourier space, with the plans of its size.
 pub(crate) struct SkewKernel {
@@ -22,7 +23,7 @@ impl SkewKernel {
         let plans = Plans::new([values.nrows(), values.ncols()]);
         let (mut transform, mut scratch) = (Transform::new(&plans, plans.shape), Scratch::new(&plans));
         let mut spectrum = Array2::from_elem([plans.half(), plans.shape[0]], Complex64::zero());
-        transform.rows_forward(&plans, values, &mut scratch);
+        transform.rows_forward(&plans, values, &Pool::default());
         for strip in transform.strips() {
             strip.forward(&plans, &mut scratch);
             for (ky, column) in strip.columns(&plans, &mut scratch) {
@@ -54,7 +55,7 @@ impl SkewKernel {
 pub(crate) struct SkewConvolution {
     kernel: Arc<SkewKernel>,
     transform: Transform<f64>,
-    scratch: Scratch<f64>,
+    scratch: Pool<Scratch<f64>>,
 }
 
 impl SkewConvolution {
@@ -63,7 +64,7 @@ impl SkewConvolution {
     /// # Panics
     /// If the kernel is smaller than `shape`.
     pub(crate) fn new(kernel: Arc<SkewKernel>, shape: [usize; 2]) -> Self {
-        Self { transform: Transform::new(&kernel.plans, shape), scratch: Scratch::new(&kernel.plans), kernel }
+        Self { transform: Transform::new(&kernel.plans, shape), scratch: Pool::default(), kernel }
     }
 
     /// Writes the convolution of `input` into `output`.
@@ -74,13 +75,14 @@ impl SkewConvolution {
         let Self { kernel, transform, scratch } = self;
         let plans = &kernel.plans;
         transform.rows_forward(plans, input, scratch);
-        for mut strip in transform.strips() {
+        let new = || Scratch::new(plans);
+        parallel::each(transform.strips(), plans.strips_at_once(), scratch, new, |scratch, mut strip| {
             strip.forward(plans, scratch);
             for (ky, column) in strip.columns(plans, scratch) {
                 column.iter_mut().zip(kernel.spectrum.row(ky)).for_each(|(v, k)| *v *= k);
             }
             strip.back(plans, scratch);
-        }
+        });
         transform.rows_back(plans, 1.0, output, scratch);
     }
 }

@@ -8,7 +8,7 @@ use realfft::num_complex::Complex;
 use rustfft::FftNum;
 use rustfft::num_traits::Zero;
 
-use super::convolution::{Parity, Plans, multiply};
+use super::convolution::{Parity, Plans, multiply, real};
 use super::transposition::Transposition;
 use crate::grid::{Field, SingleField};
 use crate::ranks::{Number, Parts, Ranks, Slab};
@@ -19,10 +19,11 @@ const BLOCK: usize = 8;
 /// A cyclic kernel that is even along both axes, in Fourier space: of which this rank holds its frequencies along y.
 struct Kernel<T> {
     plans: Plans<T>,
-    /// Real and even: `[ky, kx]` for the ky of this rank and `kx ≤ Mx/2`, as a share of the largest of all.
-    spectrum: Array2<T>,
+    /// Real and even: `[ky, kx]` for the ky of this rank and `kx ≤ Mx/2`, as a share of the largest of all. Kernels of either
+    /// precision share it.
+    spectrum: Arc<Field>,
     /// The largest of the spectrum, divided by Mx My.
-    unit: T,
+    unit: f64,
 }
 
 impl Kernel<f64> {
@@ -34,15 +35,11 @@ impl Kernel<f64> {
             spectrum /= largest;
         }
         let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
-        Self { plans, spectrum, unit }
+        Self { plans, spectrum: Arc::new(spectrum), unit }
     }
 
     fn to_single(&self) -> Kernel<f32> {
-        Kernel {
-            plans: Plans::new(self.plans.shape),
-            spectrum: self.spectrum.mapv(|s| s as f32),
-            unit: self.unit as f32,
-        }
+        Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
     }
 }
 
@@ -194,7 +191,7 @@ impl<T: FftNum + Number> Workspace<T> {
             let block = &mut block[..count * half];
             transposition.rows(first, block);
             for (n, half) in block.chunks_exact_mut(half).enumerate() {
-                plans.row_back(half, kernel.unit, output.row_mut(first + n), row, plan);
+                plans.row_back(half, real(kernel.unit), output.row_mut(first + n), row, plan);
             }
         }
     }

@@ -50,13 +50,14 @@ impl SparseInverse {
         Self { shape, rows }
     }
 
-    /// The pattern of a flat `cell`: bit k is set where neighbour k `is_free`.
-    pub(crate) fn pattern(&self, cell: usize, is_free: impl Fn(usize) -> bool) -> u8 {
-        let [nx, ny] = self.shape.map(|n| n as isize);
-        let (ix, iy) = (cell as isize / ny, cell as isize % ny);
+    /// The pattern of the cell `[ix, iy]`: bit k is set where neighbour k `is_free`, by its flat index.
+    #[inline]
+    pub(crate) fn pattern(&self, [ix, iy]: [usize; 2], is_free: impl Fn(usize) -> bool) -> u8 {
+        let ny = self.shape[1];
         let free = |(di, dj): (isize, isize)| {
-            let (i, j) = (ix + di, iy + dj);
-            (0..nx).contains(&i) && (0..ny).contains(&j) && is_free((i * ny + j) as usize)
+            let (i, j) = (ix.wrapping_add_signed(di), iy.wrapping_add_signed(dj));
+            // Neighbours come before the cell: what is below 0 has wrapped.
+            i <= ix && j < ny && is_free(i * ny + j)
         };
         (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
     }

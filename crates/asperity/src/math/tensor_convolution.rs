@@ -7,7 +7,7 @@ use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
 use crate::math::convolution::{Parity, Plans, Scratch, Transform};
-use crate::math::parallel;
+use crate::math::parallel::{self, Pool};
 
 /// Parities along x and y of the components xx, xy, yy, xz, yz and zz of the tensor.
 const PARITIES: [[Parity; 2]; 6] = [
@@ -93,7 +93,8 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
 pub(crate) struct TensorConvolution {
     kernel: Arc<TensorKernel>,
     transforms: [Transform<f64>; 3],
-    scratch: [Scratch<f64>; 3],
+    rows: Pool<Scratch<f64>>,
+    strips: Pool<[Scratch<f64>; 3]>,
 }
 
 impl TensorConvolution {
@@ -104,7 +105,8 @@ impl TensorConvolution {
     pub(crate) fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
         Self {
             transforms: std::array::from_fn(|_| Transform::new(&kernel.plans, shape)),
-            scratch: scratch(&kernel.plans),
+            rows: Pool::default(),
+            strips: Pool::default(),
             kernel,
         }
     }
@@ -114,7 +116,7 @@ impl TensorConvolution {
     /// # Panics
     /// If a field has another shape than the plans.
     pub(crate) fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
-        let Self { kernel, transforms, scratch } = self;
+        let Self { kernel, transforms, rows, strips: scratch } = self;
         let plans = &kernel.plans;
         let given = input.map(|field| field.is_some());
         let asked = output.each_ref().map(|field| field.is_some());
@@ -127,7 +129,7 @@ impl TensorConvolution {
         let (forward, back) = (both(given, meet(asked)), both(asked, meet(given)));
         for ((transform, field), forward) in transforms.iter_mut().zip(input).zip(forward) {
             if let (Some(field), true) = (field, forward) {
-                transform.rows_forward(plans, field, &mut scratch[0]);
+                transform.rows_forward(plans, field, rows);
             }
         }
         let [x, y, z] = transforms.each_mut().map(Transform::strips);
@@ -159,7 +161,7 @@ impl TensorConvolution {
         );
         for ((transform, field), back) in transforms.iter_mut().zip(output).zip(back) {
             match field {
-                Some(field) if back => transform.rows_back(plans, 1.0, field, &mut scratch[0]),
+                Some(field) if back => transform.rows_back(plans, 1.0, field, rows),
                 Some(field) => field.fill(0.0),
                 None => {}
             }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::grid::{Field, SingleField};
+use crate::math::sum::total;
 use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::{Edge, Operator};
 use crate::ranks::{Halo, Slab};
@@ -113,15 +114,22 @@ impl CoarseCorrection {
     }
 
     /// Takes the smooth part out of `z`, and adds the coarse solution for the `r` that was solved for before:
-    /// `(I − T)ᵀ z + P D B D Pᵀ A r`.
-    pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) {
+    /// `(I − T)ᵀ z + P D B D Pᵀ A r`. Returns Σ z, Σ r and Σ r z of the free cells.
+    pub(super) fn join(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         self.restrict(sets, z);
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
         let bands = sets.bands();
-        parallel::map(bands.rows().zip(bands.cut_mut(z)), |(rows, z)| {
-            let first = rows.start * bands.columns();
-            self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| z[cell - first] += wide);
-        });
+        let parts = bands.rows().zip(bands.cut(r)).zip(bands.cut_mut(z));
+        total(parallel::map(parts, |((rows, r), z)| {
+            let (first, mut sums) = (rows.start * bands.columns(), [0.0; 3]);
+            self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| {
+                let cell = cell - first;
+                z[cell] += wide;
+                let (r, z) = (f64::from(r[cell]), f64::from(z[cell]));
+                sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
+            });
+            sums
+        }))
     }
 
     /// Computes the restricted residual D Pᵀ A r.
@@ -182,8 +190,8 @@ impl Bilinear {
         // Values at the nodes along a row of cells, the first once more at the end.
         let mut line = vec![0.0; nodes.ncols() + 1];
         for row in rows {
-            let mut columns = sets.columns(row).peekable();
-            if columns.peek().is_none() {
+            let (cells, start) = sets.row(row);
+            if cells.is_empty() {
                 continue;
             }
             let (node, share) = self.along[0][row];
@@ -193,7 +201,7 @@ impl Bilinear {
             }
             line[nodes.ncols()] = line[0];
             let first = row * sets.bands().columns();
-            for column in columns {
+            for column in cells.iter().map(|cell| *cell as usize - start) {
                 let (node, share) = self.along[1][column];
                 f(first + column, line[node] + share * (line[node + 1] - line[node]));
             }
@@ -255,24 +263,24 @@ impl Bilinear {
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
         for row in rows {
-            let start = row * sets.bands().columns();
+            let (cells, start) = sets.row(row);
+            if cells.is_empty() {
+                continue;
+            }
+            let first_cell = row * sets.bands().columns();
             line.fill(0.0);
-            let (mut last, mut sums, mut any) = (0, [0.0; 2], false);
-            for column in sets.columns(row) {
-                any = true;
+            let (mut last, mut sums) = (0, [0.0; 2]);
+            for column in cells.iter().map(|cell| *cell as usize - start) {
                 let (node, share) = self.along[1][column];
                 if node != last {
                     line[last] += sums[0];
                     line[last + 1] += sums[1];
                     (last, sums) = (node, [0.0; 2]);
                 }
-                let value = value(start + column);
+                let value = value(first_cell + column);
                 let second = share * value;
                 sums[0] += value - second;
                 sums[1] += second;
-            }
-            if !any {
-                continue;
             }
             line[last] += sums[0];
             line[last + 1] += sums[1];

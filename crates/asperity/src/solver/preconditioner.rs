@@ -1,6 +1,8 @@
 //! The two-level preconditioner: an approximate inverse of the influence matrix on the free cells, at no fine convolution.
 
 use crate::grid::CellValues;
+use crate::math::parallel::Pool;
+use crate::math::sum::total;
 use crate::math::{Bands, ROWS_ABOVE, SparseInverse, parallel};
 use crate::operator::Operator;
 use crate::ranks::{Halo, Slab};
@@ -34,7 +36,7 @@ pub(super) struct Preconditioner {
     patterns: Vec<Vec<u8>>,
     /// What each band adds to the rows above it.
     above: Vec<Vec<f32>>,
-    scratch: Scratch,
+    scratch: Pool<Scratch>,
     /// The scales √(c/cᵢ) of the cells, and the scaled residual; none where cells do not differ.
     scaled: Option<(Vec<f32>, Vec<f32>)>,
 }
@@ -68,7 +70,7 @@ impl Preconditioner {
             halo,
             patterns: vec![Vec::new(); count],
             above: vec![vec![0.0; ROWS_ABOVE * bands.columns()]; count],
-            scratch: Scratch::default(),
+            scratch: Pool::default(),
             scaled: scales(operator).map(|scales| {
                 let residual = vec![0.0; scales.len()];
                 (scales, residual)
@@ -92,37 +94,44 @@ impl Preconditioner {
         };
         coarse.adapt(sets, free);
         let bands = sets.bands();
-        parallel::map(patterns.iter_mut().zip(sets.in_bands()).enumerate(), |(band, (patterns, free))| {
-            let first = bands.first(band);
-            let of = free.cells().map(|cell| sparse.pattern(first + cell, |cell| sets.is_free(cell)));
+        let parts = bands.rows().zip(patterns).zip(sets.in_bands());
+        parallel::map(parts, |((rows, patterns), free)| {
             patterns.clear();
-            patterns.reserve_exact(of.len());
-            patterns.extend(of);
+            patterns.reserve_exact(free.cells().len());
+            for ix in rows {
+                let (cells, first) = sets.row(ix);
+                let pattern =
+                    |cell: &u32| sparse.pattern([ix, *cell as usize - first], |cell| sets.is_free(cell));
+                patterns.extend(cells.iter().map(pattern));
+            }
         });
     }
 
-    /// Computes the preconditioned residual `z = M r`: fields on the grid that are zero where it is not free.
-    pub(super) fn apply(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+    /// Computes the preconditioned residual `z = M r`: fields on the grid that are zero where it is not free. Returns Σ z, Σ r and
+    /// Σ r z of the free cells.
+    pub(super) fn apply(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Some((scales, mut scaled)) = self.scaled.take() else { return self.apply_alike(sets, r, z) };
         scaled.iter_mut().zip(r).zip(&scales).for_each(|((scaled, r), scale)| *scaled = scale * r);
         self.apply_alike(sets, &scaled, z);
         z.iter_mut().zip(&scales).for_each(|(z, scale)| *z *= scale);
         self.scaled = Some((scales, scaled));
+        products(sets, r, z)
     }
 
     /// As [`Self::apply`] where cells do not differ.
-    fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+    fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
-        let Around { sets, residual, preconditioned } = &mut around;
+        let Around { sets: all, residual, preconditioned } = &mut around;
         residual[self.halo.own()].copy_from_slice(r);
         self.halo.fill(residual);
-        self.apply_on_rows(sets, residual, preconditioned);
+        self.apply_on_rows(all, residual, preconditioned);
         z.copy_from_slice(&preconditioned[self.halo.own()]);
         self.around = Some(around);
+        products(sets, r, z)
     }
 
     /// As [`Self::apply_alike`] on all rows that a rank looks at, of which those on either side are not right.
-    fn apply_on_rows(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) {
+    fn apply_on_rows(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
         coarse.solve(sets, r);
         let bands = sets.bands();
@@ -152,8 +161,18 @@ impl Preconditioner {
             let first = bands.first(band);
             z[first - before..first].iter_mut().zip(above).for_each(|(z, above)| *z += above);
         }
-        coarse.join(sets, z);
+        coarse.join(sets, r, z)
     }
+}
+
+/// Σ z, Σ r and Σ r z of the free cells.
+fn products(sets: &Sets, r: &[f32], z: &[f32]) -> [f64; 3] {
+    let bands = sets.bands();
+    let parts = bands.cut(r).zip(bands.cut(z)).zip(sets.in_bands());
+    total(parallel::map(parts, |((r, z), free)| {
+        let cells = free.cells().map(|cell| [f64::from(r[cell]), f64::from(z[cell])]);
+        cells.fold([0.0; 3], |sums, [r, z]| [sums[0] + z, sums[1] + r, sums[2] + r * z])
+    }))
 }
 
 /// The square roots of the mean displacement of a cell by its own pressure over that of each; none where cells do not differ.
@@ -257,7 +276,7 @@ mod tests {
         let sparse = sparse_inverse(&operator, grid.shape);
         let (c, d) = (operator.influence(0, 0), operator.influence(0, 1));
         let above = ROWS_ABOVE * grid.shape[1];
-        let patterns = [0, 1].map(|cell| sparse.pattern(cell, |cell| sets.is_free(cell)));
+        let patterns = [0, 1].map(|iy| sparse.pattern([0, iy], |cell| sets.is_free(cell)));
         let (mut r, mut image) = (vec![0.0; above + 2], vec![0.0; above + 2]);
         r[above] = 1.0;
         sparse.add((above..above + 2).zip(patterns), &r, &mut image);

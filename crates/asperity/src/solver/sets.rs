@@ -101,10 +101,11 @@ impl Sets {
         self.free.iter()
     }
 
-    /// The columns of the free cells of a row of the grid.
-    pub(super) fn columns(&self, row: usize) -> impl Iterator<Item = usize> + '_ {
+    /// The free cells of a row of the grid, by their indices in its band, and the index of the first cell of the row.
+    pub(super) fn row(&self, row: usize) -> (&[u32], usize) {
         let [band, row] = self.bands.place(row);
-        self.free[band].columns(row, self.bands.columns())
+        let FreeCells { cells, before } = &self.free[band];
+        (&cells[before[row] as usize..before[row + 1] as usize], row * self.bands.columns())
     }
 }
 
@@ -124,12 +125,6 @@ impl FreeCells {
     /// Indices of the free cells in their band, increasing.
     pub(super) fn cells(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.cells.iter().map(|cell| *cell as usize)
-    }
-
-    /// The columns of the free cells of a row of the band.
-    fn columns(&self, row: usize, columns: usize) -> impl Iterator<Item = usize> + '_ {
-        let cells = &self.cells[self.before[row] as usize..self.before[row + 1] as usize];
-        cells.iter().map(move |cell| *cell as usize - row * columns)
     }
 }
 
@@ -155,8 +150,8 @@ mod tests {
         let expected = [Set::Lower, Set::Lower, Set::Upper, Set::Free, Set::Upper, Set::Free];
         assert_eq!(sets.of(), expected);
         assert_eq!(free(&sets), [3, 5]);
-        let columns = [0, 1].map(|row| sets.columns(row).collect::<Vec<_>>());
-        assert_eq!(columns, [vec![], vec![0, 2]]);
+        let rows = [0, 1].map(|row| sets.row(row));
+        assert_eq!(rows, [(&[][..], 0), (&[3, 5][..], 3)]);
         assert!(sets.is_free(5) && !sets.is_free(4));
     }
 
@@ -164,7 +159,7 @@ mod tests {
     fn sets_given_anew_leave_nothing_of_the_old() {
         let mut sets = Sets::new([3, 4]);
         sets.free_where(|_| true);
-        assert_eq!((sets.free_cells(), sets.columns(2).count()), (12, 4));
+        assert_eq!((sets.free_cells(), sets.row(2).0.len()), (12, 4));
         sets.free_where(|cell| cell == 6);
         assert_eq!(free(&sets), [6]);
         assert_eq!(sets.of().iter().filter(|set| **set == Set::Lower).count(), 11);
@@ -179,7 +174,10 @@ mod tests {
         assert!(sets.in_bands().len() > 3);
         let expected: Vec<usize> = (0..300_000).filter(|cell| is_free(*cell)).collect();
         assert_eq!(free(&sets), expected);
-        let by_row = (0..300).flat_map(|row| sets.columns(row).map(move |column| row * 1000 + column));
+        let by_row = (0..300).flat_map(|row| {
+            let (cells, first) = sets.row(row);
+            cells.iter().map(move |cell| row * 1000 + *cell as usize - first)
+        });
         assert_eq!(by_row.collect::<Vec<_>>(), expected);
     }
 }

@@ -15,8 +15,8 @@ pub(super) struct Preconditioner {
     touching: Vec<bool>,
     /// For each cell in contact the pattern of its neighbours.
     patterns: Vec<u8>,
-    /// Cells before those of the grid in `whole`.
-    above: usize,
+    /// Cells in a row of the grid.
+    columns: usize,
     /// Residual and its image on the whole grid and some rows of nothing above it, zero but where there is contact.
     whole: [Vec<f32>; 2],
 }
@@ -32,24 +32,25 @@ impl Preconditioner {
             sparse: SparseInverse::new(shape, |i, j| influence(i, j) / unit),
             touching: vec![false; cells],
             patterns: Vec::new(),
-            above,
+            columns: shape[1],
             whole: [vec![0.0; above + cells], vec![0.0; above + cells]],
         }
     }
 
     /// Adapts to the flat `cells` in contact.
     fn adapt(&mut self, cells: &[u32]) {
-        let Self { sparse, touching, patterns, .. } = self;
+        let Self { sparse, touching, patterns, columns, .. } = self;
         cells.iter().for_each(|cell| touching[*cell as usize] = true);
         patterns.clear();
-        patterns.extend(cells.iter().map(|cell| sparse.pattern(*cell as usize, |cell| touching[cell])));
+        let place = |cell: u32| [cell as usize / *columns, cell as usize % *columns];
+        patterns.extend(cells.iter().map(|cell| sparse.pattern(place(*cell), |cell| touching[cell])));
         cells.iter().for_each(|cell| touching[*cell as usize] = false);
     }
 
     /// z = M r on the flat `cells`, but for a factor.
     fn apply(&mut self, cells: &[u32], r: &[f64], z: &mut [f64]) {
-        let Self { sparse, patterns, above, whole: [whole, image], .. } = self;
-        let place = |cell: &u32| *above + *cell as usize;
+        let Self { sparse, patterns, columns, whole: [whole, image], .. } = self;
+        let place = |cell: &u32| ROWS_ABOVE * *columns + *cell as usize;
         let scale = r.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(r.abs()));
         cells.iter().zip(r).for_each(|(cell, r)| whole[place(cell)] = (r / scale) as f32);
         sparse.add(cells.iter().map(place).zip(patterns.iter().copied()), whole, image);

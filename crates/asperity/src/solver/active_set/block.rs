@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::grid::{Field, SingleField};
-use crate::math::sum::sums;
+use crate::math::sum::{sums, total};
 use crate::math::{Bands, parallel};
 use crate::ranks::{Halo, Largest, Merged, Slab};
 use crate::solver::Terms;
@@ -444,16 +444,7 @@ impl<'a> Block<'a> {
     /// Computes the preconditioned residual z = M r. Returns Σ z, Σ r and Σ r z.
     pub(super) fn precondition(&mut self) -> [f64; 3] {
         let (r, z) = (flat(&self.residual), flat_mut(&mut self.preconditioned));
-        self.preconditioner.apply(&self.sets, r, z);
-        let parts = self.bands.cut(r).zip(self.bands.cut(z)).zip(self.sets.in_bands());
-        total(parallel::map(parts, |((r, z), free)| {
-            let mut sums = [0.0; 3];
-            for cell in free.cells() {
-                let (r, z) = (f64::from(r[cell]), f64::from(z[cell]));
-                sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
-            }
-            sums
-        }))
+        self.preconditioner.apply(&self.sets, r, z)
     }
 
     /// Sets the direction of the free cells to the preconditioned residual without its mean, damped. Returns what the whole
@@ -651,11 +642,6 @@ fn zip<A: Send, B: Sync>(
     parallel::map(bands.cut_mut(flat_mut(field)).zip(bands.cut(flat(other))), |(field, other)| {
         field.iter_mut().zip(other).for_each(|(value, other)| change(value, other));
     });
-}
-
-/// The totals of the sums over each band, added in their order.
-fn total<const N: usize>(parts: Vec<[f64; N]>) -> [f64; N] {
-    parts.into_iter().reduce(|a, b| std::array::from_fn(|n| a[n] + b[n])).expect("a band")
 }
 
 /// The values of a field by flat index.

@@ -144,13 +144,12 @@ impl Sizes<'_> {
     fn memory(&self) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
-        // Eight numbers of the iteration for each cell; of the padded transform half is stored, and its real kernel, in
-        // double and in single precision.
+        // Seven numbers of the iteration for each cell; of the padded transform half is stored, and a quarter as its real kernel.
         let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
         let padded = padded_x * nx * (padded_y * ny + 2.0);
-        let transforms = 1.5 * padded * (1.0 + 0.5 / padded_x);
+        let transforms = padded * (1.0 / padded_x + 0.25);
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
-        let normal = 8.0 * nx * ny + transforms + dense;
+        let normal = 7.0 * nx * ny + transforms + dense;
         // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
         // iteration some thirty numbers for each cell.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
