@@ -108,6 +108,7 @@ mod tests {
         }
 
         fn influence(&self, _: [f64; 2]) -> Box<dyn Influence> {
+            rayon::yield_now();
             Box::new(|x: f64, y: f64| {
                 rayon::yield_now();
                 1.0 / (1.0 + x.hypot(y))
@@ -123,8 +124,11 @@ mod tests {
                 let operators = Operators::new(Grid::new([4, 4], [1.0; 2]).unwrap(), InParallel, boundary);
                 let displacement = || {
                     let mut displacement = Field::zeros([4, 4]);
-                    operators.on([4, 4]).apply(&Field::ones([4, 4]), &mut displacement);
-                    displacement
+                    let mut operator = operators.on([4, 4]);
+                    operator.apply(&Field::ones([4, 4]), &mut displacement);
+                    let mut coarse = Field::zeros([2, 2]);
+                    operator.coarse().apply(&Field::ones([2, 2]), &mut coarse);
+                    [displacement, coarse]
                 };
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
                 done.send(pool.install(|| rayon::join(displacement, displacement))).expect("somebody waits");

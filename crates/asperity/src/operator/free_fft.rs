@@ -70,7 +70,14 @@ impl FreeFamily {
 
     fn influence(&self, grid: &Grid) -> Arc<dyn Influence> {
         match self.boundary.line(grid, self.datum) {
-            None => Arc::clone(self.influence.get_or_init(|| self.response.influence(self.pitch).into())),
+            // Made before it is put there, as a [`Shared`] value is.
+            None => match self.influence.get() {
+                Some(known) => Arc::clone(known),
+                None => {
+                    let made = self.response.influence(self.pitch).into();
+                    Arc::clone(self.influence.get_or_init(|| made))
+                }
+            },
             Some(line) => {
                 self.response.line_influence(&line, self.pitch).expect("a response that knows lines").into()
             }

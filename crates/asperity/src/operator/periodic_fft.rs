@@ -1,10 +1,11 @@
 //! The periodic boundary.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::SharedResponse;
 use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency, parallel};
+use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Operator};
 
 /// What all operators of one periodic grid share: the spectrum of the influence coefficients.
@@ -14,7 +15,7 @@ pub struct PeriodicKernel {
     kernel: Arc<MixedKernel>,
     /// Displacement per unit pressure on the cell at `[0, 0]`, up to half the period.
     influence: Field,
-    coarse: OnceLock<Arc<PeriodicKernel>>,
+    coarse: Shared<(), PeriodicKernel>,
 }
 
 impl PeriodicKernel {
@@ -32,7 +33,7 @@ impl PeriodicKernel {
         unit[[0, 0]] = 1.0;
         MixedConvolution::new(Arc::clone(&kernel), grid.shape).apply(&unit, &mut displacement);
         let influence = displacement.slice(ndarray::s![..nx / 2 + 1, ..ny / 2 + 1]).to_owned();
-        Arc::new(Self { grid, response, kernel, influence, coarse: OnceLock::new() })
+        Arc::new(Self { grid, response, kernel, influence, coarse: Shared::default() })
     }
 
     /// An operator with these coefficients.
@@ -86,7 +87,7 @@ impl Operator for PeriodicFft {
     fn coarse(&self) -> Box<dyn Operator> {
         let PeriodicKernel { grid, response, coarse, .. } = self.shared.as_ref();
         let coarse =
-            coarse.get_or_init(|| PeriodicKernel::new(Boundary::PERIODIC.coarse(grid), response.clone()));
+            coarse.get((), || PeriodicKernel::new(Boundary::PERIODIC.coarse(grid), response.clone()));
         Box::new(coarse.operator())
     }
 }
