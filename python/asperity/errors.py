@@ -225,6 +225,20 @@ class NoResults(FileProblem):
     """A directory holds no results: `path`."""
 
 
+class TooManyRanks(BadInput):
+    """More ranks than rows of the grid that is divided among them: `ranks`, `rows`."""
+
+    ranks: int
+    rows: int
+
+
+class RanksDiffer(BadInput):
+    """Ranks that are to compute one contact together have not the same: `rank`, `what`."""
+
+    rank: int
+    what: str
+
+
 class InternalError(AsperityError, RuntimeError):
     """A mistake in asperity itself, which we would like to hear of."""
 

@@ -125,6 +125,8 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
         Error::SurfaceChanged { path, file } => variant!(a, "SurfaceChanged", path = path, file = file),
         Error::NotResumable { path, reason } => variant!(a, "NotResumable", path = path, reason = reason),
         Error::InUse { path } => variant!(a, "InUse", path = path),
+        Error::TooManyRanks { ranks, rows } => variant!(a, "TooManyRanks", ranks = ranks, rows = rows),
+        Error::RanksDiffer { rank, what } => variant!(a, "RanksDiffer", rank = rank, what = what),
         Error::NotThisStudy { path, what } => variant!(a, "NotThisStudy", path = path, what = what),
         Error::NotExclusive { path } => variant!(a, "NotExclusive", path = path),
         Error::NoResults { path } => variant!(a, "NoResults", path = path),
