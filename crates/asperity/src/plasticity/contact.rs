@@ -6,8 +6,8 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid, Seat};
 use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
-    Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Sliding, Solution, Start,
-    Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
+    Bounds, Control, Equilibrium, Friction, FrictionalSolution, History, Loading, Params, Sliding, Solution,
+    Start, Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
 };
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
@@ -365,8 +365,8 @@ impl Pressing<'_> {
             }
             Interface::Frictional(operator, friction) => {
                 let latest = self.equilibrium.as_ref().and_then(Equilibrium::frictional).or(self.before);
-                let slip = slip_before(self.before, along, self.along_before.as_ref());
-                let start = Start { slip, ..latest.map_or_else(Start::default, Start::after) };
+                let history = history(self.before, along, self.along_before.as_ref());
+                let start = Start { history, ..latest.map_or_else(Start::default, Start::after) };
                 let operator = operator.as_mut();
                 let mut solution = solve_frictional_from(
                     operator,
@@ -389,17 +389,19 @@ impl Pressing<'_> {
     }
 }
 
-/// The slip s₀ before an increment in which plastic strain moves the surfaces `along` each other from where it had moved them before:
-/// that part of the rigid displacement is no slip.
-fn slip_before(
+/// What slip is counted from in an increment in which plastic strain moves the surfaces `along` each other from where it had moved them
+/// before: that part of the rigid displacement is no slip.
+fn history(
     before: Option<&FrictionalSolution>,
     along: Option<&[Field; 2]>,
     along_before: Option<&[Field; 2]>,
-) -> Option<[Field; 2]> {
-    let slip = before.and_then(|before| Start::after(before).slip);
-    let (Some(along), Some(along_before)) = (along, along_before) else { return slip };
+) -> History {
+    let slip = before.map(FrictionalSolution::whole_slip);
+    let (Some(along), Some(along_before)) = (along, along_before) else {
+        return slip.map_or(History::None, History::Increment);
+    };
     let moved = [0, 1].map(|axis| &along[axis] - &along_before[axis]);
-    Some(match slip {
+    History::Increment(match slip {
         None => moved,
         Some([x, y]) => {
             let [dx, dy] = moved;

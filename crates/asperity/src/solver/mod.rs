@@ -26,7 +26,7 @@ pub use friction::{
     solve_frictional, solve_rolling,
 };
 pub(crate) use friction::{
-    Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
+    History, Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
 };
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};

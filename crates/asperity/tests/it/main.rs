@@ -26,6 +26,7 @@ mod rolling;
 mod running_in;
 mod sliding;
 mod solver;
+mod steady_rolling;
 mod subsurface;
 mod sweep;
 mod topography_corpus;

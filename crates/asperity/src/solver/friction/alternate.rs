@@ -7,7 +7,8 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::bodies::Bodies;
-use crate::solver::friction::shear::{Answer, Rigid, ShearSolver, Task};
+use crate::solver::friction::shear::{Answer, Method, Rigid, Task, method};
+use crate::solver::friction::transport::History;
 use crate::solver::friction::yielding::{bounds_under_shear, shear_limits, start_within};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
 use crate::solver::residual::{Residual, residual, scale};
@@ -42,8 +43,8 @@ pub(crate) struct Start {
     pub(crate) bounds: Option<Bounds>,
     /// The shear beside it.
     pub(crate) shear: Option<[Field; 2]>,
-    /// The slip s₀ before the increment, m.
-    pub(crate) slip: Option<[Field; 2]>,
+    /// What the slip is counted from.
+    pub(crate) history: History,
 }
 
 impl Start {
@@ -53,9 +54,7 @@ impl Start {
             pressure: Some(before.normal.pressure.clone()),
             bounds: Some(before.normal.bounds.clone()),
             shear: Some(before.shear.clone()),
-            slip: Some(
-                [0, 1].map(|axis| before.displacement[axis].mapv(|u| before.rigid_displacement[axis] - u)),
-            ),
+            history: History::Increment(before.whole_slip()),
         }
     }
 }
@@ -81,11 +80,11 @@ pub(super) fn alternate(
         friction,
         grows_junctions,
         loading,
-        slip_before: start.slip,
+        history: start.history,
         params,
         watch: &Within(watch),
         unsheared: &unsheared,
-        solver: None,
+        shear_method: None,
         stats: Stats::default(),
     };
     let mut pressure = start.pressure;
@@ -163,11 +162,10 @@ struct Increment<'a> {
     /// Whether shear takes from the pressure of plastic cells, and their junctions grow.
     grows_junctions: bool,
     loading: Loading,
-    /// The slip s₀ before the increment, m.
-    slip_before: Option<[Field; 2]>,
+    history: History,
     params: &'a Params,
     watch: &'a dyn Watch,
-    solver: Option<ShearSolver>,
+    shear_method: Option<Box<dyn Method>>,
     stats: Stats,
 }
 
@@ -231,9 +229,9 @@ impl Increment<'_> {
                 return Ok(Answer { shear, rigid: [0.0; 2], residual: 0.0 });
             }
         };
-        let free_slip = self.bodies.free_slip(&normal.pressure, self.slip_before.as_ref());
+        let free_slip = self.bodies.free_slip(&normal.pressure, &self.history);
         let scale = shear_scale(normal, limit, self.bodies.operator);
-        let solver = self.solver.get_or_insert_with(|| ShearSolver::new(self.bodies.operator));
+        let solver = self.shear_method.get_or_insert_with(|| method(&self.history, self.bodies.operator));
         let task = Task { limit, free_slip: &free_slip, control, scale, tolerance };
         solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.watch)
     }
@@ -268,8 +266,8 @@ impl Increment<'_> {
         normal.bounds = bounds;
         normal.stats = self.stats;
         normal.stats.convolutions += self.bodies.convolutions;
-        if let Some(solver) = &self.solver {
-            normal.stats = normal.stats.and(&solver.stats);
+        if let Some(method) = &self.shear_method {
+            normal.stats = normal.stats.and(method.stats());
         }
         let (slip, stick) = match self.loading.tangential {
             Tangential::Sliding(_) => {
@@ -277,7 +275,7 @@ impl Increment<'_> {
                 ([none(), none()], none())
             }
             _ => {
-                let slip = slip(&normal.pressure, rigid, &displacement, self.slip_before.as_ref());
+                let slip = where_pressed(&normal.pressure, self.history.slip(rigid, &displacement));
                 let stick = stick(&shear, &slip, &shear_limit, self_compliance(self.bodies.operator));
                 (slip, stick)
             }
@@ -305,18 +303,9 @@ fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator)
     if scale > 0.0 { scale } else { 1.0 }
 }
 
-/// The slip Δs of the increment where the bodies touch, 0 elsewhere.
-fn slip(
-    pressure: &Field,
-    rigid: [Metre; 2],
-    displacement: &[Field; 2],
-    before: Option<&[Field; 2]>,
-) -> [Field; 2] {
-    [0, 1].map(|axis| {
-        let mut slip = displacement[axis].mapv(|u| rigid[axis] - u);
-        if let Some(before) = before {
-            slip -= &before[axis];
-        }
+/// The slip where the bodies touch, 0 elsewhere.
+fn where_pressed(pressure: &Field, slip: [Field; 2]) -> [Field; 2] {
+    slip.map(|mut slip| {
         slip.zip_mut_with(pressure, |s, p| *s = if *p > 0.0 { *s } else { 0.0 });
         slip
     })

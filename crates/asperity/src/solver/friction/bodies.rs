@@ -3,6 +3,7 @@
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::Coupling;
+use crate::solver::friction::transport::History;
 
 /// Two bodies that displace each other by pressure and shear, with the coupling that is asked for.
 pub(super) struct Bodies<'a> {
@@ -34,22 +35,16 @@ impl Bodies<'_> {
         Some(displacement)
     }
 
-    /// The slip that there would be without shear, but for the rigid displacement: −u(0, p) − s₀.
-    pub(super) fn free_slip(&mut self, pressure: &Field, before: Option<&[Field; 2]>) -> [Field; 2] {
+    /// The slip that there would be without shear and without rigid displacement.
+    pub(super) fn free_slip(&mut self, pressure: &Field, history: &History) -> [Field; 2] {
         let grid = *self.operator.grid();
-        let mut slip = [grid.zeros(), grid.zeros()];
+        let mut displacement = [grid.zeros(), grid.zeros()];
         if self.pressure_displaces_tangentially() {
-            let [x, y] = slip.each_mut();
+            let [x, y] = displacement.each_mut();
             self.operator.apply([None, None, Some(pressure)], [Some(x), Some(y), None]);
             self.convolutions += 1.0;
         }
-        for (axis, slip) in slip.iter_mut().enumerate() {
-            match before {
-                Some(before) => slip.zip_mut_with(&before[axis], |u, s| *u = -*u - s),
-                None => slip.mapv_inplace(|u| -u),
-            }
-        }
-        slip
+        history.slip([0.0; 2], &displacement)
     }
 
     /// Tangential displacement under both tractions.

@@ -34,6 +34,16 @@ pub(super) fn onto_disc(a: Vector, radius: f64) -> Vector {
     if length <= radius { a } else { times(radius / length, a) }
 }
 
+/// The factors by which two vectors add up to `b`: none of them where they are parallel.
+pub(super) fn combination([x, y]: [Vector; 2], b: Vector) -> Vector {
+    let determinant = x[0] * y[1] - x[1] * y[0];
+    if determinant.abs() > REGULARISATION * length(x) * length(y) {
+        [(b[0] * y[1] - b[1] * y[0]) / determinant, (x[0] * b[1] - x[1] * b[0]) / determinant]
+    } else {
+        [0.0; 2]
+    }
+}
+
 /// A symmetric 2 × 2 matrix by its components xx, xy, yy.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Symmetric([f64; 3]);
@@ -68,7 +78,7 @@ impl Symmetric {
     }
 }
 
-/// Share of the trace that is added to the diagonal of a matrix before it is solved.
+/// Share of the trace that is added to the diagonal of a matrix before it is solved; determinants below that share count as zero.
 const REGULARISATION: f64 = 1e-12;
 /// Newton steps after which [`offset_for_sum`] takes its offset as it is.
 const MAX_STEPS: usize = 100;
@@ -76,6 +86,8 @@ const MAX_STEPS: usize = 100;
 const SUM_ACCURACY: f64 = 1e-13;
 /// Step lengths tried along Newton's direction: where nearly all cells slip alike the full step is far too long.
 const STEP_LENGTHS: [f64; 2] = [1.0, 0.1];
+/// A step to the minimum of the majorant is made so many times as long, while that lowers the function.
+const LENGTHENING: f64 = 4.0;
 /// Armijo's constant: a step must lower the function by this share of what its slope promises.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Units of rounding in a comparison of two values of the function.
@@ -85,7 +97,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// less than Σ gᵢ. `cells` are y and g of each, `start` an offset nearby.
 ///
 /// The sum is the gradient of a convex function, that of [`Objective`]: its minimum by Newton's iteration with a sufficient
-/// decrease, and where that fails by the step to the minimum of a quadratic majorant, as in Weiszfeld's iteration.
+/// decrease, and where that fails by the step to the minimum of a quadratic majorant, as in Weiszfeld's iteration, or beyond.
 pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     cells: impl Fn() -> I,
     wanted: Vector,
@@ -118,10 +130,19 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
         };
         let to = |step: Vector| (add(offset, step), at(add(offset, step)));
         let by_newton = STEP_LENGTHS.into_iter().map(|step| (to(times(step, newton)), step));
+        // Where the function is nearly a cone, far from all discs, the majorant sees but the first bit of the way down.
+        let lengthened = |mut step: Vector| {
+            let (mut found, mut next) = (to(step), to(times(LENGTHENING, step)));
+            while next.1.value < found.1.value {
+                step = times(LENGTHENING, step);
+                (found, next) = (next, to(times(LENGTHENING, step)));
+            }
+            found
+        };
         let found = by_newton.into_iter().find(|(next, step)| descends(next, *step));
         let (next, there) = match found {
             Some((next, _)) => next,
-            None => to(times(-1.0 / here.majorant, here.gradient)),
+            None => lengthened(times(-1.0 / here.majorant, here.gradient)),
         };
         if next == offset {
             break;
@@ -177,6 +198,28 @@ mod tests {
         assert_eq!(onto_disc([0.3, -0.4], 0.5), [0.3, -0.4]);
         assert!(length(minus(onto_disc([3.0, -4.0], 0.5), [0.3, -0.4])) < 1e-15);
         assert_eq!(onto_disc([3.0, -4.0], 0.0), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn two_vectors_make_a_third_unless_they_are_parallel() {
+        assert_eq!(combination([[2.0, 0.0], [1.0, 4.0]], [5.0, 8.0]), [1.5, 2.0]);
+        assert_eq!(combination([[2.0, 1.0], [4.0, 2.0]], [5.0, 8.0]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn an_offset_is_found_from_afar() {
+        for cells in [vec![([300.0, -70.0], 0.9)], vec![([4e4, 3e3], 1.0), ([4e4, 3.001e3], 0.1)]] {
+            let most: f64 = cells.iter().map(|(_, g)| g).sum();
+            for share in [0.1, 0.99, 0.99999] {
+                let wanted = times(share * most, [0.6, 0.8]);
+                for start in [[0.0; 2], [-5e5, 1e5]] {
+                    let offset = offset_for_sum(|| cells.iter().copied(), wanted, start);
+                    let sum =
+                        cells.iter().fold([0.0; 2], |sum, (y, g)| add(sum, onto_disc(add(*y, offset), *g)));
+                    assert!(length(minus(sum, wanted)) < 1e-9 * most, "{share} from {start:?}: {sum:?}");
+                }
+            }
+        }
     }
 
     #[test]

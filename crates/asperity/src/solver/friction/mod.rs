@@ -6,6 +6,7 @@ mod disc;
 mod law;
 mod rolling;
 mod shear;
+mod transport;
 mod yielding;
 
 pub use law::{Coupling, Friction};
@@ -20,6 +21,7 @@ use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
 pub(crate) use alternate::Start;
 use alternate::alternate;
+pub(crate) use transport::History;
 
 /// The displacement, force or direction of sliding that is prescribed in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,6 +90,11 @@ impl FrictionalSolution {
     /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
     pub fn force(&self) -> [Newton; 2] {
         self.shear.each_ref().map(|q| self.normal.grid.cell_area() * q.sum())
+    }
+
+    /// The slip D − u since the bodies have touched first, m.
+    pub(crate) fn whole_slip(&self) -> [Field; 2] {
+        [0, 1].map(|axis| self.displacement[axis].mapv(|u| self.rigid_displacement[axis] - u))
     }
 
     /// Largest shear traction |q|.

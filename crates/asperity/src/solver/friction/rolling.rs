@@ -3,10 +3,20 @@
 use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, CoupledOperator};
-use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, solve_frictional_watched};
+use crate::solver::friction::transport::{Ahead, Passage};
+use crate::solver::friction::{
+    Friction, FrictionalSolution, History, Loading, Start, Tangential, solve_frictional_from,
+};
 use crate::solver::watch::Within;
 use crate::solver::{Bounds, Control, Params, Watch};
 use crate::units::Newton;
+
+/// Cells of rolling after which rolling cell by cell is given up, in lengths of the grid.
+const MAX_LENGTHS: usize = 50;
+/// Tolerance on the residual of the first cells of rolling.
+const FIRST_TOLERANCE: f64 = 1e-3;
+/// Each further cell is solved to this share of the change of the shear in the one before.
+const TOLERANCE_REDUCTION: f64 = 0.1;
 
 /// Steady rolling as it is prescribed. The contact moves towards +x over both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,11 +47,6 @@ pub struct RollingSolution {
     pub creepage: [f64; 2],
 }
 
-/// Tolerance on the residual in the first steps.
-const FIRST_TOLERANCE: f64 = 1e-3;
-/// Each step is solved to this share of the change of the shear in the one before.
-const TOLERANCE_REDUCTION: f64 = 0.1;
-
 /// Solves the steady state of bodies that roll along x under friction: their gap stays, and their material passes
 /// through it.
 ///
@@ -51,9 +56,17 @@ const TOLERANCE_REDUCTION: f64 = 0.1;
 /// Δs = [ξ + φ (−y, x)] Δx − u(x) + u₀(x + Δx)
 /// ```
 ///
-/// with u₀ the displacement before, and x and y from the middle of the grid. From the state without creepage this is repeated until the shear changes by less than
-/// the tolerance, as a share of the largest, which takes a few lengths of the contact. The traction grows from the leading edge, where the bodies stick.
-/// Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
+/// with u₀ the displacement before, and x and y from the middle of the grid. In the steady state u₀ = u, and this is solved for the
+/// shear at once, as an increment of [`crate::solver::solve_frictional`] is. The residual of the tangential problem is
+///
+/// ```text
+/// max |q − P(q + Δs/c)| / max |q|,   P onto |q| ≤ g,   c = ½(C^xx + C^yy) of a cell
+/// ```
+///
+/// Where its iteration does not converge, as in contacts of one or two cells it may not, bodies roll on by a cell at a time, u₀ that of the
+/// cell before, until the shear changes by less than the tolerance, as a share of the largest.
+///
+/// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
 /// Those of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
@@ -91,8 +104,6 @@ pub(crate) fn solve_rolling_watched(
     if rolling.spin != 0.0 && boundary != Boundary::FREE {
         return Err(Error::Unsupported("what spins does not repeat itself: its boundary is free"));
     }
-    // What the spin turns the upper body by while the contact moves on by a cell.
-    let turn = [-lever(&grid, 1), lever(&grid, 0)].map(|arm| arm * (rolling.spin * pitch));
     let tangential = match rolling.creep {
         Creep::Creepage(creepage) => {
             for xi in creepage {
@@ -102,55 +113,62 @@ pub(crate) fn solve_rolling_watched(
         }
         Creep::Force(force) => Tangential::Force(force),
     };
-    let mut solve = |tangential, before: Option<&FrictionalSolution>, tolerance| {
-        let loading = Loading { normal, tangential };
+    let turn = [-lever(&grid, 1), lever(&grid, 0)].map(|arm| arm * (rolling.spin * pitch));
+    let passage = Passage { ahead: Ahead::on(operator), turn };
+    let loading = Loading { normal, tangential };
+    let mut solve = |loading, start, tolerance, watch: &dyn Watch| {
         let params = Params { tolerance, ..*params };
-        let within = Within(watch);
-        solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, &params, &within)
+        solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, &params, watch)
     };
-    let mut tolerance = FIRST_TOLERANCE.max(params.tolerance);
-    let mut state = solve(Tangential::Force([0.0; 2]), None, tolerance)?;
-    let mut stats = state.normal.stats;
-    let most = MAX_LENGTHS * initial_gap.nrows();
-    for _ in 0..most {
-        let arrived = FrictionalSolution {
-            displacement: [0, 1].map(|axis| a_cell_ahead(&state.displacement[axis], boundary) + &turn[axis]),
-            rigid_displacement: [0.0; 2],
-            ..state.clone()
-        };
-        let next = solve(tangential, Some(&arrived), tolerance)?;
-        stats = stats.and(&next.normal.stats);
-        let change = change(&next, &state);
-        watch.iteration(change, params.tolerance);
-        let steady = change < params.tolerance && tolerance <= params.tolerance;
-        tolerance =
-            (TOLERANCE_REDUCTION * change).clamp(params.tolerance, FIRST_TOLERANCE.max(params.tolerance));
-        state = next;
-        if steady {
-            state.normal.stats = stats;
-            let creepage = state.rigid_displacement.map(|displacement| displacement / pitch);
-            return Ok(RollingSolution { contact: state, creepage });
+    let start = Start { history: History::Rolling(passage.clone()), ..Start::default() };
+    let contact = match solve(loading, start, params.tolerance, watch) {
+        Err(Error::NotConverged { .. }) => {
+            let most = MAX_LENGTHS * grid.shape[0];
+            cell_by_cell(solve, loading, &passage, most, params.tolerance, watch)?
         }
-    }
-    Err(Error::NotConverged {
-        iterations: stats.iterations,
-        residual: state.normal.residual,
-        tolerance: params.tolerance,
-    })
+        steady => steady?,
+    };
+    let creepage = contact.rigid_displacement.map(|displacement| displacement / pitch);
+    Ok(RollingSolution { contact, creepage })
 }
 
-/// Cells of rolling after which the iteration is given up, in lengths of the grid.
-const MAX_LENGTHS: usize = 50;
+/// Rolls by a cell at a time, each an increment that `solve` finds, from the state without creepage till the shear changes by less than
+/// the tolerance, as a share of the largest.
+fn cell_by_cell(
+    mut solve: impl FnMut(Loading, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
+    loading: Loading,
+    passage: &Passage,
+    max_cells: usize,
+    tolerance: f64,
+    watch: &dyn Watch,
+) -> Result<FrictionalSolution> {
+    let within = Within(watch);
+    let mut present = FIRST_TOLERANCE.max(tolerance);
+    let unloaded = Loading { tangential: Tangential::Force([0.0; 2]), ..loading };
+    let mut state = solve(unloaded, Start::default(), present, &within)?;
+    let mut stats = state.normal.stats;
+    for _ in 0..max_cells {
+        let slip = passage.arriving(&state.displacement).map(|u| -u);
+        let start = Start { history: History::Increment(slip), ..Start::after(&state) };
+        let mut next = solve(loading, start, present, &within)?;
+        stats = stats.and(&next.normal.stats);
+        let change = change(&next, &state);
+        watch.iteration(change, tolerance);
+        if change < tolerance && present <= tolerance {
+            next.normal.stats = stats;
+            return Ok(next);
+        }
+        present = (TOLERANCE_REDUCTION * change).clamp(tolerance, FIRST_TOLERANCE.max(tolerance));
+        state = next;
+    }
+    Err(Error::NotConverged { iterations: stats.iterations, residual: state.normal.residual, tolerance })
+}
 
-/// Each column of a field replaced by the next one; the last stays, or is followed by the first where the field repeats.
-fn a_cell_ahead(field: &Field, boundary: Boundary) -> Field {
-    let last = field.nrows() - 1;
-    let ahead = |i: usize| match (i < last, boundary.repeats(0)) {
-        (true, _) => i + 1,
-        (false, true) => 0,
-        (false, false) => last,
-    };
-    Field::from_shape_fn(field.raw_dim(), |(i, j)| field[[ahead(i), j]])
+/// Largest change of the shear from one state to the next, as a share of the largest shear.
+fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
+    let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
+    let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    if most == 0.0 { 0.0 } else { most / next.max_shear() }
 }
 
 /// Coordinate of each cell along an axis, from the middle of the grid.
@@ -165,11 +183,4 @@ impl FrictionalSolution {
         let [x, y] = [0, 1].map(|axis| lever(&self.normal.grid, axis));
         self.normal.grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())
     }
-}
-
-/// Largest change of the shear from one state to the next, as a share of the largest shear.
-fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
-    let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
-    let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-    if most == 0.0 { 0.0 } else { most / next.max_shear() }
 }

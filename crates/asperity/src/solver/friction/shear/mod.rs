@@ -1,19 +1,21 @@
-//! The tangential problem: shear tractions that slip_compliance the surfaces where they stick, under given pressures.
+//! The tangential problem: shear tractions that hold the surfaces where they stick, under given pressures.
 
+mod influence;
 mod state;
+mod steady;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
-use crate::solver::friction::self_compliance;
-use crate::solver::preconditioner::Preconditioner;
-use crate::solver::sets::Sets;
+use crate::solver::friction::transport::History;
 use crate::solver::watch::go_on;
 use crate::solver::{Stats, Watch};
 use crate::units::{Metre, SquareMetre};
 
+use influence::{Influence, at};
 use state::{Freedom, State};
+use steady::SteadySolver;
 
 /// The compliance by which stick and slip are predicted, as a multiple of that of a cell alone: the least value of the
 /// complementarity parameter of a primal–dual active set. What slips far moves its neighbours too: with 1 nearly all of a
@@ -39,14 +41,12 @@ const CG_EXIT: f64 = 3.0;
 const CG_REDUCTION: f64 = 2e-2;
 /// Conjugate gradients end when their largest residual is below this share of what is asked of the answer.
 const CG_TOLERANCE: f64 = 0.5;
-/// A slipping cell whose [`Freedom::slip_compliance`] is more than so many times its own compliance hardly turns: its block
-/// of the Newton matrix is taken to be diagonal.
-const DIAGONAL_DOMINANCE: f64 = 3.0;
 /// Projected gradient steps, one after another.
 const GRADIENT_STEPS: usize = 5;
 
 /// The tangential problem: |q| ≤ g in each cell, and where it is less the slip s = D + b − T q is zero; where it is not, s points
 /// along q. It minimises ½ qᵀTq − qᵀ(D + b) over the discs.
+#[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
     /// The most shear g that each cell bears, Pa.
     pub(super) limit: &'a Field,
@@ -79,45 +79,54 @@ pub(super) struct Answer {
     pub(super) residual: f64,
 }
 
-/// Solves tangential problems on one grid, by a semismooth Newton iteration: a prediction of the cells that stick, and of
-/// those that slip, whose shear may only turn; then preconditioned conjugate gradients on these freedoms. The projection of
-/// the tractions onto their discs is deferred to the next prediction.
-pub(super) struct ShearSolver {
-    cell_area: SquareMetre,
-    /// The displacement c of a cell per unit shear on itself.
-    compliance: f64,
-    preconditioner: Preconditioner,
-    /// The cells that the preconditioner couples, as free ones.
-    sets: Sets,
-    /// Residual and preconditioned residual along one axis, in single precision.
-    single: [Vec<f32>; 2],
-    /// Shear on the grid that is convolved.
-    loaded: [Field; 2],
-    /// Displacement of the grid under that shear.
-    response: [Field; 2],
-    pub(super) stats: Stats,
-}
-
-impl ShearSolver {
-    pub(super) fn new(operator: &mut dyn CoupledOperator) -> Self {
-        let grid = *operator.grid();
-        Self {
-            cell_area: grid.cell_area(),
-            compliance: self_compliance(operator),
-            preconditioner: Preconditioner::new(operator.normal()),
-            sets: Sets::new(grid.shape),
-            single: [vec![0.0; grid.cells()], vec![0.0; grid.cells()]],
-            loaded: [grid.zeros(), grid.zeros()],
-            response: [grid.zeros(), grid.zeros()],
-            stats: Stats::default(),
-        }
-    }
-
+/// Solves tangential problems of one kind on one grid.
+pub(super) trait Method {
     /// Solves from the tractions `start`.
     ///
     /// # Errors
     /// [`Error::BeyondFriction`], [`Error::NotConverged`], [`Error::Interrupted`].
-    pub(super) fn solve(
+    fn solve(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        task: &Task,
+        start: &[Field; 2],
+        max_convolutions: usize,
+        watch: &dyn Watch,
+    ) -> Result<Answer>;
+
+    /// What all that has cost.
+    fn stats(&self) -> &Stats;
+}
+
+/// The method for contacts of this `history`.
+pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> Box<dyn Method> {
+    match history {
+        History::None | History::Increment(_) => Box::new(ShearSolver::new(operator)),
+        History::Rolling(passage) => Box::new(SteadySolver::new(operator, passage.ahead)),
+    }
+}
+
+/// Solves tangential problems on one grid, by a semismooth Newton iteration: a prediction of the cells that stick, and of
+/// those that slip, whose shear may only turn; then preconditioned conjugate gradients on these freedoms. The projection of
+/// the tractions onto their discs is deferred to the next prediction.
+struct ShearSolver {
+    cell_area: SquareMetre,
+    influence: Influence,
+    stats: Stats,
+}
+
+impl ShearSolver {
+    fn new(operator: &mut dyn CoupledOperator) -> Self {
+        Self {
+            cell_area: operator.grid().cell_area(),
+            influence: Influence::new(operator),
+            stats: Stats::default(),
+        }
+    }
+}
+
+impl Method for ShearSolver {
+    fn solve(
         &mut self,
         operator: &mut dyn CoupledOperator,
         task: &Task,
@@ -125,22 +134,20 @@ impl ShearSolver {
         max_convolutions: usize,
         watch: &dyn Watch,
     ) -> Result<Answer> {
-        let cells: Vec<usize> =
-            task.limit.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
-        let mut state = State::new(task, start, cells, self.cell_area)?;
-        self.loaded.iter_mut().for_each(|field| field.fill(0.0));
+        let mut state = State::new(task, start, self.cell_area)?;
+        self.influence.unload();
         state.response = self.convolve(operator, &state.cells, &state.shear);
         let (mut best, mut stagnations, mut factor, mut tightening): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, COMPLIANCE_FACTOR, 1.0);
         loop {
             go_on(watch)?;
-            state.find_rigid_displacement(self.compliance);
-            let mut residual = state.residual(self.compliance) / task.scale;
+            state.find_rigid_displacement(self.influence.compliance);
+            let mut residual = state.residual(self.influence.compliance) / task.scale;
             if residual < tightening * task.tolerance {
                 if state.project() {
                     state.response = self.convolve(operator, &state.cells, &state.shear);
-                    state.find_rigid_displacement(self.compliance);
-                    residual = state.residual(self.compliance) / task.scale;
+                    state.find_rigid_displacement(self.influence.compliance);
+                    residual = state.residual(self.influence.compliance) / task.scale;
                 }
                 if residual < task.tolerance {
                     return Ok(state.into_answer(task.limit.raw_dim(), residual));
@@ -163,7 +170,7 @@ impl ShearSolver {
                 self.stats.restarts += 1;
                 continue;
             }
-            state.predict_freedoms(factor * self.compliance);
+            state.predict_freedoms(factor * self.influence.compliance);
             self.step_to_rims(operator, &mut state);
             self.conjugate_gradients(
                 operator,
@@ -173,6 +180,12 @@ impl ShearSolver {
         }
     }
 
+    fn stats(&self) -> &Stats {
+        &self.stats
+    }
+}
+
+impl ShearSolver {
     /// Computes the displacement T q of the cells under a shear on them, by one convolution.
     fn convolve(
         &mut self,
@@ -180,36 +193,13 @@ impl ShearSolver {
         cells: &[usize],
         shear: &[Vector],
     ) -> Vec<Vector> {
-        for (axis, field) in self.loaded.iter_mut().enumerate() {
-            let field = field.as_slice_mut().expect("standard layout");
-            cells.iter().zip(shear).for_each(|(cell, q)| field[*cell] = q[axis]);
-        }
-        let ([x, y], [u, v]) = (&self.loaded, &mut self.response);
-        operator.apply([Some(x), Some(y), None], [Some(u), Some(v), None]);
         self.stats.convolutions += 1.0;
-        let [u, v] = self.response.each_ref().map(|field| field.as_slice().expect("standard layout"));
-        cells.iter().map(|cell| [u[*cell], v[*cell]]).collect()
+        at(self.influence.displace(operator, cells, shear), cells)
     }
 
-    /// Takes the cells predicted to slip to the rims of their discs, in the direction of their slip; under force control all
-    /// freedoms bear what that changes of the force.
+    /// Takes the cells predicted to slip to the rims of their discs.
     fn step_to_rims(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
-        let mut direction: Vec<Vector> = state
-            .cells()
-            .map(|(freedom, q, limit)| match freedom {
-                Freedom::Stick => [0.0; 2],
-                Freedom::Slip { rim, .. } => {
-                    let outward = [rim[1], -rim[0]];
-                    times(limit - dot(outward, q), outward)
-                }
-            })
-            .collect();
-        if let Some(wanted) = state.wanted {
-            let sum = state.shear.iter().zip(&direction).fold([0.0; 2], |s, (q, d)| add(s, add(*q, *d)));
-            let each = state.mobility().solve(minus(wanted, sum));
-            direction.iter_mut().zip(&state.freedom).for_each(|(d, f)| *d = add(*d, f.part(each)));
-        }
-        if direction.iter().any(|d| *d != [0.0; 2]) {
+        if let Some(direction) = state.direction_to_rims() {
             let response = self.convolve(operator, &state.cells, &direction);
             state.advance(1.0, &direction, &response);
         }
@@ -218,11 +208,9 @@ impl ShearSolver {
     /// Preconditioned conjugate gradients on the predicted freedoms, to the largest residual `wanted` or until the limits are
     /// violated more.
     fn conjugate_gradients(&mut self, operator: &mut dyn CoupledOperator, state: &mut State, wanted: f64) {
-        let free = state.freedom.iter().map(|f| !self.is_diagonal(f));
-        let mut is_free = vec![false; self.single[0].len()];
-        state.cells.iter().zip(free).for_each(|(cell, free)| is_free[*cell] = free);
-        self.sets.free_where(|cell| is_free[cell]);
-        self.preconditioner.adapt(&self.sets);
+        let compliance = self.influence.compliance;
+        let coupled = state.freedom.iter().map(|freedom| !freedom.is_diagonal(compliance));
+        self.influence.adapt(&state.cells, coupled);
 
         let mut residual = state.newton_residual();
         let mut direction = vec![[0.0; 2]; residual.len()];
@@ -234,7 +222,7 @@ impl ShearSolver {
             let largest = residual.iter().map(|r| length(*r)).fold(0.0, f64::max);
             if largest < wanted
                 || left < CG_REDUCTION * first
-                || left < CG_EXIT * state.violation(self.compliance)
+                || left < CG_EXIT * state.violation(self.influence.compliance)
             {
                 break;
             }
@@ -266,40 +254,22 @@ impl ShearSolver {
         }
     }
 
-    /// Computes the preconditioned residual: by the preconditioner of the normal problem along each axis, scaled on both sides
-    /// by the [`ShearSolver::weight`], and by the diagonal where that dominates.
+    /// Computes the preconditioned residual: by the inverse of the influence, scaled on both sides by the weight of a cell that
+    /// slips, the root of its own compliance over that with its slip compliance, and by the diagonal where that dominates.
     fn precondition(&mut self, state: &State, residual: &[Vector]) -> Vec<Vector> {
-        let mut z = vec![[0.0; 2]; residual.len()];
-        let [mut r, mut out] = std::mem::take(&mut self.single);
-        let scale = residual.iter().map(|r| length(*r)).fold(0.0, f64::max).recip();
-        for axis in 0..2 {
-            for ((cell, freedom), residual) in state.cells.iter().zip(&state.freedom).zip(residual) {
-                r[*cell] = (scale * residual[axis] * self.weight(freedom)) as f32;
-            }
-            self.preconditioner.apply(&self.sets, &r, &mut out);
-            for ((cell, freedom), z) in state.cells.iter().zip(&state.freedom).zip(&mut z) {
-                z[axis] = self.weight(freedom) * f64::from(out[*cell]) / scale;
-            }
-        }
-        self.single = [r, out];
+        let compliance = self.influence.compliance;
+        let weight = |freedom: &Freedom| 1.0 / (1.0 + freedom.slip_compliance() / compliance).sqrt();
+        let weighted: Vec<Vector> =
+            state.freedom.iter().zip(residual).map(|(freedom, r)| times(weight(freedom), *r)).collect();
+        let mut z = self.influence.invert(&state.cells, &weighted);
         for ((freedom, z), r) in state.freedom.iter().zip(&mut z).zip(residual) {
-            *z = match self.is_diagonal(freedom) {
-                false => freedom.part(*z),
-                true => times(1.0 / (self.compliance + freedom.slip_compliance()), *r),
+            *z = match freedom.is_diagonal(compliance) {
+                false => freedom.part(times(weight(freedom), *z)),
+                true => times(1.0 / (compliance + freedom.slip_compliance()), *r),
             };
         }
         state.balance(&mut z);
         z
-    }
-
-    /// The diagonal scaling of a cell that slips: the root of its own compliance over that with its slip compliance.
-    fn weight(&self, freedom: &Freedom) -> f64 {
-        1.0 / (1.0 + freedom.slip_compliance() / self.compliance).sqrt()
-    }
-
-    /// Whether the block of a cell in the Newton matrix is taken to be diagonal.
-    fn is_diagonal(&self, freedom: &Freedom) -> bool {
-        freedom.slip_compliance() > DIAGONAL_DOMINANCE * self.compliance
     }
 
     /// Projected gradient steps with an exact line search, from the tractions in their discs: the energy falls with each.
@@ -308,9 +278,9 @@ impl ShearSolver {
             state.response = self.convolve(operator, &state.cells, &state.shear);
         }
         for _ in 0..GRADIENT_STEPS {
-            state.find_rigid_displacement(self.compliance);
+            state.find_rigid_displacement(self.influence.compliance);
             let direction: Vec<Vector> = (0..state.shear.len())
-                .map(|k| minus(state.projected(k, self.compliance), state.shear[k]))
+                .map(|k| minus(state.projected(k, self.influence.compliance), state.shear[k]))
                 .collect();
             let response = self.convolve(operator, &state.cells, &direction);
             let slope: f64 = (0..direction.len()).map(|k| dot(state.slip(k), direction[k])).sum();

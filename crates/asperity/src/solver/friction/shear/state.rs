@@ -10,6 +10,9 @@ use crate::units::{Metre, SquareMetre};
 
 /// Shear below this share of its limit is inside its disc, not on the rim.
 const INSIDE_RIM: f64 = 1.0 - 1e-12;
+/// A slipping cell whose [`Freedom::slip_compliance`] is more than so many times its own compliance hardly turns: its block
+/// of the Newton matrix is taken to be diagonal.
+const DIAGONAL_DOMINANCE: f64 = 3.0;
 /// Relative error of the sum of the shear that a projection may leave.
 const SUM_ACCURACY: f64 = 1e-12;
 
@@ -45,6 +48,11 @@ impl Freedom {
         }
     }
 
+    /// Whether the block of a cell of this `compliance` in the Newton matrix is taken to be diagonal.
+    pub(super) fn is_diagonal(&self, compliance: f64) -> bool {
+        self.slip_compliance() > DIAGONAL_DOMINANCE * compliance
+    }
+
     /// The slip compliance of a cell that slips; 0 of one that sticks.
     pub(super) fn slip_compliance(&self) -> f64 {
         match self {
@@ -65,7 +73,7 @@ pub(super) struct State {
     /// The sum Σ q under force control.
     pub(super) wanted: Option<Vector>,
     /// Rigid-body displacement D.
-    rigid: Vector,
+    pub(super) rigid: Vector,
     /// The shear q of each cell.
     pub(super) shear: Vec<Vector>,
     /// The displacement T q of the cells under their shear.
@@ -75,7 +83,9 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(task: &Task, start: &[Field; 2], cells: Vec<usize>, area: SquareMetre) -> Result<Self> {
+    pub(super) fn new(task: &Task, start: &[Field; 2], area: SquareMetre) -> Result<Self> {
+        let cells: Vec<usize> =
+            task.limit.iter().enumerate().filter(|(_, g)| **g > 0.0).map(|(cell, _)| cell).collect();
         let values = |field: &Field| -> Vec<f64> {
             let field = field.as_slice().expect("standard layout");
             cells.iter().map(|cell| field[*cell]).collect()
@@ -144,6 +154,20 @@ impl State {
         (0..self.cells.len()).map(phi).fold(0.0, |m, phi| if phi > m || phi.is_nan() { phi } else { m })
     }
 
+    /// The larger of max|q − P(q + s/c)| as a share of the largest shear, and of what the shear misses of the force, as a share of
+    /// what all cells bear.
+    pub(super) fn relative_residual(&self, compliance: f64) -> f64 {
+        let largest =
+            |most: f64, k| most.max(length(self.shear[k])).max(length(self.projected(k, compliance)));
+        let share = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+        let most = (0..self.cells.len()).fold(0.0, largest);
+        let residual = share(self.residual(compliance), compliance * most);
+        let Some(wanted) = self.wanted else { return residual };
+        let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
+        let size = self.shear.iter().map(|q| length(*q)).fold(length(wanted), |sum, q| sum + q);
+        residual.max(share(length(minus(wanted, sum)), size))
+    }
+
     /// Projects the tractions onto their discs, and under force control onto the force. Returns whether any has changed.
     pub(super) fn project(&mut self) -> bool {
         let mut moved = false;
@@ -189,17 +213,47 @@ impl State {
         }
     }
 
-    /// The residual of the Newton equations along the freedoms, under force control without its net force.
-    pub(super) fn newton_residual(&self) -> Vec<Vector> {
-        let mut left: Vec<Vector> = (0..self.cells.len())
-            .map(|k| {
-                let freedom = &self.freedom[k];
-                let along_shear = times(freedom.slip_compliance(), self.shear[k]);
-                freedom.part(minus(self.slip(k), along_shear))
+    /// What takes the cells predicted to slip to the rims of their discs, in the direction of their slip; under force control all
+    /// freedoms bear what that changes of the force. None where all are there.
+    pub(super) fn direction_to_rims(&self) -> Option<Vec<Vector>> {
+        let mut direction: Vec<Vector> = self
+            .cells()
+            .map(|(freedom, q, limit)| match freedom {
+                Freedom::Stick => [0.0; 2],
+                Freedom::Slip { rim, .. } => {
+                    let outward = [rim[1], -rim[0]];
+                    times(limit - dot(outward, q), outward)
+                }
             })
             .collect();
+        if let Some(wanted) = self.wanted {
+            let sum = self.shear.iter().zip(&direction).fold([0.0; 2], |s, (q, d)| add(s, add(*q, *d)));
+            let each = self.mobility().solve(minus(wanted, sum));
+            direction.iter_mut().zip(&self.freedom).for_each(|(d, f)| *d = add(*d, f.part(each)));
+        }
+        direction.iter().any(|d| *d != [0.0; 2]).then_some(direction)
+    }
+
+    /// The residual of the Newton equations along the freedoms, under force control without its net force.
+    pub(super) fn newton_residual(&self) -> Vec<Vector> {
+        let mut left: Vec<Vector> = (0..self.cells.len()).map(|k| self.newton_residual_of(k)).collect();
         self.balance(&mut left);
         left
+    }
+
+    /// The residual of the Newton equations of a cell.
+    fn newton_residual_of(&self, k: usize) -> Vector {
+        let freedom = &self.freedom[k];
+        let along_shear = times(freedom.slip_compliance(), self.shear[k]);
+        freedom.part(minus(self.slip(k), along_shear))
+    }
+
+    /// Under force control, moves the rigid bodies by what takes the net force from the residual of the Newton equations.
+    pub(super) fn balance_rigid_displacement(&mut self) {
+        if self.wanted.is_some() {
+            let net = (0..self.cells.len()).fold([0.0; 2], |sum, k| add(sum, self.newton_residual_of(k)));
+            self.rigid = minus(self.rigid, self.mobility().solve(net));
+        }
     }
 
     /// The sum of the projectors of all freedoms: the shear sum per unit vector added to all cells.

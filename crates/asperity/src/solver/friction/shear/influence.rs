@@ -1,0 +1,92 @@
+//! The tangential displacement of cells under their shear, and an approximate inverse of it.
+
+use crate::grid::Field;
+use crate::operator::CoupledOperator;
+use crate::solver::friction::disc::{Vector, length};
+use crate::solver::friction::self_compliance;
+use crate::solver::preconditioner::Preconditioner;
+use crate::solver::sets::Sets;
+
+/// The cells of one grid under shear.
+pub(super) struct Influence {
+    /// The displacement c of a cell per unit shear on itself.
+    pub(super) compliance: f64,
+    preconditioner: Preconditioner,
+    /// The cells that the preconditioner couples, as free ones.
+    sets: Sets,
+    /// What the preconditioner takes and gives along one axis, in single precision.
+    single: [Vec<f32>; 2],
+    /// Shear on the grid that is convolved.
+    loaded: [Field; 2],
+    /// Displacement of the grid under that shear.
+    displaced: [Field; 2],
+}
+
+impl Influence {
+    pub(super) fn new(operator: &mut dyn CoupledOperator) -> Self {
+        let grid = *operator.grid();
+        Self {
+            compliance: self_compliance(operator),
+            preconditioner: Preconditioner::new(operator.normal()),
+            sets: Sets::new(grid.shape),
+            single: [vec![0.0; grid.cells()], vec![0.0; grid.cells()]],
+            loaded: [grid.zeros(), grid.zeros()],
+            displaced: [grid.zeros(), grid.zeros()],
+        }
+    }
+
+    /// Takes the shear of all cells away: those that are loaded next are others.
+    pub(super) fn unload(&mut self) {
+        self.loaded.iter_mut().for_each(|field| field.fill(0.0));
+    }
+
+    /// Computes the displacement T q of the grid under a shear on the `cells`, by one convolution.
+    pub(super) fn displace(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        cells: &[usize],
+        shear: &[Vector],
+    ) -> &[Field; 2] {
+        for (axis, field) in self.loaded.iter_mut().enumerate() {
+            let field = field.as_slice_mut().expect("standard layout");
+            cells.iter().zip(shear).for_each(|(cell, q)| field[*cell] = q[axis]);
+        }
+        let ([x, y], [u, v]) = (&self.loaded, &mut self.displaced);
+        operator.apply([Some(x), Some(y), None], [Some(u), Some(v), None]);
+        &self.displaced
+    }
+
+    /// Adapts the approximate inverse to the cells that are `coupled`.
+    pub(super) fn adapt(&mut self, cells: &[usize], coupled: impl Iterator<Item = bool>) {
+        let mut is_free = vec![false; self.single[0].len()];
+        cells.iter().zip(coupled).for_each(|(cell, coupled)| is_free[*cell] = coupled);
+        self.sets.free_where(|cell| is_free[cell]);
+        self.preconditioner.adapt(&self.sets);
+    }
+
+    /// The shear that displaces the coupled cells by about as much as is asked for: by the preconditioner of the normal problem
+    /// along each axis. Zero for the other cells.
+    pub(super) fn invert(&mut self, cells: &[usize], displacement: &[Vector]) -> Vec<Vector> {
+        let mut shear = vec![[0.0; 2]; displacement.len()];
+        let largest = displacement.iter().map(|u| length(*u)).fold(0.0, f64::max);
+        if largest == 0.0 {
+            return shear;
+        }
+        let scale = largest.recip();
+        let [given, found] = &mut self.single;
+        for axis in 0..2 {
+            cells.iter().zip(displacement).for_each(|(cell, u)| given[*cell] = (scale * u[axis]) as f32);
+            self.preconditioner.apply(&self.sets, given, found);
+            for (cell, q) in cells.iter().zip(&mut shear) {
+                q[axis] = f64::from(found[*cell]) / scale;
+            }
+        }
+        shear
+    }
+}
+
+/// The vectors of two fields at some cells.
+pub(super) fn at(fields: &[Field; 2], cells: &[usize]) -> Vec<Vector> {
+    let [x, y] = fields.each_ref().map(|field| field.as_slice().expect("standard layout"));
+    cells.iter().map(|cell| [x[*cell], y[*cell]]).collect()
+}
