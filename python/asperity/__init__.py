@@ -6,7 +6,8 @@ positive in tension.
 
 Surfaces are made (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or given (:class:`Surface`).
 :func:`contact` presses two bodies together, :func:`simulate` lets them pass over each other, :class:`Simulation` does so with
-laws of one's own, :func:`run` computes a case file, :func:`open` opens results. :func:`stress` looks below the surface.
+laws of one's own, :func:`run` computes a case file, :func:`study` many made of one, :func:`open` opens results. :func:`stress`
+looks below the surface.
 :mod:`asperity.reference` holds closed forms, and :func:`verify` holds the program against them.
 """
 
@@ -17,6 +18,7 @@ from ._flow import Flow
 from ._progress import Progress
 from ._run import Run, open, run, simulate
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
+from ._study import Study, study
 from .body import Body
 from .describe import (
     BearingCurve,
@@ -69,6 +71,7 @@ __all__ = [
     "SpectralMoments",
     "Spectrum",
     "Stress",
+    "Study",
     "SubsurfaceStress",
     "Summits",
     "Surface",
@@ -88,6 +91,7 @@ __all__ = [
     "simulate",
     "slide",
     "stress",
+    "study",
     "tangential_modulus",
     "verification_cases",
     "verify",

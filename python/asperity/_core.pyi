@@ -126,6 +126,35 @@ class Spectrum:
         The wave numbers along x, of both signs, and along y.
         """
 
+@final
+class Study:
+    def __new__(cls, /, file: str | PathLike[str], directory: str | PathLike[str]) -> Study: ...
+    def axes(self, /) -> list[tuple[str, str, list]]:
+        """
+        Key, unit and values of each axis: numbers in SI, or texts.
+        """
+    def collect(self, /) -> tuple[list[int], list[tuple[str, str, Incomplete]], list[int], list[str | None]]:
+        """
+        Makes tables and page of what is there.
+        """
+    def indices(self, /) -> Incomplete:
+        """
+        For each case the index of the value of each axis.
+        """
+    def run(self, /, task: SupportsLenAndGetItem[SupportsIndex], retry: bool, threads: SupportsIndex, progress: Any | None) -> list[tuple[int, str]]:
+        """
+        Computes what is left of a task; then, if all is over, makes tables and page. Gives the cases that have failed.
+        """
+    def states(self, /) -> list[tuple[str, str | None]]:
+        """
+        How each case stands: "done", "failed", "claimed" by a process that lives, or "open"; and why it failed.
+        """
+    def table(self, /) -> tuple[list[int], list[tuple[str, str, Incomplete]], list[int], list[str | None]] | None:
+        """
+        What came of the cases that are over; none before the study is begun.
+        """
+    def title(self, /) -> str: ...
+
 def channels(path: str | PathLike[str]) -> list[str]:
     """
     The names of the height channels of a file, the default one first.

@@ -18,6 +18,7 @@ from .errors import AsperityError
 if TYPE_CHECKING:
     from ._contact import Contact
     from ._run import Run
+    from ._study import Study
     from .fields import Field
     from .surface import Surface
 
@@ -27,6 +28,9 @@ _COLOURS = {
     "RdBu_r": "053061 2f79b5 90c4dd dbeaf2 f7f6f6 fcd7c2 ee9677 bf3338 67001f",
 }
 """Nine colours of each map, at even distances."""
+
+_MAX_FAILURES = 5
+"""Failures of a study that are told."""
 
 _SIDE = 160
 """Most pixels along a side of a map."""
@@ -196,3 +200,14 @@ def run(run: Run) -> str:
         title, [("pass", str(int(last["pass"]))), *rows], _map(name, shown.values),
         _range(name, shown.values, shown.unit), run.warnings,
     )  # fmt: skip
+
+
+def study(study: Study) -> str:
+    """A study: its axes, and how its cases stand."""
+    rows = []
+    for key, values in study.axes.items():
+        unit = study.units[key] or "1"
+        texts = [str(value) if values.dtype.kind in "Ui" else _quantity(float(value), unit) for value in values[[0, -1]]]
+        rows.append((key, texts[0] if len(values) == 1 else f"{len(values)} values, {texts[0]} to {texts[1]}"))
+    failures = [f"case {case}: {message}" for case, message in study.failures.items()]
+    return _shown(f"Study {study.title}: {study._told()}", rows, "", "", failures[:_MAX_FAILURES])

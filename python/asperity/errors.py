@@ -185,6 +185,12 @@ class Memory(Failed):
     available: float
 
 
+class Threads(Failed):
+    """Threads to compute on cannot be made: `reason`."""
+
+    reason: str
+
+
 class Interrupted(Failed):
     """A computation was asked to stop."""
 
@@ -247,14 +253,18 @@ class ModelWarning(UserWarning):
     """A model is used where it may not hold, or a result is less certain than it looks."""
 
 
-def warn(texts: list[str]) -> None:
+class FailedCases(UserWarning):
+    """Cases of a study could not be computed."""
+
+
+def warn(texts: list[str], category: type[UserWarning] = ModelWarning) -> None:
     """Warn of each, at the line that called asperity."""
     package = os.path.dirname(__file__)
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
         level, frame = level + 1, frame.f_back
     for text in texts:
-        warnings.warn(text, ModelWarning, stacklevel=level)
+        warnings.warn(text, category, stacklevel=level)
 
 
 def bad_input(key: str, message: str, hint: str | None = None) -> AsperityError:

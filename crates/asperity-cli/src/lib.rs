@@ -22,8 +22,9 @@ use std::ffi::OsString;
 use clap::Parser;
 
 use args::{Arguments, Command};
-pub use machine::available as available_memory;
+pub use machine::{available as available_memory, worker as this_process};
 pub use page::make as write_report;
+pub use study::collect as collect_study;
 pub use verify::{
     expected as verification_expects, text as verification_text, verdict as verification_verdict,
 };

@@ -34,7 +34,7 @@ pub fn available() -> f64 {
 }
 
 /// This process, as other processes that work on a study know it.
-pub(crate) fn worker() -> Worker {
+pub fn worker() -> Worker {
     let host = System::host_name().unwrap_or_else(|| "unknown".to_owned());
     // Containers of one name need not be one machine, nor is a machine after a new start.
     let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id");

@@ -22,8 +22,6 @@ pub(crate) enum Failure {
     Checks { failed: usize, all: usize },
     /// Data that could not be written to stdout.
     Stdout(std::io::Error),
-    /// Threads that could not be made.
-    Threads { reason: String },
     /// Figures that were stopped; the results are there.
     FiguresInterrupted { directory: PathBuf },
     /// A study that was stopped; what is done stays.
@@ -89,7 +87,7 @@ pub(crate) fn exit_code(failure: &Failure) -> u8 {
     match failure {
         Failure::Library(error) => code(error),
         Failure::Figure(error) => code_of_io(&error.source),
-        Failure::Checks { .. } | Failure::Cases { .. } | Failure::Stdout(_) | Failure::Threads { .. } => 1,
+        Failure::Checks { .. } | Failure::Cases { .. } | Failure::Stdout(_) => 1,
         Failure::FiguresInterrupted { .. } | Failure::StudyInterrupted => 130,
         Failure::Usage { .. } => 2,
     }
@@ -102,6 +100,7 @@ fn code(error: &Error) -> u8 {
         | Error::NotConverged { .. }
         | Error::FlowNotConverged { .. }
         | Error::Memory { .. }
+        | Error::Threads { .. }
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. } => 1,
@@ -131,9 +130,6 @@ fn render(failure: &Failure, renderer: &Renderer) -> String {
     let title = Level::ERROR.primary_title(message.as_str());
     let hint = match failure {
         Failure::Library(error) => hint(error),
-        Failure::Threads { .. } => {
-            Some("one needs none: `--threads 1`, or RAYON_NUM_THREADS=1 in the environment".to_owned())
-        }
         Failure::FiguresInterrupted { directory } => {
             Some(format!("the results are whole; `asperity plot {}` draws the figures", directory.display()))
         }
@@ -168,7 +164,6 @@ pub(crate) fn message(failure: &Failure) -> String {
         Failure::StudyInterrupted => "interrupted".to_owned(),
         Failure::Cases { failed, all } => format!("{failed} of {all} cases failed"),
         Failure::Stdout(error) => format!("standard output: {error}"),
-        Failure::Threads { reason } => format!("threads cannot be made: {reason}"),
         Failure::FiguresInterrupted { .. } => "interrupted before all figures were drawn".to_owned(),
         Failure::Usage { message, .. } => message.clone(),
     }
@@ -293,6 +288,9 @@ fn hint(error: &Error) -> Option<String> {
         }
         Error::NotExclusive { .. } => Some("--out names a directory on another file system".to_owned()),
         Error::InUse { .. } => Some("--out names another directory".to_owned()),
+        Error::Threads { .. } => {
+            Some("one needs none: `--threads 1`, or RAYON_NUM_THREADS=1 in the environment".to_owned())
+        }
         Error::Interrupted => Some("continue with `--resume`".to_owned()),
         Error::File { path, source } => match source.kind() {
             ErrorKind::NotFound if path.extension().is_some_and(|extension| extension == "toml") => {

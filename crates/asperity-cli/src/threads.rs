@@ -3,12 +3,13 @@
 use std::env;
 use std::thread::available_parallelism;
 
+use asperity::{Error, Result};
 use rayon::ThreadPoolBuilder;
 
-use crate::report::{Failure, Outcome, note};
+use crate::report::note;
 
 /// Makes so many threads, by default as many as are this process's; the first of them is the one that calls.
-pub(crate) fn start(wanted: Option<usize>) -> Outcome {
+pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
     // Of them rayon knows its own variable, the affinity of the process and the share of its control group.
     let cores = available_parallelism().map_or(1, usize::from);
     if let Some(wanted) = wanted.filter(|wanted| *wanted > cores) {
@@ -20,13 +21,7 @@ pub(crate) fn start(wanted: Option<usize>) -> Outcome {
     let share = own.then(|| share_of_scheduler(|name| env::var(name).ok())).flatten();
     let threads = wanted.or(share.map(|share| share.min(cores))).unwrap_or(0);
     let pool = ThreadPoolBuilder::new().num_threads(threads).use_current_thread();
-    pool.build_global().map_err(|error| Failure::Threads { reason: error.to_string() })
-}
-
-/// Threads of its own, so many, to work in.
-pub(crate) fn some(threads: usize) -> Outcome<rayon::ThreadPool> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| Failure::Threads { reason: error.to_string() })
+    pool.build_global().map_err(|error| Error::Threads { reason: error.to_string() })
 }
 
 /// The cores that SLURM gives to a task; where it tells no number for a task, those of the job on this machine.

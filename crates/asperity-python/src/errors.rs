@@ -110,6 +110,10 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
             variant!(a, "FlowNotConverged", products = products, mismatch = mismatch, tolerance = tolerance)
         }
         Error::Memory { needed, available } => variant!(a, "Memory", needed = needed, available = available),
+        Error::Threads { reason } => {
+            hint = Some("one needs none: threads=1".to_owned());
+            variant!(a, "Threads", reason = reason)
+        }
         Error::Interrupted => "Interrupted",
         Error::ResultsExist { path, results } => {
             hint = Some("overwrite=True replaces them, resume=True goes on from them".to_owned())
@@ -127,8 +131,14 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
         Error::InUse { path } => variant!(a, "InUse", path = path),
         Error::TooManyRanks { ranks, rows } => variant!(a, "TooManyRanks", ranks = ranks, rows = rows),
         Error::RanksDiffer { rank, what } => variant!(a, "RanksDiffer", rank = rank, what = what),
-        Error::NotThisStudy { path, what } => variant!(a, "NotThisStudy", path = path, what = what),
-        Error::NotExclusive { path } => variant!(a, "NotExclusive", path = path),
+        Error::NotThisStudy { path, what } => {
+            hint = Some("out= names another directory".to_owned());
+            variant!(a, "NotThisStudy", path = path, what = what)
+        }
+        Error::NotExclusive { path } => {
+            hint = Some("out= names a directory on another file system".to_owned());
+            variant!(a, "NotExclusive", path = path)
+        }
         Error::NoResults { path } => variant!(a, "NoResults", path = path),
         Error::File { path, source } => {
             variant!(a, "File", path = path, errno = source.raw_os_error(), reason = source.to_string())

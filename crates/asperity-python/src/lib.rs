@@ -4,6 +4,7 @@
 //! meet are Python, in `python/asperity`.
 
 mod arrays; // matrices and records, there and back
+mod cases; // a study: many cases made of one
 mod command; // the command `asperity`
 mod contact; // a contact at rest
 mod describe; // what a surface is like
@@ -24,6 +25,8 @@ use pyo3::prelude::*;
 
 #[pymodule(gil_used = false)]
 mod _core {
+    #[pymodule_export]
+    use super::cases::CoreStudy;
     #[pymodule_export]
     use super::command::main;
     #[pymodule_export]

@@ -1,6 +1,7 @@
 //! Closed forms: one table of what can be asked of which.
 
 use asperity::material::{Coating, Compliances, Material};
+use asperity::motion::Watch;
 use asperity::ndarray::{Array2, s};
 use asperity::reference::{
     Carter, CattaneoMindlin, Cone, FlatPunch, HertzEllipse, HertzLine, HertzSphere, MindlinDeresiewicz,

@@ -1,5 +1,6 @@
 //! The stress below a surface.
 
+use asperity::motion::Watch;
 use asperity::operator::{Boundary, Edge};
 use asperity::stress::Stress;
 use asperity::subsurface::{Extreme, Maximum, Subsurface, Tractions};

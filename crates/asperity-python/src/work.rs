@@ -2,7 +2,7 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -23,7 +23,7 @@ pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&dyn Watch) -> Result<T> + Send,
+    work: impl FnOnce(&Looking) -> Result<T> + Send,
 ) -> PyResult<T> {
     let pool = pool(threads)?;
     let looking = Looking::default();
@@ -61,16 +61,29 @@ fn text(panic: &(dyn Any + Send)) -> String {
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
+/// Pass, passes, trial, positions solved, positions, load, the part of the way where all are solved together.
+type Told = (usize, usize, usize, usize, usize, f64, Option<f64>);
+
 /// Who looks on while the work is done.
 #[derive(Default)]
-struct Looking {
+pub(crate) struct Looking {
     stop: AtomicBool,
-    now: Mutex<Option<Progress>>,
+    now: Mutex<Option<Told>>,
+    over: AtomicUsize,
     ended: Mutex<bool>,
     ends: Condvar,
 }
 
 impl Looking {
+    /// One more of so many cases is over: they count as the positions of one pass.
+    pub(crate) fn over(&self, cases: usize) {
+        let over = self.over.fetch_add(1, Ordering::Relaxed) + 1;
+        let mut now = held(&self.now);
+        if now.is_none_or(|(_, _, _, known, ..)| known < over) {
+            *now = Some((1, 1, 1, over, cases, f64::NAN, None));
+        }
+    }
+
     fn end(&self) {
         *held(&self.ended) = true;
         self.ends.notify_all();
@@ -85,18 +98,18 @@ impl Looking {
     fn tell(&self, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let now = held(&self.now).take();
         let (Some(progress), Some(now)) = (progress, now) else { return Ok(()) };
-        let Progress { pass, passes, trial, solved, positions, load, together, .. } = now;
-        progress.call1((pass, passes, trial, solved, positions, load, together)).map(|_| ())
+        progress.call1(now).map(|_| ())
     }
 }
 
 impl Watch for Looking {
     fn at(&self, progress: &Progress) {
-        *held(&self.now) = Some(*progress);
+        let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
+        *held(&self.now) = Some((pass, passes, trial, solved, positions, load, together));
     }
 
     fn solving(&self, progress: &Progress) {
-        *held(&self.now) = Some(*progress);
+        self.at(progress);
     }
 
     fn stop(&self) -> bool {

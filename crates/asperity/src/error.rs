@@ -285,6 +285,12 @@ pub enum Error {
         /// The memory there is, bytes.
         available: f64,
     },
+    /// Threads to compute on cannot be made.
+    #[error("threads cannot be made: {reason}")]
+    Threads {
+        /// What the operating system said.
+        reason: String,
+    },
     /// The caller asked for the computation to stop.
     #[error("interrupted")]
     Interrupted,

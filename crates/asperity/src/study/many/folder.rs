@@ -32,6 +32,45 @@ pub enum State {
     Done,
 }
 
+/// How many cases of a study stand how.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Their results are there.
+    pub done: usize,
+    /// They have no results, and a reason.
+    pub failed: usize,
+    /// They are being computed, or were.
+    pub claimed: usize,
+    /// Nobody computes them.
+    pub open: usize,
+}
+
+impl Tally {
+    /// Counts cases.
+    pub fn of<'s>(states: impl IntoIterator<Item = &'s State>) -> Self {
+        let mut tally = Self::default();
+        for state in states {
+            *match state {
+                State::Done => &mut tally.done,
+                State::Failed(_) => &mut tally.failed,
+                State::Claimed(_) => &mut tally.claimed,
+                State::Open => &mut tally.open,
+            } += 1;
+        }
+        tally
+    }
+
+    /// How many there are.
+    pub fn all(self) -> usize {
+        self.done + self.failed + self.left()
+    }
+
+    /// How many are not over.
+    pub fn left(self) -> usize {
+        self.claimed + self.open
+    }
+}
+
 /// What `study.json` says.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Identity {

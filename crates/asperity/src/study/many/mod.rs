@@ -14,16 +14,18 @@
 mod axis; // a key of the case and its values
 mod base; // the case that all others are made of
 mod claims; // who computes which case
+mod compute; // computing what is left, case beside case
 mod file; // the study file
 mod filter; // cases that are left out
 mod folder; // what is there of a study
 mod plan; // which values each case has
 mod table; // what came of the cases
-mod work; // computing what is left
+mod work; // what is left to a process, case after case
 
 pub use axis::Axis;
 pub use claims::{Holder, Worker};
-pub use folder::{Folder, State};
+pub use compute::compute;
+pub use folder::{Folder, State, Tally};
 pub use plan::{MAX_CASES, Study};
 pub use table::{Row, Table};
 pub use work::{Computed, Queue, Task, Turn};

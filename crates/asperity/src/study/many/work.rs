@@ -1,4 +1,4 @@
-//! Computing what is left of a study: one case after the other, by as many threads and processes as there are.
+//! What is left of a study to a process: it claims one case after the other, and computes it.
 
 use std::fs;
 use std::io::ErrorKind;

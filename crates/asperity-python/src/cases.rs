@@ -1,0 +1,146 @@
+//! A study: many cases made of one.
+
+use std::path::PathBuf;
+
+use asperity::motion::Watch;
+use asperity::study::dimension_of_column;
+use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, Tally, Task};
+use asperity_cli::{available_memory, collect_study, this_process};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use crate::work;
+
+#[pyclass(name = "Study", frozen)]
+pub(crate) struct CoreStudy {
+    study: Study,
+    directory: PathBuf,
+}
+
+/// What came of the cases that are over: their numbers, columns with name, unit and values, numbers of warnings, and why they
+/// failed.
+type Collected<'py> =
+    (Vec<usize>, Vec<(String, String, Bound<'py, PyArray1<f64>>)>, Vec<usize>, Vec<Option<String>>);
+
+#[pymethods]
+impl CoreStudy {
+    #[new]
+    fn new(py: Python<'_>, file: PathBuf, directory: PathBuf) -> PyResult<Self> {
+        let study = work::run(py, 0, None, |_| Study::load(&file))?;
+        Ok(Self { study, directory })
+    }
+
+    fn title(&self) -> &str {
+        self.study.title()
+    }
+
+    /// Key, unit and values of each axis: numbers in SI, or texts.
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, String, Bound<'py, PyList>)>> {
+        let axis = |axis: &Axis| Ok((axis.key().to_owned(), axis.unit(), values(py, axis)?));
+        self.study.axes().iter().map(axis).collect()
+    }
+
+    /// For each case the index of the value of each axis.
+    fn indices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
+        let cases = 1..=self.study.len();
+        let indices: Vec<u32> = cases.flat_map(|case| self.study.indices(case)).copied().collect();
+        indices.into_pyarray(py).reshape([self.study.len(), self.study.axes().len()])
+    }
+
+    /// How each case stands: "done", "failed", "claimed" by a process that lives, or "open"; and why it failed.
+    fn states(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Option<String>)>> {
+        let states =
+            work::run(py, 0, None, |_| self.folder()?.map(|folder| self.stand(&folder)).transpose())?;
+        let told = |state| match state {
+            State::Done => ("done", None),
+            State::Failed(message) => ("failed", Some(message)),
+            State::Claimed(holder) if !holder.is_stale => ("claimed", None),
+            State::Claimed(_) | State::Open => ("open", None),
+        };
+        Ok(states.map_or_else(
+            || vec![("open", None); self.study.len()],
+            |states| states.into_iter().map(told).collect(),
+        ))
+    }
+
+    /// Computes what is left of a task; then, if all is over, makes tables and page. Gives the cases that have failed.
+    fn run(
+        &self,
+        py: Python<'_>,
+        task: [usize; 2],
+        retry: bool,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<(usize, String)>> {
+        let [number, of] = task;
+        work::run(py, threads, progress.as_ref(), |looking| {
+            let folder = Folder::enter(&self.directory, &self.study)?;
+            let queue = Queue::new(&self.study, &folder, this_process(), Task { number, of }, retry)?;
+            let ended = |_: usize, _: &Computed| looking.over(queue.len());
+            many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
+            let states = self.stand(&folder)?;
+            if Tally::of(&states).left() == 0 {
+                collect_study(&self.study, &folder)?;
+            }
+            let failed =
+                |(n, state)| if let State::Failed(message) = state { Some((n + 1, message)) } else { None };
+            Ok(states.into_iter().enumerate().filter_map(failed).collect())
+        })
+    }
+
+    /// Makes tables and page of what is there.
+    fn collect<'py>(&self, py: Python<'py>) -> PyResult<Collected<'py>> {
+        let table = work::run(py, 0, None, |_| {
+            collect_study(&self.study, &Folder::open(&self.directory, &self.study)?)
+        })?;
+        Ok(collected(py, &table))
+    }
+
+    /// What came of the cases that are over; none before the study is begun.
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Option<Collected<'py>>> {
+        let table = work::run(py, 0, None, |_| {
+            self.folder()?.map(|folder| Table::collect(&self.study, &folder)).transpose()
+        })?;
+        Ok(table.map(|table| collected(py, &table)))
+    }
+}
+
+impl CoreStudy {
+    /// The directory; none before the study is begun.
+    fn folder(&self) -> asperity::Result<Option<Folder>> {
+        let is_there = self.directory.exists();
+        is_there.then(|| Folder::open(&self.directory, &self.study)).transpose()
+    }
+
+    fn stand(&self, folder: &Folder) -> asperity::Result<Vec<State>> {
+        folder.states(&self.study, &this_process())
+    }
+}
+
+/// The values of an axis: whole numbers, numbers in SI, or texts.
+fn values<'py>(py: Python<'py>, axis: &Axis) -> PyResult<Bound<'py, PyList>> {
+    let cells: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
+    match axis.numbers() {
+        None => PyList::new(py, cells),
+        Some(numbers) => match cells.iter().map(|cell| cell.parse().ok()).collect::<Option<Vec<i64>>>() {
+            Some(whole) => PyList::new(py, whole),
+            None => PyList::new(py, numbers),
+        },
+    }
+}
+
+fn collected<'py>(py: Python<'py>, table: &Table) -> Collected<'py> {
+    let rows = table.rows();
+    let column = |(n, name): (usize, &String)| {
+        let unit = dimension_of_column(name).map(|dimension| dimension.si()).unwrap_or_default();
+        let values: Vec<f64> = rows.iter().map(|row| row.numbers[n]).collect();
+        (name.clone(), unit, values.into_pyarray(py))
+    };
+    (
+        rows.iter().map(|row| row.case).collect(),
+        table.columns().iter().enumerate().map(column).collect(),
+        rows.iter().map(|row| row.warnings).collect(),
+        rows.iter().map(|row| row.failure.clone()).collect(),
+    )
+}

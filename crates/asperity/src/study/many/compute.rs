@@ -1,0 +1,123 @@
+//! Computing what is left: so many cases at a time as there are threads, and as find room in memory together.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::work::{Computed, Queue};
+use crate::error::{Error, Result};
+use crate::motion::{Progress, Watch};
+use crate::study::case::Case;
+use crate::study::estimate::demand;
+use crate::study::given::Given;
+
+/// Computes the cases of a queue, so many at a time as the pool of the caller has threads; where fewer are left, each gets several.
+///
+/// Cases that do not go into `memory`, bytes, at the same time wait for each other. `ended` is told of each case, from 1, once it is
+/// over; `stop`, asked again and again, whether to stop: cases under way are then open again.
+///
+/// # Errors
+/// [`Error::Interrupted`] where `stop` wants it; [`Error::Threads`]; [`Error::File`] where the study cannot be written to.
+pub fn compute(
+    queue: &Queue<'_>,
+    memory: f64,
+    stop: &(dyn Fn() -> bool + Sync),
+    ended: &(dyn Fn(usize, &Computed) + Sync),
+) -> Result<()> {
+    let threads = rayon::current_num_threads();
+    let at_a_time = threads.min(queue.len());
+    let pools = (0..at_a_time).map(|_| pool(threads / at_a_time)).collect::<Result<Vec<_>>>()?;
+    let crew = Crew {
+        stop,
+        ended,
+        memory: Memory { all: memory, taken: Mutex::default(), given_back: Condvar::new() },
+        is_broken: AtomicBool::new(false),
+        error: Mutex::default(),
+    };
+    thread::scope(|scope| {
+        for pool in &pools {
+            scope.spawn(|| {
+                if let Err(error) = pool.install(|| work(queue, &crew)) {
+                    crew.is_broken.store(true, Ordering::Relaxed);
+                    locked(&crew.error).get_or_insert(error);
+                }
+            });
+        }
+    });
+    crew.error.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// One case after the other.
+fn work(queue: &Queue<'_>, crew: &Crew<'_>) -> Result<()> {
+    while !crew.stop() {
+        let Some(turn) = queue.claim()? else { return Ok(()) };
+        let case = turn.case();
+        let computed = turn.compute(|case| crew.memory.take(case), crew)?;
+        (crew.ended)(case, &computed);
+    }
+    if (crew.stop)() { Err(Error::Interrupted) } else { Ok(()) }
+}
+
+/// Threads of its own, so many.
+fn pool(threads: usize) -> Result<ThreadPool> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Error::Threads { reason: error.to_string() })
+}
+
+/// What all that compute have in common.
+struct Crew<'c> {
+    stop: &'c (dyn Fn() -> bool + Sync),
+    ended: &'c (dyn Fn(usize, &Computed) + Sync),
+    memory: Memory,
+    /// Whether one of them cannot go on, and why.
+    is_broken: AtomicBool,
+    error: Mutex<Option<Error>>,
+}
+
+impl Watch for Crew<'_> {
+    fn at(&self, _: &Progress) {}
+
+    fn stop(&self) -> bool {
+        self.is_broken.load(Ordering::Relaxed) || (self.stop)()
+    }
+}
+
+/// Memory of which cases that are computed at the same time take their parts, bytes.
+struct Memory {
+    all: f64,
+    taken: Mutex<f64>,
+    given_back: Condvar,
+}
+
+/// The part of a case.
+struct Part<'m> {
+    memory: &'m Memory,
+    bytes: f64,
+}
+
+impl Memory {
+    /// What the case takes, once it is free; an error if it never will be.
+    fn take(&self, case: &Case) -> Result<Part<'_>> {
+        let demand = demand(case, &Given::default(), rayon::current_num_threads())?;
+        demand.fits(self.all)?;
+        let mut taken = locked(&self.taken);
+        while *taken > 0.0 && *taken + demand.memory > self.all {
+            taken = self.given_back.wait(taken).unwrap_or_else(PoisonError::into_inner);
+        }
+        *taken += demand.memory;
+        Ok(Part { memory: self, bytes: demand.memory })
+    }
+}
+
+impl Drop for Part<'_> {
+    fn drop(&mut self) {
+        *locked(&self.memory.taken) -= self.bytes;
+        self.memory.given_back.notify_all();
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,242 @@
+"""Studies: many cases made of one."""
+
+from __future__ import annotations
+
+import copy
+import csv
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+
+import asperity as asp
+import numpy as np
+import pytest
+from asperity import errors
+
+CASE = """
+[lower]
+young = "210 GPa"
+poisson = 0.3
+hardness = "4 GPa"
+topography = { generate = "low-pass", shape = [16, 16], pitch = "1 um", sq = "20 nm", cutoff = "6 um", seed = 1 }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "sphere", radius = "100 um" }
+[contact]
+load = "2 mN"
+"""
+
+STUDY = """
+base = "case.toml"
+[axes]
+contact.load = ["1 mN", 0.002]
+"lower.topography.seed" = { seeds = 3, first = 7 }
+[[exclude]]
+"contact.load" = "2 mN"
+"lower.topography.seed" = 8
+"""
+
+MOTION = '[motion]\nstride = 4\n[output]\npressure_every = 0\n'
+
+
+@pytest.fixture
+def folder(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> pathlib.Path:
+    monkeypatch.chdir(tmp_path)
+    write(STUDY)
+    return tmp_path
+
+
+def write(study: str, more: str = "") -> None:
+    case = CASE.replace('"100 um"', '"100 um", shape = [12, 16]') if more else CASE
+    pathlib.Path("case.toml").write_text(case + more)
+    pathlib.Path("load.toml").write_text(study)
+
+
+def command(arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "asperity", *arguments.split()], capture_output=True, text=True)
+
+
+def test_a_study_is_known_before_anything_is_computed(folder: pathlib.Path) -> None:
+    study = asp.Study("load.toml")
+    assert (study.title, study.directory, len(study)) == ("load", pathlib.Path("load"), 5)
+    assert {key: values.tolist() for key, values in study.axes.items()} == {
+        "contact.load": [0.001, 0.002], "lower.topography.seed": [7, 8, 9],
+    }  # fmt: skip
+    assert study.units == {"contact.load": "N", "lower.topography.seed": ""}
+    assert study.plan.tolist() == [(1, 0.001, 7), (2, 0.001, 8), (3, 0.001, 9), (4, 0.002, 7), (5, 0.002, 9)]
+    assert study.plan.dtype.names == ("case", "contact.load", "lower.topography.seed")
+    assert study.left.tolist() == [1, 2, 3, 4, 5] and set(study.states) == {"open"} and study.failures == {}
+    assert len(study.table) == 0 and {"contact.load", "state", "message"} <= set(study.table.dtype.names)
+    with pytest.raises(errors.NoResults):
+        study.open(1)
+    with pytest.raises(errors.NotThisStudy, match="holds no study"):
+        study.collect()
+    assert not study.directory.exists()
+
+
+def test_a_study_is_that_of_the_command_bit_for_bit(folder: pathlib.Path) -> None:
+    study = asp.study("load.toml", threads=2, progress=False)
+    assert command("study load.toml --out other").returncode == 0
+    for name in ("plan.csv", "table.csv", "table.h5"):
+        assert (study.directory / name).read_bytes() == pathlib.Path("other", name).read_bytes(), name
+    assert (study.directory / "study.html").exists()
+    with open("load/table.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(study.table) == len(rows) == 5 and len(study.left) == 0
+    for name in study.table.dtype.names:
+        unit = study.units.get(name)
+        column = [row[f"{name} ({unit})" if unit else name] for row in rows]
+        values = study.table[name]
+        expected = column if values.dtype.kind == "U" else [float(cell or "nan") for cell in column]
+        assert values.tolist() == expected or np.array_equal(values, np.array(expected), equal_nan=True), name
+    # Each case is what it is alone.
+    for case, load, seed in study.plan.tolist():
+        contact = study.open(case)
+        row = study.table[case - 1]
+        assert isinstance(contact, asp.Contact) and row["case"] == case
+        assert (row["contact_area"], row["approach"]) == (contact.contact_area, contact.approach)
+        assert contact.load == pytest.approx(load, rel=1e-9) and contact.case["lower"]["topography"]["seed"] == seed
+    with pytest.raises(errors.CaseError, match="'case' is 6, expected a case from 1 to 5"):
+        study.open(6)
+
+
+def test_a_share_of_a_study_and_the_last_makes_the_tables(folder: pathlib.Path) -> None:
+    study = asp.Study("load.toml")
+    told: list[asp.Progress] = []
+    study.run(task=(2, 2), threads=1, progress=told.append)
+    assert study.left.tolist() == [1, 3, 5] and study.states.tolist() == ["open", "done", "open", "done", "open"]
+    assert not (study.directory / "table.csv").exists()
+    assert (told[-1].solved, told[-1].positions, told[-1].fraction) == (2, 2, 1.0)
+    assert study.table["case"].tolist() == [2, 4]
+    assert study.collect().tolist() == study.table.tolist() and (study.directory / "study.html").exists()
+    study.run(task=(1, 2), progress=False)
+    assert len(study.left) == 0 and len((study.directory / "table.csv").read_text().splitlines()) == 6
+    study.run(progress=told.append)
+    assert len(study.table) == 5
+
+
+@pytest.mark.parametrize("task", [(5, 4), (0, 4), 4, "3/4", (1.0, 2), (1, 2, 3)])
+def test_a_share_that_there_is_not(folder: pathlib.Path, task: object) -> None:
+    with pytest.raises(errors.CaseError, match="'task' is .*, expected the number of a task, from 1") as raised:
+        asp.study("load.toml", task=task)  # type: ignore[arg-type]
+    assert raised.value.key == "task" and not pathlib.Path("load").exists()
+
+
+def test_cases_that_fail_are_rows_with_their_message(folder: pathlib.Path) -> None:
+    write('base = "case.toml"\n[axes]\n"contact.load" = ["1 mN", "2 N", "2 mN"]\n')
+    with pytest.warns(errors.FailedCases, match="1 of 3 cases have failed, the first is case 2: load 2 N exceeds") as warned:
+        study = asp.study("load.toml", progress=False)
+    assert warned[0].filename == __file__
+    assert study.states.tolist() == study.table["state"].tolist() == ["done", "failed", "done"] and len(study.left) == 0
+    assert list(study.failures) == [2] and study.failures[2] == study.table["message"][1]
+    assert np.isnan(study.table["contact_area"]).tolist() == [False, True, False]
+    with pytest.raises(errors.NoResults, match="case 2 failed: load 2 N exceeds the plastic limit"):
+        study.open(2)
+    assert "1 have failed" in repr(study) and "exceeds" in study._repr_html_()
+    failed = study.directory / "cases/0002/failed.json"
+    before = failed.stat().st_mtime_ns
+    with pytest.warns(errors.FailedCases):
+        study.run(progress=False)
+    assert failed.stat().st_mtime_ns == before
+    with pytest.warns(errors.FailedCases):
+        study.run(retry=True, progress=False)
+    assert failed.stat().st_mtime_ns > before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGKILL])
+def test_a_study_that_is_stopped_goes_on(folder: pathlib.Path, kind: signal.Signals) -> None:
+    write('base = "case.toml"\n[axes]\n"motion.passes" = [1, 2, 40, 3, 4]\n', MOTION)
+    program = textwrap.dedent(
+        """
+        import signal
+        import asperity as asp
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        study = asp.Study("load.toml")
+        try:
+            study.run(threads=1, progress=False)
+            print("done")
+        except KeyboardInterrupt:
+            print("interrupted", study.left.tolist(), study.states.tolist())
+        """
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    study = asp.Study("load.toml")
+    passes = study.directory / "cases/0003/passes.csv"
+    began = time.monotonic()
+    while not passes.exists() or len(passes.read_text().splitlines()) < 3:
+        assert process.poll() is None and time.monotonic() - began < 60
+        time.sleep(0.005)
+    assert study.states.tolist() == ["done", "done", "claimed", "open", "open"]
+    process.send_signal(kind)
+    printed, _ = process.communicate(timeout=60)
+    assert printed == ("interrupted [3, 4, 5] ['done', 'done', 'open', 'open', 'open']\n" if kind == signal.SIGINT else "")
+    assert study.left.tolist() == [3, 4, 5] and study.states[2] == "open"
+    summary = study.directory / "cases/0001/summary.json"
+    before = summary.stat().st_mtime_ns
+    study.run(progress=False)
+    assert summary.stat().st_mtime_ns == before
+    run = study.open(3)
+    assert isinstance(run, asp.Run) and run.is_done
+    whole = asp.study("load.toml", out="whole", progress=False)
+    assert study == whole
+    assert (study.directory / "table.csv").read_bytes() == (whole.directory / "table.csv").read_bytes()
+
+
+def test_an_exception_of_progress_stops_a_study(folder: pathlib.Path) -> None:
+    write(STUDY.replace("seeds = 3", "seeds = 2000"))
+    study = asp.Study("load.toml")
+
+    def progress(_: asp.Progress) -> None:
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        study.run(threads=1, progress=progress)
+    done = int((study.states == "done").sum())
+    assert 0 < done < len(study) and "claimed" not in study.states
+
+
+def test_mistakes_are_told_with_their_place(folder: pathlib.Path) -> None:
+    write('base = "case.toml"\n[axes]\n"contact.lod" = [1, 2]\n')
+    with pytest.raises(errors.CaseError, match="unknown key 'lod'") as raised:
+        asp.Study("load.toml")
+    assert (raised.value.key, raised.value.path, raised.value.line) == ("contact.lod", "load.toml", 3)  # type: ignore[attr-defined]
+    assert raised.value.hint is not None and "load" in raised.value.hint
+    with pytest.raises(errors.MissingFile):
+        asp.Study("nowhere.toml")
+    write(STUDY)
+    study = asp.study("load.toml", progress=False)
+    write(STUDY.replace('"1 mN", 0.002', '"2 mN", 0.001'))
+    with pytest.raises(errors.NotThisStudy, match="cases of its plan have other values") as other:
+        asp.study("load.toml", progress=False)
+    assert other.value.hint == "out= names another directory"
+    assert len(asp.study("load.toml", out="other", progress=False).table) == len(study)
+
+
+def test_a_study_grows_and_has_words_for_values(folder: pathlib.Path) -> None:
+    study = 'base = "case.toml"\n[axes]\n"contact.boundary" = ["free"{}]\n"contact.tolerance" = [1e-6, 1e-8]\n'
+    write(study.format(""))
+    assert len(asp.study("load.toml", progress=False).table) == 2
+    write(study.format(', "periodic"'))
+    grown = asp.Study("load.toml")
+    assert grown.left.tolist() == [3, 4] and grown.units["contact.boundary"] == ""
+    grown.run(progress=False)
+    assert grown.table["contact.boundary"].tolist() == ["free", "free", "periodic", "periodic"]
+    frame = grown.to_pandas()
+    assert frame.index.name == "case" and frame["contact.boundary"].tolist() == grown.table["contact.boundary"].tolist()
+    assert frame.attrs["units"]["contact_area"] == "m²" and frame.attrs["units"]["contact.tolerance"] == ""
+
+
+def test_studies_pickle_copy_and_show(folder: pathlib.Path) -> None:
+    study = asp.study("load.toml", progress=False)
+    for again in (pickle.loads(pickle.dumps(study)), copy.copy(study)):
+        assert again == study and again.table.dtype == study.table.dtype
+    assert repr(study) == "<Study load: 5 of 5 cases are done, in load>"
+    assert "2 values, 1 mN to 2 mN" in study._repr_html_() and "3 values, 7 to 9" in study._repr_html_()
+    assert asp.Study("load.toml", "elsewhere") != study
