@@ -54,13 +54,16 @@ const SHOWN: [(&str, bool); 24] = [
 
 /// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there stays.
 pub(crate) fn write_study(study: &Study, table: &Table, path: &Path) -> asperity::Result<()> {
-    io::replace(path, page(study, table).as_bytes())
+    let directory = path.parent().unwrap_or(Path::new(""));
+    io::replace(path, page(study, table, directory).as_bytes())
 }
 
-fn page(study: &Study, table: &Table) -> String {
+fn page(study: &Study, table: &Table, directory: &Path) -> String {
     let mut charts = Vec::new();
-    let sections: [Section; 2] =
-        [("curves", "Curves", over_axes(table, &mut charts)), ("cases", "Cases", Some(rows(table)))];
+    let sections: [Section; 2] = [
+        ("curves", "Curves", over_axes(table, &mut charts)),
+        ("cases", "Cases", Some(rows(table, directory))),
+    ];
     let data = json!({ "colours": {}, "charts": Value::from(charts) });
     framed(study.title(), &head(study, table), &sections, &data)
 }
@@ -88,8 +91,11 @@ fn head(study: &Study, table: &Table) -> String {
     }
     let axes = study.axes().iter().map(|axis| {
         let [first, last] = [0, axis.len() - 1].map(|index| axis.text(index));
-        let values =
-            if axis.len() == 1 { first } else { format!("{} values, {first} to {last}", axis.len()) };
+        let values = if axis.len() == 1 {
+            first.to_owned()
+        } else {
+            format!("{} values, {first} to {last}", axis.len())
+        };
         (axis.key().to_owned(), escaped(&values))
     });
     let time: f64 = table.rows().iter().map(|row| row.wall_time).sum();
@@ -105,13 +111,14 @@ fn head(study: &Study, table: &Table) -> String {
     html + &facts(axes.chain(rest))
 }
 
-/// A row per case: its values, its main numbers, each column in one unit.
-fn rows(table: &Table) -> String {
+/// A row per case: its values, its main numbers, each column in one unit. It leads to the case's own page where that was made,
+/// else to its folder.
+fn rows(table: &Table, directory: &Path) -> String {
     let shown = shown(table);
     let columns: Vec<(usize, Multiple)> =
         shown.iter().map(|(column, _)| (*column, multiple(table, *column))).collect();
     let mut html = String::from(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"cases\"><table><thead><tr><th scope=\"col\">case</th>",
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table of cases\"><table><thead><tr><th scope=\"col\">case</th>",
     );
     for axis in table.axes() {
         let _ = write!(html, "<th scope=\"col\">{}</th>", escaped(axis.key()));
@@ -124,9 +131,11 @@ fn rows(table: &Table) -> String {
     html += "<th scope=\"col\">warnings</th></tr></thead><tbody>";
     let listed = super::table::evenly(table.rows().len(), MAX_ROWS);
     for row in listed.iter().map(|n| &table.rows()[*n]) {
-        let _ = write!(html, "<tr><th scope=\"row\"><a href=\"cases/{0:04}/\">{0:04}</a></th>", row.case);
+        let case = format!("cases/{:04}/", row.case);
+        let own = if directory.join(&case).join(super::FILE).exists() { super::FILE } else { "" };
+        let _ = write!(html, "<tr><th scope=\"row\"><a href=\"{case}{own}\">{:04}</a></th>", row.case);
         for (axis, index) in table.axes().iter().zip(&row.indices) {
-            let _ = write!(html, "<td>{}</td>", escaped(&minus(&axis.text(*index as usize))));
+            let _ = write!(html, "<td>{}</td>", escaped(&minus(axis.text(*index as usize))));
         }
         if let Some(message) = &row.failure {
             let _ = write!(
@@ -232,7 +241,7 @@ fn chart(table: &Table, x: usize, by: Option<usize>, column: usize) -> Curves {
                 .map(|(index, (sum, count))| [numbers[*index as usize], sum / *count as f64])
                 .collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let name = by.map_or(what.to_owned(), |by| table.axes()[by].text(*curve as usize));
+            let name = by.map_or(what.to_owned(), |by| table.axes()[by].text(*curve as usize).to_owned());
             Series::new(name, points, Mark::LineAndPoints)
         })
         .collect();

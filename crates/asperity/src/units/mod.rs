@@ -5,7 +5,7 @@ mod range;
 
 pub use quantity::{
     CELSIUS, Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number,
-    format_within, parse,
+    format_number_digits, format_within, parse,
 };
 pub use range::{MAX_COUNT, NUMBERS, Range};
 

@@ -129,11 +129,16 @@ pub fn format_distinct(values: [f64; 2], dimension: Dimension) -> [String; 2] {
 
 /// Writes a pure number with four digits: `0.7`, `1.2e-9`.
 pub fn format_number(value: f64) -> String {
+    format_number_digits(value, 4)
+}
+
+/// [`format_number()`] with another number of significant digits; all of those before the point are written.
+pub fn format_number_digits(value: f64, digits: usize) -> String {
     match value.abs() {
         size if size != 0.0 && size.is_finite() && !(1e-4..1e6).contains(&size) => {
-            format!("{:e}", round(value, 4))
+            format!("{:e}", round(value, digits))
         }
-        size if size.is_finite() => decimal(value, 4),
+        size if size.is_finite() => decimal(value, digits),
         _ => format!("{value}"),
     }
 }

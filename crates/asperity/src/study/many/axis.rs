@@ -18,6 +18,8 @@ pub struct Axis {
     /// The values in SI, where all of them are numbers or quantities.
     numbers: Option<Vec<f64>>,
     dimension: Option<Dimension>,
+    /// The values as people say them.
+    texts: Vec<String>,
     is_seed: bool,
 }
 
@@ -31,7 +33,8 @@ pub(super) struct Stated {
 impl Axis {
     /// An axis of at least one value. The unit of numbers that have none is not known yet.
     pub(super) fn new(key: String, values: Vec<Stated>) -> Self {
-        let mut axis = Self { is_seed: key.ends_with("seed"), key, values, numbers: None, dimension: None };
+        let is_seed = key.ends_with("seed");
+        let mut axis = Self { key, values, numbers: None, dimension: None, texts: Vec::new(), is_seed };
         let texts: Vec<&str> = axis.values.iter().filter_map(|stated| stated.value.as_str()).collect();
         let fits = |dimension: &Dimension| texts.iter().all(|text| units::parse(text, *dimension).is_ok());
         if !texts.is_empty() {
@@ -45,6 +48,7 @@ impl Axis {
     pub(super) fn measure(&mut self, dimension: Option<Dimension>) {
         self.dimension = dimension;
         self.numbers = self.values.iter().map(|stated| number(&stated.value, dimension)).collect();
+        self.texts = texts(&self.values, self.numbers.as_deref(), dimension);
     }
 
     /// Whether all values are numbers without a unit.
@@ -99,14 +103,9 @@ impl Axis {
         }
     }
 
-    /// The value of this index as people say it: `1 N`.
-    pub fn text(&self, index: usize) -> String {
-        match (&self.values[index].value, &self.numbers, self.dimension) {
-            (Value::String(text), ..) => text.clone(),
-            (_, Some(numbers), Some(dimension)) => units::format(numbers[index], dimension),
-            (Value::Float(number), ..) => format!("{number:?}"),
-            (other, ..) => other.to_string(),
-        }
+    /// The value of this index as people say it: `1 N`; of more than four digits those that tell the values apart, three at least.
+    pub fn text(&self, index: usize) -> &str {
+        &self.texts[index]
     }
 
     pub(super) fn value(&self, index: usize) -> &Value {
@@ -115,6 +114,42 @@ impl Axis {
 
     pub(super) fn span(&self, index: usize) -> Range<usize> {
         self.values[index].span.clone()
+    }
+}
+
+/// Values as people say them: with so few digits as tell them apart, but as they are stated where that is short.
+fn texts(values: &[Stated], numbers: Option<&[f64]>, dimension: Option<Dimension>) -> Vec<String> {
+    const LEAST: usize = 3;
+    const ALL: usize = 17;
+    let with = |digits: usize| -> Vec<String> {
+        let said =
+            |(n, stated): (usize, &Stated)| said(&stated.value, numbers.map(|all| all[n]), dimension, digits);
+        values.iter().enumerate().map(said).collect()
+    };
+    let different = |texts: &[String]| texts.iter().collect::<BTreeSet<_>>().len();
+    let all = with(ALL);
+    let most = different(&all);
+    (LEAST..ALL).map(with).find(|texts| different(texts) == most).unwrap_or(all)
+}
+
+/// A value, which is a number in SI where it is one, with so many digits if it has more than a few.
+fn said(value: &Value, number: Option<f64>, dimension: Option<Dimension>, digits: usize) -> String {
+    const FEW: usize = 4;
+    let own = |number: f64| {
+        format!("{:e}", number.abs()).bytes().take_while(|b| *b != b'e').filter(u8::is_ascii_digit).count()
+    };
+    let digits = |number: f64| if own(number) <= FEW { FEW } else { digits.min(own(number)) };
+    match (value, number, dimension) {
+        (Value::String(text), Some(_), _) => match split(text) {
+            Some((number, unit)) if own(number) > FEW => {
+                format!("{} {unit}", units::format_number_digits(number, digits(number)))
+            }
+            _ => text.clone(),
+        },
+        (Value::String(text), ..) => text.clone(),
+        (_, Some(number), Some(dimension)) => units::format_digits(number, dimension, digits(number)),
+        (Value::Float(number), ..) => units::format_number_digits(*number, digits(*number)),
+        (other, ..) => other.to_string(),
     }
 }
 
@@ -271,14 +306,18 @@ fn end(entry: &Entry<'_>) -> Result<(f64, String)> {
         Value::Integer(whole) => (whole as f64, String::new()),
         Value::Float(number) => (number, String::new()),
         Value::String(text) => {
-            let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
-            let mut split = ends.filter_map(|end| Some((text[..end].trim().parse().ok()?, &text[end..])));
-            let (number, unit): (f64, &str) = split.next().ok_or_else(expected)?;
-            (number, unit.trim().to_owned())
+            let (number, unit) = split(&text).ok_or_else(expected)?;
+            (number, unit.to_owned())
         }
         _ => return Err(expected()),
     };
     if number.is_finite() { Ok((number, unit)) } else { Err(expected()) }
+}
+
+/// The number that a quantity begins with, and its unit.
+fn split(text: &str) -> Option<(f64, &str)> {
+    let mut ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
+    ends.find_map(|end| Some((text[..end].trim().parse().ok()?, text[end..].trim())))
 }
 
 #[cfg(test)]
@@ -298,9 +337,42 @@ mod tests {
         let axis = Axis::new("contact.load".to_owned(), ["500 mN", "2 N"].map(stated).to_vec());
         assert_eq!(
             (axis.label(), axis.cell(0), axis.text(0)),
-            ("contact.load (N)".into(), "0.5".into(), "500 mN".into())
+            ("contact.load (N)".into(), "0.5".into(), "500 mN")
         );
         let axis = Axis::new("lower.topography.file".to_owned(), ["a.x3p", "5 m.npy"].map(stated).to_vec());
         assert_eq!((axis.label(), axis.numbers()), ("lower.topography.file".to_owned(), None));
+    }
+
+    #[test]
+    fn a_value_is_said_with_the_digits_that_tell_it_from_the_others() {
+        let said = |values: &[Value], dimension: Option<Dimension>| {
+            let stated = |value: &Value| Stated { value: value.clone(), span: 0..0 };
+            let mut axis = Axis::new("a.b".to_owned(), values.iter().map(stated).collect());
+            if axis.is_bare() {
+                axis.measure(dimension);
+            }
+            let of = |index| (axis.text(index).to_owned(), axis.cell(index));
+            (0..axis.len()).map(of).unzip::<_, _, Vec<_>, Vec<_>>()
+        };
+        let texts = |texts: &[&str]| texts.iter().map(|text| Value::from(*text)).collect::<Vec<_>>();
+        let floats = |numbers: &[f64]| numbers.iter().map(|number| Value::from(*number)).collect::<Vec<_>>();
+
+        let (told, kept) =
+            said(&texts(&["10 MPa", "31.6227766017 MPa", "100 MPa", "316.227766017 MPa"]), None);
+        assert_eq!(told, ["10 MPa", "31.6 MPa", "100 MPa", "316 MPa"]);
+        assert_eq!(kept[1], "31622776.6017");
+        let (told, kept) = said(&floats(&[0.01, 0.0316227766017, 0.1]), None);
+        assert_eq!(
+            (told, kept[1].as_str()),
+            (vec!["0.01".into(), "0.0316".into(), "0.1".into()], "0.0316227766017")
+        );
+        assert_eq!(said(&floats(&[0.01, 0.0316227766017]), Some(Dimension::Force)).0, ["10 mN", "31.6 mN"]);
+        // So many that they differ, and none that was stated is lost where it is short.
+        assert_eq!(said(&floats(&[1.00001, 1.00002]), Some(Dimension::Force)).0, ["1.00001 N", "1.00002 N"]);
+        assert_eq!(said(&texts(&["1.23456 N", "1.23416 N", "1 N"]), None).0, ["1.235 N", "1.234 N", "1 N"]);
+        assert_eq!(said(&texts(&["1.234 N", "35nm"]), None).0, ["1.234 N", "35nm"]);
+        assert_eq!(said(&texts(&["1.234 N", "12345.6 N"]), None).0, ["1.234 N", "12346 N"]);
+        assert_eq!(said(&floats(&[1e-8, 1.23456e-7, 0.1, 0.1]), None).0, ["1e-8", "1.23e-7", "0.1", "0.1"]);
+        assert_eq!(said(&[Value::from(123_456), Value::from(123_457)], None).0, ["123456", "123457"]);
     }
 }

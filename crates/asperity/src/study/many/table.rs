@@ -155,7 +155,7 @@ impl Table {
             add(column, &unit, &|row| row.numbers[n]);
         }
         for axis in self.axes.iter().filter(|axis| axis.numbers().is_none()) {
-            let words: Vec<String> = (0..axis.len()).map(|index| axis.text(index)).collect();
+            let words: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
             file.set(&format!("{}: words", axis.key()), words.join("\n").as_str());
         }
         let failures: Vec<String> = self
