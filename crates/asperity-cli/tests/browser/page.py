@@ -1,4 +1,4 @@
-"""The page of results in a browser: `python page.py ASPERITY FOLDER`.
+"""The pages of results and of a study in a browser: `python page.py ASPERITY FOLDER`.
 
 ASPERITY is the command, FOLDER takes the examples that are computed and screenshots of their pages. It needs playwright
 (its driver alone), h5py, and Chromium: $CHROMIUM, or `chromium` of the path. $AXE is the file axe.min.js of axe-core; without
@@ -57,6 +57,20 @@ CASES = {
     "level": case(PLANE, RIGID, "contact = { load = 1e-2 }\nmotion = { passes = 1, stride = 8 }\noutput = { pressure_every = 1 }"),
     "unkept": case(ROUGH, ROUGH, "contact = { load = 1e-2 }\nmotion = { passes = 2 }\noutput = { pressure_every = 0 }"),
 }
+
+
+# Loads over decades, of which the last one is more than the body bears; samples; a title that is no HTML.
+STUDY = f"""
+title = '{TITLE}'
+[base]
+lower = {{ poisson = 0.3, hardness = 2e9, {ROUGH}, shape = [24, 24], pitch = 4e-6 }} }}
+upper = {{ poisson = 0.3, {PLANE} }} }}
+contact = {{ load = 0 }}
+[axes]
+"contact.load" = {{ from = "0.0001 N", to = "100 N", count = 5, spacing = "log" }}
+"lower.topography.sq" = {{ from = "10 nm", to = "100 nm", count = 3, spacing = "log" }}
+"lower.topography.seed" = {{ seeds = 2 }}
+"""
 
 
 class Data(html.parser.HTMLParser):
@@ -285,6 +299,134 @@ def look_at(browser, path, results, folder, axe):
     context.close()
 
 
+def computed_study(asperity, folder):
+    """A study whose last loads fail, with the page of one case; its directory."""
+    directory = folder / "study"
+    (folder / "study.toml").write_text(STUDY)
+    command = [asperity, "study", folder / "study.toml", "--quiet"]
+    assert subprocess.run(command, stderr=subprocess.DEVNULL).returncode == 1
+    subprocess.run([asperity, "report", directory / "cases/0003"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([*command, "--collect"], check=True, stderr=subprocess.DEVNULL)
+    return directory
+
+
+def rows_are_the_table(tab, table):
+    """A row per case, each with its values, its numbers and its warnings, or with why it failed."""
+    heads = [head.inner_text().split("\n") for head in tab.locator("#cases thead th").all()]
+    rows = tab.evaluate("[...document.querySelectorAll('#cases tbody tr')].map((r) => [...r.cells].map((c) => [c.innerText, c.colSpan]))")
+    assert len(rows) == len(table) and any(row["state"] == "failed" for row in table)
+    units = {"N": 1, "mN": 1e-3, "µN": 1e-6, "mm²": 1e-6, "µm²": 1e-12, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "GPa": 1e9, "MPa": 1e6, "J": 1,
+             "mJ": 1e-3, "µJ": 1e-6, "nJ": 1e-9, "pJ": 1e-12, "mm³": 1e-9, "µm³": 1e-18, "MN/m": 1e6, "kN/m": 1e3}  # fmt: skip
+    number = lambda text: float(text.replace("−", "-"))
+    for cells, row in zip(rows, table):
+        assert sum(span for _, span in cells) == len(heads) and cells[0][0] == row["case"]
+        for [text, _], key, unit in zip(cells[1:4], ("contact.load", "lower.topography.sq", "lower.topography.seed"), (" (N)", " (m)", "")):
+            said, _, symbol = text.partition(" ")
+            assert np.isclose(number(said) * units.get(symbol, 1), float(row[key + unit]), rtol=6e-3), (text, row[key + unit])
+            assert len(said.lstrip("0.").replace(".", "")) <= 4, said
+        if row["state"] == "failed":
+            assert cells[4][0] == row["message"] and "exceeds the plastic limit" in row["message"]
+            continue
+        for [text, _], [name, *unit] in zip(cells[4:-1], heads[4:-1]):
+            shown, expected = number(text) * units[unit[0]] if unit else number(text), float(row[name.replace(" ", "_")])
+            assert np.isclose(shown, expected, rtol=6e-4, atol=0), (name, text, expected)
+        assert cells[-1][0] == row["warnings"]
+
+
+def curves_are_means_of_the_table(tab, data, table):
+    """A curve for each value of the other axis; the mean over the samples at each point, to the last digit in the CSV."""
+    done = [row for row in table if row["state"] == "done"]
+    keys = {"contact.load": "contact.load (N)", "lower.topography.sq": "lower.topography.sq (m)"}
+    for key, column in keys.items():
+        [other] = [of for each, of in keys.items() if each != key]
+        chart = next(chart for chart in data["charts"] if chart["title"].startswith(f"contact area over {key}, means"))
+        assert len(chart["series"]) == len({row[other] for row in done})
+        assert len({series["name"] for series in chart["series"]}) == len(chart["series"])
+        assert all(len(series["name"]) < 10 for series in chart["series"]), [series["name"] for series in chart["series"]]
+        text = tab.evaluate("title => charts.find((view) => view.chart.title === title).csv()", chart["title"])
+        rows = list(csv.reader(text.splitlines()))
+        assert rows[0][0] == column
+        for n, value in enumerate(sorted({float(row[other]) for row in done}), 1):
+            of_curve = [row for row in done if float(row[other]) == value]
+            for k, x in enumerate(sorted({float(row[column]) for row in of_curve}), 1):
+                areas = [float(row["contact_area"]) for row in of_curve if float(row[column]) == x]
+                assert len(areas) == 2 and float(rows[k][0]) == x
+                assert np.isclose(float(rows[k][n]), np.mean(areas), rtol=1e-15), (key, rows[k], areas)
+    titles = [heading.inner_text() for heading in tab.locator("#curves h3").all()]
+    assert titles == [f"over {key}" for key in keys], titles
+
+
+def keys_reach_the_cases(tab):
+    """Tab comes to each button and link in its turn and shows where it is; the table scrolls by keys; a link leads on by Enter."""
+    seen = []
+    for _ in range(200):
+        tab.keyboard.press("Tab")
+        at = tab.evaluate("""() => { const e = document.activeElement; const s = getComputedStyle(e);
+            return [e.tagName, e.getAttribute("href") || e.getAttribute("aria-label") || e.innerText, s.outlineStyle !== "none"]; }""")
+        if at[0] == "BODY":
+            break
+        assert at[2], f"nothing shows that {at} has the focus"
+        seen.append(at[:2])
+    assert ["A", "cases/0003/report.html"] in seen and ["A", "cases/0001/"] in seen and ["DIV", "table of cases"] in seen, seen
+    assert sum(name.startswith("CSV of") for _, name in seen) == tab.locator("[data-chart]").count()
+    assert len({name for _, name in seen}) == len(seen), "two of one name"
+
+
+def heads_stay(tab):
+    """However far the table of cases is scrolled, the heads of columns and rows are seen."""
+    seen = tab.evaluate("""() => { const box = document.querySelector("#cases .scroll"); box.scrollTo(1e6, 1e6);
+        const at = (e) => e.getBoundingClientRect(), o = at(box), s = [box.scrollTop, box.scrollLeft];
+        const found = [at(box.querySelector("thead th:last-child")).top - o.top, at(box.querySelector("tbody tr:last-child th")).left - o.left];
+        box.scrollTo(0, 0); return [s, found]; }""")
+    [scrolled, found] = seen
+    assert max(scrolled) > 0 and max(map(abs, found)) <= 1, seen
+
+
+def look_at_study(browser, directory, folder, axe):
+    path = directory / "study.html"
+    table = list(csv.DictReader(open(directory / "table.csv")))
+    data = Data(path.read_text()).json
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
+    tab = context.new_page()
+    wrong = []
+    tab.on("console", lambda message: wrong.append(message.text) if message.type in ("error", "warning") else None)
+    tab.on("pageerror", lambda error: wrong.append(str(error)))
+    tab.goto(path.as_uri())
+    tab.wait_for_selector("[data-ready]", timeout=120_000)
+    failed = [row for row in table if row["state"] == "failed"]
+    assert tab.title() == TITLE and tab.locator("h1").inner_text() == TITLE
+    assert tab.locator(".verdict").inner_text() == f"{len(table) - len(failed)} of {len(table)} cases are done, {len(failed)} have failed."
+    told = [item.inner_text() for item in tab.locator(".warning li").all()]
+    assert told == [f"case {row['case']}: {row['message']}" for row in failed]
+    keys_reach_the_cases(tab)
+    rows_are_the_table(tab, table)
+    curves_are_means_of_the_table(tab, data, table)
+    nothing_is_empty(tab)
+    downloads(tab, folder)
+    for width in (1280, 400):
+        tab.set_viewport_size({"width": width, "height": 900})
+        tab.wait_for_timeout(400)
+        beyond = tab.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+        assert beyond <= 0, f"{beyond} pixels beyond {width}"
+        is_accessible(tab, axe)
+        heads_stay(tab)
+        tab.evaluate("scrollTo(0, 0)")
+        tab.screenshot(path=folder / f"study-{width}.png", full_page=True)
+    tab.locator("#cases a", has_text="0003").focus()
+    tab.keyboard.press("Enter")
+    tab.wait_for_selector("[data-ready]", timeout=120_000)
+    assert tab.url == (directory / "cases/0003/report.html").as_uri() and "case 3" in tab.locator("h1").inner_text()
+    assert not wrong, wrong
+    context.close()
+
+    context = browser.new_context(java_script_enabled=False)
+    tab = context.new_page()
+    tab.goto(path.as_uri())
+    rows_are_the_table(tab, table)
+    context.close()
+    print(f"study: {len(table)} cases, {len(failed)} of them failed")
+
+
 def main(asperity, folder):
     folder.mkdir(parents=True, exist_ok=True)
     axe = Path(os.environ["AXE"]).read_text() if os.environ.get("AXE") else None
@@ -303,6 +445,7 @@ def main(asperity, folder):
             subprocess.run([asperity, "report", results, "--out", path], check=True, stdout=subprocess.DEVNULL)
             look_at(browser, path, results, folder, axe)
         assert (folder / "quickstart.html").stat().st_size < MAX_SIZE
+        look_at_study(browser, computed_study(asperity, folder), folder, axe)
         browser.close()
 
 
