@@ -39,7 +39,7 @@ class ChartView {
       size: name === "x" ? 34 : 58, space: name === "x" ? 55 : 34,
       ...(of.log ? { splits: (u, _, min, max) => decades(min, max) } : {}),
       ...(of.whole ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5] } : {}),
-      values: (_, all) => all.map((v) => (v === null ? "" : tick(v, of.log))),
+      values: (_, all) => labels(all, of.log),
     });
     const options = {
       mode: 2, width: this.width(), height: this.height(), legend: { show: false },
@@ -162,13 +162,18 @@ function decades(min, max) {
   return all.filter((v) => v >= min - 1e-9 && v <= max + 1e-9);
 }
 
-/** What stands at a tick; of a logarithmic axis ticks are decimal logarithms. */
-function tick(v, log) {
-  if (!log) return round(v);
-  if (v >= -3 && v < 5) return digits(10 ** v);
-  const power = Math.floor(v + 1e-9);
-  const mantissa = 10 ** (v - power);
-  const raised = String(power).replace(/./g, (d) => (d === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]));
+/** What stands at the ticks; of a logarithmic axis these are decimal logarithms, said as powers of ten where one of them is far from 1. */
+function labels(all, log) {
+  const plain = all.every((v) => v === null || (v >= -3 - 1e-9 && v < 5));
+  const one = (v) => (log ? (plain ? digits(10 ** v) : power(v)) : round(v));
+  return all.map((v) => (v === null ? "" : one(v)));
+}
+
+/** A number by its decimal logarithm: 2·10⁻⁷. */
+function power(v) {
+  const exponent = Math.floor(v + 1e-9);
+  const mantissa = 10 ** (v - exponent);
+  const raised = String(exponent).replace(/./g, (d) => (d === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]));
   return `${Math.abs(mantissa - 1) > 1e-6 ? `${digits(mantissa)}·` : ""}10${raised}`;
 }
 
@@ -181,8 +186,10 @@ function drawSeries(u, s, [xs, ys], colour) {
     return ok ? [u.valToPos(xs[k], "x", true), u.valToPos(ys[k], scale, true)] : null;
   };
   c.save();
+  // A marker at the edge is drawn in full.
+  const room = 4 * ratio;
   c.beginPath();
-  c.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+  c.rect(u.bbox.left - room, u.bbox.top - room, u.bbox.width + 2 * room, u.bbox.height + 2 * room);
   c.clip();
   c.strokeStyle = c.fillStyle = colour;
   c.lineWidth = 1.6 * ratio;

@@ -352,6 +352,9 @@ def curves_are_means_of_the_table(tab, data, table):
                 areas = [float(row["contact_area"]) for row in of_curve if float(row[column]) == x]
                 assert len(areas) == 2 and float(rows[k][0]) == x
                 assert np.isclose(float(rows[k][n]), np.mean(areas), rtol=1e-15), (key, rows[k], areas)
+    # All ticks of an axis are said in one way.
+    said = tab.evaluate("[[0, 1, 2], [-4, -3, -2, -1, 0, 1], [-7, Math.log10(2e-7)]].map((all) => labels(all, true))")
+    assert said == [["1", "10", "100"], ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"], ["10⁻⁷", "2·10⁻⁷"]], said
     titles = [heading.inner_text() for heading in tab.locator("#curves h3").all()]
     assert titles == [f"over {key}" for key in keys], titles
 
