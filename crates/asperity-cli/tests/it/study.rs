@@ -208,6 +208,21 @@ fn a_case_that_fails_has_a_row_with_its_message_and_is_done_until_it_is_retried(
 }
 
 #[test]
+fn a_motion_whose_bodies_never_touch_is_a_row_too() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"contact.approach\" = [\"-1 um\", \"20 nm\"]\n");
+    add_motion(&folder);
+    change(&folder.path().join("case.toml"), "load = \"2 mN\"", "");
+    ok(&asperity(&folder, "study load.toml"));
+    let rows = table(&folder.path().join("load/table.csv"));
+    let of = |column: &str| rows.iter().map(|row| row[column].clone()).collect::<Vec<_>>();
+    assert_eq!(of("state"), ["done", "done"]);
+    assert_eq!(
+        (of("max_load")[0].as_str(), of("friction_coefficient")),
+        ("0.0", vec![String::new(), "0.0".to_owned()])
+    );
+}
+
+#[test]
 fn a_study_grows_at_its_end_and_is_not_mixed_with_another() {
     let study = |values: &str| format!("base = \"case.toml\"\n[axes]\n\"contact.load\" = [{values}]\n");
     let folder = folder_with(&study("\"1 mN\", \"2 mN\""));

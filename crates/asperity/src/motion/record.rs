@@ -411,7 +411,8 @@ pub struct PassRecord {
     pub mean_load: Newton,
     /// Mean friction force along x of the upper body on the lower one.
     pub mean_tangential_force: Newton,
-    /// Mean magnitude of the friction force over mean load.
+    /// Mean magnitude of the friction force over mean load; NaN where no position bears a load.
+    #[serde(deserialize_with = "number_or_none")]
     pub friction_coefficient: f64,
     /// Smallest load at a position of the pass.
     pub min_load: Newton,
