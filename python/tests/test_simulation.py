@@ -88,6 +88,12 @@ def test_a_run_tells_its_passes_positions_and_surfaces(pair: Pair) -> None:
         run.fields(3)
 
 
+def test_a_run_whose_bodies_never_touch_is_read(pair: Pair, tmp_path: pathlib.Path) -> None:
+    run = asp.simulate(*pair, approach="-1 um", stride=8, out=tmp_path / "out")
+    assert np.isnan(run.passes["friction_coefficient"]).all() and run.passes["max_load"].tolist() == [0.0]
+    assert any("no contact" in text for text in run.warnings) and asp.open(tmp_path / "out") == run
+
+
 def archard(p: asp.Pass, over_hardness: float = 2e-13) -> tuple[np.ndarray, np.ndarray]:
     """Depths by Archard's law: coefficient over hardness, 1/Pa, times pressure times sliding distance."""
     depths = [np.zeros(shape[0] * shape[1]) for shape in p.shapes]
