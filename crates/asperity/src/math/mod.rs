@@ -25,7 +25,7 @@ pub(crate) use fft::RealFft2;
 pub(crate) use gathered::gathered;
 pub(crate) use gmres::gmres;
 pub(crate) use good_size::good_size;
-pub(crate) use mixed::{MixedConvolution, MixedKernel};
+pub(crate) use mixed::{MixedConvolution, MixedKernel, MixedTensorConvolution, MixedTensorKernel};
 pub(crate) use parallel::Bands;
 pub(crate) use planes::{Planes, together};
 pub(crate) use quadrature::{gauss_legendre, integrate};

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex64;
+use ndarray::Array2;
+use realfft::num_complex::Complex;
+use rustfft::FftNum;
 use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
-use crate::math::convolution::{Parity, Plans, Scratch, Transform};
+use crate::math::convolution::{Parity, Plans, Scratch, Strip, Transform, real};
 use crate::math::parallel::{self, Pool};
 
 /// Parities along x and y of the components xx, xy, yy, xz, yz and zz of the tensor.
@@ -28,15 +30,18 @@ const PARITIES: [[Parity; 2]; 6] = [
 /// ```
 ///
 /// What is odd at an offset of half an even period, which is its own opposite, counts as zero.
-pub(crate) struct TensorKernel {
-    plans: Plans<f64>,
-    /// xx, xy, yy, zx, zy, zz; zx and zy as the imaginary parts of what has no real one.
-    spectra: [Field; 6],
+pub(crate) struct TensorKernel<T> {
+    plans: Plans<T>,
+    /// xx, xy, yy, zx, zy, zz, over the unit; zx and zy as the imaginary parts of what has no real one. Kernels of either precision
+    /// share them.
+    spectra: Arc<[Field; 6]>,
+    /// A power of two, of the size of the largest of the spectra: within the range of single precision they are shares of it.
+    unit: f64,
     /// Whether zx or zy are not zero.
     coupled: bool,
 }
 
-impl TensorKernel {
+impl TensorKernel<f64> {
     /// The tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the offsets i, j,
     /// for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
@@ -72,7 +77,16 @@ impl TensorKernel {
         let cells = (plans.shape[0] * plans.shape[1]) as f64;
         spectra.iter_mut().for_each(|spectrum| *spectrum /= cells);
         let coupled = spectra[3..5].iter().flatten().any(|s| *s != 0.0);
-        Self { plans, spectra, coupled }
+        let largest = spectra.iter().flatten().fold(0.0f64, |most, s| most.max(s.abs()));
+        let unit = if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 };
+        spectra.iter_mut().for_each(|spectrum| *spectrum /= unit);
+        Self { plans, spectra: Arc::new(spectra), unit, coupled }
+    }
+
+    /// The same kernel for transforms in single precision.
+    pub(crate) fn to_single(&self) -> TensorKernel<f32> {
+        let plans = Plans::new(self.plans.shape);
+        TensorKernel { plans, spectra: Arc::clone(&self.spectra), unit: self.unit, coupled: self.coupled }
     }
 }
 
@@ -90,19 +104,19 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
 /// Convolution of three fields of one shape with a [`TensorKernel`], as [`super::Convolution`] does it of one.
 ///
 /// Each field given is transformed once, each field asked for transformed back once.
-pub(crate) struct TensorConvolution {
-    kernel: Arc<TensorKernel>,
-    transforms: [Transform<f64>; 3],
-    rows: Pool<Scratch<f64>>,
-    strips: Pool<[Scratch<f64>; 3]>,
+pub(crate) struct TensorConvolution<T> {
+    kernel: Arc<TensorKernel<T>>,
+    transforms: [Transform<T>; 3],
+    rows: Pool<Scratch<T>>,
+    strips: Pool<[Scratch<T>; 3]>,
 }
 
-impl TensorConvolution {
+impl<T: FftNum> TensorConvolution<T> {
     /// The convolution of fields of `shape`.
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
-    pub(crate) fn new(kernel: Arc<TensorKernel>, shape: [usize; 2]) -> Self {
+    pub(crate) fn new(kernel: Arc<TensorKernel<T>>, shape: [usize; 2]) -> Self {
         Self {
             transforms: std::array::from_fn(|_| Transform::new(&kernel.plans, shape)),
             rows: Pool::default(),
@@ -115,7 +129,7 @@ impl TensorConvolution {
     ///
     /// # Panics
     /// If a field has another shape than the plans.
-    pub(crate) fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
+    pub(crate) fn apply(&mut self, input: [Option<&Array2<T>>; 3], output: [Option<&mut Array2<T>>; 3]) {
         let Self { kernel, transforms, rows, strips: scratch } = self;
         let plans = &kernel.plans;
         let given = input.map(|field| field.is_some());
@@ -127,6 +141,7 @@ impl TensorConvolution {
         };
         let both = |a: [bool; 3], b: [bool; 3]| std::array::from_fn::<bool, 3, _>(|n| a[n] && b[n]);
         let (forward, back) = (both(given, meet(asked)), both(asked, meet(given)));
+        let in_plane = !(forward[2] || back[2]);
         for ((transform, field), forward) in transforms.iter_mut().zip(input).zip(forward) {
             if let (Some(field), true) = (field, forward) {
                 transform.rows_forward(plans, field, rows);
@@ -144,14 +159,10 @@ impl TensorConvolution {
                     if forward {
                         strip.forward(plans, scratch);
                     } else {
-                        strip.columns(plans, scratch).for_each(|(_, column)| column.fill(Complex64::zero()));
+                        strip.columns(plans, scratch).for_each(|(_, column)| column.fill(Complex::zero()));
                     }
                 }
-                let [x, y, z] = scratch.each_mut();
-                let columns = strips[0].columns(plans, x).zip(strips[1].columns(plans, y));
-                for (((ky, x), (_, y)), (_, z)) in columns.zip(strips[2].columns(plans, z)) {
-                    kernel.multiply(ky, [x, y, z]);
-                }
+                kernel.multiply(&strips, scratch, in_plane);
                 for ((strip, scratch), back) in strips.iter_mut().zip(scratch).zip(back) {
                     if back {
                         strip.back(plans, scratch);
@@ -161,8 +172,8 @@ impl TensorConvolution {
         );
         for ((transform, field), back) in transforms.iter_mut().zip(output).zip(back) {
             match field {
-                Some(field) if back => transform.rows_back(plans, 1.0, field, rows),
-                Some(field) => field.fill(0.0),
+                Some(field) if back => transform.rows_back(plans, real(kernel.unit), field, rows),
+                Some(field) => field.fill(T::zero()),
                 None => {}
             }
         }
@@ -170,46 +181,74 @@ impl TensorConvolution {
 }
 
 /// Scratch for the transforms of three fields.
-fn scratch(plans: &Plans<f64>) -> [Scratch<f64>; 3] {
+fn scratch<T: FftNum>(plans: &Plans<T>) -> [Scratch<T>; 3] {
     std::array::from_fn(|_| Scratch::new(plans))
 }
 
-impl TensorKernel {
-    /// Multiplies the columns of the three fields at the bin `ky` by the tensor.
-    fn multiply(&self, ky: usize, [x, y, z]: [&mut [Complex64]; 3]) {
-        let rows = self.spectra.each_ref().map(|spectrum| spectrum.row(ky));
-        let spectra = rows.each_ref().map(|row| row.as_slice().expect("rows are contiguous"));
+impl<T: FftNum> TensorKernel<T> {
+    /// Multiplies the columns of three strips by the tensor; `in_plane` where there is nothing along z.
+    fn multiply(&self, strips: &[Strip<T>; 3], scratch: &mut [Scratch<T>; 3], in_plane: bool) {
         let half = self.plans.shape[0] / 2 + 1;
-        let ((x, x_back), (y, y_back), (z, z_back)) =
-            (x.split_at_mut(half), y.split_at_mut(half), z.split_at_mut(half));
-        multiply(x.iter_mut(), y.iter_mut(), z.iter_mut(), spectra, 1.0);
-        // The bins of negative kx, of which those of opposite sign are known: what is odd in x changes its sign.
-        let opposite = spectra.map(|spectrum| &spectrum[1..]);
-        multiply(x_back.iter_mut().rev(), y_back.iter_mut().rev(), z_back.iter_mut().rev(), opposite, -1.0);
+        let [x, y, z] = scratch;
+        let columns = strips[0].columns(&self.plans, x).zip(strips[1].columns(&self.plans, y));
+        for (((ky, x), (_, y)), (_, z)) in columns.zip(strips[2].columns(&self.plans, z)) {
+            let spectra = self.spectra.each_ref().map(|spectrum| {
+                let columns = spectrum.ncols();
+                &spectrum.as_slice().expect("standard layout")[ky * columns..][..columns]
+            });
+            // The bins of negative kx, of which those of opposite sign are known: what is odd in x changes its sign.
+            let opposite = spectra.map(|spectrum| &spectrum[1..]);
+            let ((x, x_back), (y, y_back)) = (x.split_at_mut(half), y.split_at_mut(half));
+            let (x_back, y_back) = (x_back.iter_mut().rev(), y_back.iter_mut().rev());
+            if in_plane {
+                multiply_in_plane(x.iter_mut(), y.iter_mut(), spectra, T::one());
+                multiply_in_plane(x_back, y_back, opposite, -T::one());
+            } else {
+                let (z, z_back) = z.split_at_mut(half);
+                multiply(x.iter_mut(), y.iter_mut(), z.iter_mut(), spectra, T::one());
+                multiply(x_back, y_back, z_back.iter_mut().rev(), opposite, -T::one());
+            }
+        }
     }
 }
 
 /// Multiplies the bins of the three fields by the tensor, whose parts that are odd in x have this `sign`.
-fn multiply<'a>(
-    x: impl Iterator<Item = &'a mut Complex64>,
-    y: impl Iterator<Item = &'a mut Complex64>,
-    z: impl Iterator<Item = &'a mut Complex64>,
+fn multiply<'a, T: FftNum>(
+    x: impl Iterator<Item = &'a mut Complex<T>>,
+    y: impl Iterator<Item = &'a mut Complex<T>>,
+    z: impl Iterator<Item = &'a mut Complex<T>>,
     [xx, xy, yy, zx, zy, zz]: [&[f64]; 6],
-    sign: f64,
+    sign: T,
 ) {
     let fields = x.zip(y).zip(z);
     let tensor = xx.iter().zip(xy).zip(yy).zip(zx).zip(zy).zip(zz);
     for (((x, y), z), (((((xx, xy), yy), zx), zy), zz)) in fields.zip(tensor) {
         let (a, b, c) = (*x, *y, times_i(*z));
-        let (xy, zx) = (sign * xy, sign * zx);
-        *z = times_i(a.scale(zx) + b.scale(*zy)) + z.scale(*zz);
-        *x = a.scale(*xx) + b.scale(xy) - c.scale(zx);
-        *y = a.scale(xy) + b.scale(*yy) - c.scale(*zy);
+        let (xx, yy, zz) = (real(*xx), real(*yy), real(*zz));
+        let (xy, zx, zy) = (sign * real(*xy), sign * real(*zx), real(*zy));
+        *z = times_i(a.scale(zx) + b.scale(zy)) + z.scale(zz);
+        *x = a.scale(xx) + b.scale(xy) - c.scale(zx);
+        *y = a.scale(xy) + b.scale(yy) - c.scale(zy);
     }
 }
 
-fn times_i(value: Complex64) -> Complex64 {
-    Complex64::new(-value.im, value.re)
+/// As [`multiply`] where there is nothing along z.
+fn multiply_in_plane<'a, T: FftNum>(
+    x: impl Iterator<Item = &'a mut Complex<T>>,
+    y: impl Iterator<Item = &'a mut Complex<T>>,
+    [xx, xy, yy, ..]: [&[f64]; 6],
+    sign: T,
+) {
+    for ((x, y), ((xx, xy), yy)) in x.zip(y).zip(xx.iter().zip(xy).zip(yy)) {
+        let (a, b) = (*x, *y);
+        let (xx, xy, yy) = (real(*xx), sign * real(*xy), real(*yy));
+        *x = a.scale(xx) + b.scale(xy);
+        *y = a.scale(xy) + b.scale(yy);
+    }
+}
+
+fn times_i<T: FftNum>(value: Complex<T>) -> Complex<T> {
+    Complex::new(-value.im, value.re)
 }
 
 #[cfg(test)]
@@ -250,7 +289,7 @@ mod tests {
         })
     }
 
-    fn kernel(shape: [usize; 2]) -> Arc<TensorKernel> {
+    fn kernel(shape: [usize; 2]) -> Arc<TensorKernel<f64>> {
         Arc::new(TensorKernel::from_values(shape, |i, j| value(shape, [i as isize, j as isize])))
     }
 
@@ -270,6 +309,33 @@ mod tests {
             let mut convolution = TensorConvolution::new(kernel(shape), cells);
             convolution.apply(input.each_ref().map(Some), fast.each_mut().map(Some));
             fast.iter().zip(&slow).for_each(|(fast, slow)| assert_close(fast, slow));
+        }
+    }
+
+    #[test]
+    fn in_single_precision_it_is_the_same_but_for_rounding_whatever_the_unit() {
+        let (shape, cells) = ([9, 8], [5, 4]);
+        let input = fields(cells);
+        for unit in [1.0, 1e-30, 1e30] {
+            let kernel = TensorKernel::from_values(shape, |i, j| {
+                value(shape, [i as isize, j as isize]).map(|v| unit * v)
+            });
+            for whole in [true, false] {
+                let along_z = if whole { input[2].clone() } else { Field::zeros(cells) };
+                let slow = slowly(shape, &[input[0].clone(), input[1].clone(), along_z]);
+                let mut fast = std::array::from_fn(|_| Array2::<f32>::zeros(cells));
+                let mut convolution = TensorConvolution::new(Arc::new(kernel.to_single()), cells);
+                let single = input.each_ref().map(|field| field.mapv(|v| v as f32));
+                let [x, y, z] = fast.each_mut().map(Some);
+                let given = [Some(&single[0]), Some(&single[1]), whole.then_some(&single[2])];
+                convolution.apply(given, [x, y, z.filter(|_| whole)]);
+                for (fast, slow) in fast.iter().zip(&slow).take(if whole { 3 } else { 2 }) {
+                    let largest = slow.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+                    let off = |(a, b): (&f32, &f64)| (f64::from(*a) / unit - b).abs();
+                    let error = fast.iter().zip(slow).map(off).fold(0.0f64, f64::max);
+                    assert!(error < 1e-6 * largest, "{unit:e}: {error:e}");
+                }
+            }
         }
     }
 
@@ -317,9 +383,9 @@ mod tests {
             let from_values = kernel(shape);
             let cells = (shape[0] * shape[1]) as f64;
             let again = TensorKernel::from_transforms(shape, |kx, ky| {
-                from_values.spectra.each_ref().map(|spectrum| spectrum[[ky, kx]] * cells)
+                from_values.spectra.each_ref().map(|spectrum| spectrum[[ky, kx]] * from_values.unit * cells)
             });
-            for (a, b) in again.spectra.iter().zip(&from_values.spectra) {
+            for (a, b) in again.spectra.iter().zip(&*from_values.spectra) {
                 assert_close(a, b);
             }
         }

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{Coefficients, CoupledResponse, CoupledTable, Line, SharedResponse};
 use crate::math::fft::angular_frequency;
-use crate::math::{TensorConvolution, TensorKernel};
+use crate::math::{MixedTensorConvolution, MixedTensorKernel, TensorKernel};
 use crate::operator::{DirectSum, Operator};
 
 /// The displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of
@@ -26,6 +26,18 @@ pub trait CoupledOperator: Send {
     /// Writes into the displacements asked for those under the tractions given; what is not given is zero. All have the
     /// grid's shape.
     fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]);
+
+    /// Writes the tangential displacement under a shear as [`CoupledOperator::apply`] does, in single precision: to about 3e-7 of the
+    /// largest displacement, in half the time where the operator has its own.
+    fn apply_shear_single(&mut self, shear: &[SingleField; 2], displacement: &mut [SingleField; 2]) {
+        let [x, y] = shear.each_ref().map(|q| q.mapv(f64::from));
+        let mut double = [x.clone(), y.clone()];
+        let [u, v] = double.each_mut();
+        self.apply([Some(&x), Some(&y), None], [Some(u), Some(v), None]);
+        for (single, double) in displacement.iter_mut().zip(&double) {
+            single.zip_mut_with(double, |single, double| *single = *double as f32);
+        }
+    }
 }
 
 /// The free boundary by direct summation of the nine influence coefficients: what the transforms are measured against.
@@ -87,7 +99,7 @@ impl CoupledOperator for CoupledSum {
 
 /// What all coupled operators of one cyclic grid share.
 pub(super) struct CoupledKernel {
-    kernel: Arc<TensorKernel>,
+    kernel: Arc<MixedTensorKernel>,
     self_influence: Coefficients,
 }
 
@@ -109,16 +121,16 @@ impl CoupledKernel {
             }
         };
         let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
-        Arc::new(Self { kernel: Arc::new(kernel), self_influence: at(0, 0) })
+        Arc::new(Self { kernel: MixedTensorKernel::new(kernel), self_influence: at(0, 0) })
     }
 
     /// The kernel for the periodic `grid`.
     pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
-        let kernel = Arc::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
+        let kernel = MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
             in_order(response.harmonic_displacements(q(kx, 0), q(ky, 1)))
         }));
-        let mut convolution = TensorConvolution::new(Arc::clone(&kernel), grid.shape);
+        let mut convolution = MixedTensorConvolution::new(Arc::clone(&kernel), grid.shape);
         let mut unit = grid.zeros();
         unit[[0, 0]] = 1.0;
         let mut under = |axis: usize| {
@@ -133,7 +145,7 @@ impl CoupledKernel {
 
     /// The operator on `grid`, beside its `normal` part.
     pub(super) fn operator(&self, grid: Grid, couples: bool, normal: Box<dyn Operator>) -> CoupledFft {
-        let convolution = TensorConvolution::new(Arc::clone(&self.kernel), grid.shape);
+        let convolution = MixedTensorConvolution::new(Arc::clone(&self.kernel), grid.shape);
         CoupledFft { grid, couples, self_influence: self.self_influence, normal, convolution }
     }
 }
@@ -151,7 +163,7 @@ pub struct CoupledFft {
     couples: bool,
     self_influence: Coefficients,
     normal: Box<dyn Operator>,
-    convolution: TensorConvolution,
+    convolution: MixedTensorConvolution,
 }
 
 impl CoupledOperator for CoupledFft {
@@ -173,6 +185,11 @@ impl CoupledOperator for CoupledFft {
 
     fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]) {
         self.convolution.apply(traction, displacement);
+    }
+
+    fn apply_shear_single(&mut self, shear: &[SingleField; 2], displacement: &mut [SingleField; 2]) {
+        let ([x, y], [u, v]) = (shear, displacement);
+        self.convolution.apply_single([Some(x), Some(y), None], [Some(u), Some(v), None]);
     }
 }
 
@@ -218,6 +235,28 @@ mod tests {
             let mut alone = grid.zeros();
             operator.apply([None, None, Some(&traction[2])], [None, None, Some(&mut alone)]);
             assert!(largest(&(&alone - &normal)) < 1e-14 * largest(&normal));
+        }
+    }
+
+    #[test]
+    fn in_single_precision_shear_displaces_as_in_double() {
+        let pair = steel_on_rubber();
+        let grid = Grid::new([17, 10], [3e-7, 1e-6]).unwrap();
+        let shear: [Field; 2] = std::array::from_fn(|n| {
+            Field::from_shape_fn(grid.shape, |(i, j)| {
+                1e6 * (((7 * i + 3 * j * j + n * i * j) % 11) as f64 - 3.0)
+            })
+        });
+        let single = shear.each_ref().map(|q| q.mapv(|q| q as f32));
+        for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let [x, y] = shear.each_ref().map(Clone::clone);
+            let double = displacement(operator.as_mut(), &[x, y, grid.zeros()]);
+            let mut fast = [0, 1].map(|_| SingleField::zeros(grid.shape));
+            operator.apply_shear_single(&single, &mut fast);
+            for (fast, double) in fast.iter().zip(&double) {
+                assert!(largest(&(&fast.mapv(f64::from) - double)) < 4e-7 * largest(double), "{boundary:?}");
+            }
         }
     }
 

@@ -337,6 +337,49 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
     }
 }
 
+#[test]
+fn what_single_precision_leaves_is_corrected_down_to_any_tolerance() {
+    let grid = Grid::new([48, 40], [1.0; 2]).unwrap();
+    let gap = 0.1 * gap(grid.shape);
+    for pair in [alike(), dissimilar()] {
+        for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let influence = operator.self_influence();
+            let compliance = 0.5 * (influence.xx + influence.yy);
+            let load = 0.01 * pair.modulus() * grid.area();
+            let friction = Friction::coulomb(0.4).unwrap();
+            let tangential = Tangential::Force([0.2 * load, -0.1 * load]);
+            let loading = Loading { normal: Control::Load(load), tangential };
+            let mut solve = |tolerance| {
+                let params = PARAMS.with_tolerance(tolerance);
+                let (operator, bounds) = (operator.as_mut(), Bounds::ELASTIC);
+                solve_frictional(operator, &gap, &bounds, &friction, loading, None, &params).unwrap()
+            };
+            let exact = solve(1e-11);
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-11] {
+                let solution = solve(tolerance);
+                let [shear, slip] = [&solution.shear, &solution.slip].map(|[x, y]| x.iter().zip(y));
+                let cells = shear.zip(slip).zip(&solution.shear_limit);
+                let phi = cells.map(|(((qx, qy), (sx, sy)), limit)| {
+                    let [x, y] = [qx + sx / compliance, qy + sy / compliance];
+                    let inside = (limit / x.hypot(y)).min(1.0);
+                    if *limit > 0.0 { compliance * (qx - inside * x).hypot(qy - inside * y) } else { 0.0 }
+                });
+                let share = (solution.shear_limit.sum() / solution.normal.pressure.sum()).min(1.0);
+                let residual = phi.fold(0.0, f64::max) / (share * solution.normal.displacement.std(0.0));
+                assert!(residual < tolerance, "{boundary:?}: {residual:e} of {tolerance:e}");
+                let apart = |one: &Field, other: &Field| {
+                    one.iter().zip(other).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+                };
+                for axis in 0..2 {
+                    let apart = apart(&solution.shear[axis], &exact.shear[axis]) / exact.max_shear();
+                    assert!(apart < 1e3 * tolerance, "{boundary:?}, {tolerance:e}: {apart:e}");
+                }
+            }
+        }
+    }
+}
+
 /// A smooth contact on a fine grid, all the way to its edges.
 #[test]
 fn a_large_contact_takes_no_more_steps_than_a_small_one() {

@@ -25,7 +25,7 @@ pub(super) fn dot(a: Vector, b: Vector) -> f64 {
 
 /// The magnitude of a vector.
 pub(super) fn length(a: Vector) -> f64 {
-    a[0].hypot(a[1])
+    dot(a, a).sqrt()
 }
 
 /// The vector of the disc of that `radius` nearest to `a`.
@@ -92,6 +92,11 @@ const LENGTHENING: f64 = 4.0;
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Units of rounding in a comparison of two values of the function.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Where the gradient is less than this share of the magnitudes added up in it, the function is so near its minimum that rounding hides
+/// how it falls.
+const NEAR: f64 = 1e-5;
+/// There Newton's step is no more than so many times the one to the minimum of the majorant.
+const MAX_STEP: f64 = 1e3;
 
 /// The offset e at which Σ P(yᵢ + e) is `wanted`, P the projection [`onto_disc`] of radius gᵢ: it exists where |`wanted`| is
 /// less than Σ gᵢ. `cells` are y and g of each, `start` an offset nearby.
@@ -124,16 +129,20 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
             break;
         }
         let newton = here.hessian.solve(times(-1.0, here.gradient));
+        let rounding = |there: &Objective| ROUNDING * (here.value_magnitude + there.value_magnitude);
+        let is_near = length(here.gradient) <= NEAR * here.gradient_magnitude
+            && length(newton) * here.majorant <= MAX_STEP * length(here.gradient);
         let descends = |(_, there): &(Vector, Objective), step: f64| {
-            let rounding = ROUNDING * (here.value_magnitude + there.value_magnitude);
-            there.value <= here.value + SUFFICIENT_DECREASE * step * dot(newton, here.gradient) + rounding
+            let least = here.value + SUFFICIENT_DECREASE * step * dot(newton, here.gradient);
+            there.value <= least + rounding(there)
+                || is_near && length(there.gradient) < length(here.gradient)
         };
         let to = |step: Vector| (add(offset, step), at(add(offset, step)));
         let by_newton = STEP_LENGTHS.into_iter().map(|step| (to(times(step, newton)), step));
         // Where the function is nearly a cone, far from all discs, the majorant sees but the first bit of the way down.
         let lengthened = |mut step: Vector| {
             let (mut found, mut next) = (to(step), to(times(LENGTHENING, step)));
-            while next.1.value < found.1.value {
+            while next.1.value < found.1.value - rounding(&next.1) {
                 step = times(LENGTHENING, step);
                 (found, next) = (next, to(times(LENGTHENING, step)));
             }

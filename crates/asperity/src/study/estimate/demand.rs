@@ -152,7 +152,7 @@ impl Sizes<'_> {
         let normal = 7.0 * nx * ny + transforms + dense;
         // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
         // iteration some thirty numbers for each cell.
-        let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 32.0 * nx * ny;
+        let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         let positions = super::positions(case, [self.lower, self.upper]);
         if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {

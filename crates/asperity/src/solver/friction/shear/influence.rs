@@ -1,11 +1,15 @@
 //! The tangential displacement of cells under their shear, and an approximate inverse of it.
 
-use crate::grid::Field;
+use crate::grid::{Field, SingleField};
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, length};
 use crate::solver::friction::self_compliance;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
+use crate::units::Metre;
+
+/// Error of a displacement in single precision, as a share of its largest value.
+const SINGLE_PRECISION: f64 = 4e-7;
 
 /// The cells of one grid under shear.
 pub(super) struct Influence {
@@ -20,6 +24,10 @@ pub(super) struct Influence {
     loaded: [Field; 2],
     /// Displacement of the grid under that shear.
     displaced: [Field; 2],
+    /// Shear on the grid that is convolved in single precision.
+    loaded_single: [SingleField; 2],
+    /// Displacement of the grid under that shear.
+    displaced_single: [SingleField; 2],
 }
 
 impl Influence {
@@ -32,12 +40,15 @@ impl Influence {
             single: [vec![0.0; grid.cells()], vec![0.0; grid.cells()]],
             loaded: [grid.zeros(), grid.zeros()],
             displaced: [grid.zeros(), grid.zeros()],
+            loaded_single: [0, 1].map(|_| SingleField::zeros(grid.shape)),
+            displaced_single: [0, 1].map(|_| SingleField::zeros(grid.shape)),
         }
     }
 
     /// Takes the shear of all cells away: those that are loaded next are others.
     pub(super) fn unload(&mut self) {
         self.loaded.iter_mut().for_each(|field| field.fill(0.0));
+        self.loaded_single.iter_mut().for_each(|field| field.fill(0.0));
     }
 
     /// Computes the displacement T q of the grid under a shear on the `cells`, by one convolution.
@@ -54,6 +65,24 @@ impl Influence {
         let ([x, y], [u, v]) = (&self.loaded, &mut self.displaced);
         operator.apply([Some(x), Some(y), None], [Some(u), Some(v), None]);
         &self.displaced
+    }
+
+    /// Computes the displacement of the `cells` under a shear on them in single precision, and its largest error.
+    pub(super) fn displace_in_single(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        cells: &[usize],
+        shear: &[Vector],
+    ) -> (Vec<Vector>, Metre) {
+        for (axis, field) in self.loaded_single.iter_mut().enumerate() {
+            let field = field.as_slice_mut().expect("standard layout");
+            cells.iter().zip(shear).for_each(|(cell, q)| field[*cell] = q[axis] as f32);
+        }
+        operator.apply_shear_single(&self.loaded_single, &mut self.displaced_single);
+        let [u, v] = self.displaced_single.each_ref().map(|field| field.as_slice().expect("standard layout"));
+        let displaced: Vec<Vector> = cells.iter().map(|cell| [u[*cell], v[*cell]].map(f64::from)).collect();
+        let largest = displaced.iter().flatten().fold(0.0f64, |most, u| most.max(u.abs()));
+        (displaced, SINGLE_PRECISION * largest)
     }
 
     /// Adapts the approximate inverse to the cells that are `coupled`.

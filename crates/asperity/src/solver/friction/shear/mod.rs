@@ -33,6 +33,8 @@ const MAX_STAGNATIONS: usize = 4;
 const BEST_AFTER_GRADIENT: f64 = 2.0;
 /// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
 const TOLERANCE_REDUCTION: f64 = 0.3;
+/// The displacement is computed anew, in double precision, when its rounding is more than this share of the residual.
+const ROUNDING_SHARE: f64 = 0.01;
 /// Conjugate gradient steps on one prediction of stick and slip, at the most.
 const MAX_CG_STEPS: usize = 60;
 /// Conjugate gradients end when their residual is below so many times the violation of the limits.
@@ -109,6 +111,9 @@ pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> B
 /// Solves tangential problems on one grid, by a semismooth Newton iteration: a prediction of the cells that stick, and of
 /// those that slip, whose shear may only turn; then preconditioned conjugate gradients on these freedoms. The projection of
 /// the tractions onto their discs is deferred to the next prediction.
+///
+/// Directions and their responses are computed in single precision, what they add up to in double: what single precision may have left
+/// in the answer counts in its residual.
 struct ShearSolver {
     cell_area: SquareMetre,
     influence: Influence,
@@ -136,19 +141,24 @@ impl Method for ShearSolver {
     ) -> Result<Answer> {
         let mut state = State::new(task, start, self.cell_area)?;
         self.influence.unload();
-        state.response = self.convolve(operator, &state.cells, &state.shear);
+        if state.shear.iter().any(|q| *q != [0.0; 2]) {
+            self.respond(operator, &mut state);
+        }
         let (mut best, mut stagnations, mut factor, mut tightening): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, COMPLIANCE_FACTOR, 1.0);
         loop {
             go_on(watch)?;
             state.find_rigid_displacement(self.influence.compliance);
             let mut residual = state.residual(self.influence.compliance) / task.scale;
-            if residual < tightening * task.tolerance {
-                if state.project() {
-                    state.response = self.convolve(operator, &state.cells, &state.shear);
-                    state.find_rigid_displacement(self.influence.compliance);
-                    residual = state.residual(self.influence.compliance) / task.scale;
-                }
+            let feasible = residual < tightening * task.tolerance;
+            let moved = feasible && state.project();
+            if moved || state.rounding > ROUNDING_SHARE * residual * task.scale {
+                self.respond(operator, &mut state);
+                state.find_rigid_displacement(self.influence.compliance);
+                residual = state.residual(self.influence.compliance) / task.scale;
+            }
+            if feasible {
+                residual += state.rounding / task.scale;
                 if residual < task.tolerance {
                     return Ok(state.into_answer(task.limit.raw_dim(), residual));
                 }
@@ -186,22 +196,29 @@ impl Method for ShearSolver {
 }
 
 impl ShearSolver {
-    /// Computes the displacement T q of the cells under a shear on them, by one convolution.
+    /// Computes the displacement of the cells under their whole shear, in double precision.
+    fn respond(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
+        self.stats.convolutions += 1.0;
+        state.response = at(self.influence.displace(operator, &state.cells, &state.shear), &state.cells);
+        state.rounding = 0.0;
+    }
+
+    /// Computes the displacement of the cells under a `direction` of their shear, in single precision, and its largest error.
     fn convolve(
         &mut self,
         operator: &mut dyn CoupledOperator,
         cells: &[usize],
-        shear: &[Vector],
-    ) -> Vec<Vector> {
+        direction: &[Vector],
+    ) -> (Vec<Vector>, Metre) {
         self.stats.convolutions += 1.0;
-        at(self.influence.displace(operator, cells, shear), cells)
+        self.influence.displace_in_single(operator, cells, direction)
     }
 
     /// Takes the cells predicted to slip to the rims of their discs.
     fn step_to_rims(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if let Some(direction) = state.direction_to_rims() {
-            let response = self.convolve(operator, &state.cells, &direction);
-            state.advance(1.0, &direction, &response);
+            let (response, error) = self.convolve(operator, &state.cells, &direction);
+            state.advance(1.0, &direction, &response, error);
         }
     }
 
@@ -231,7 +248,7 @@ impl ShearSolver {
             let beta = product / product_before;
             product_before = product;
             direction.iter_mut().zip(&z).for_each(|(d, z)| *d = add(*z, times(beta, *d)));
-            let response = self.convolve(operator, &state.cells, &direction);
+            let (response, error) = self.convolve(operator, &state.cells, &direction);
             let newton_matrix = |freedom: &Freedom, d: &Vector, response: &Vector| {
                 add(freedom.part(*response), times(freedom.slip_compliance(), *d))
             };
@@ -247,7 +264,7 @@ impl ShearSolver {
                 break;
             }
             let step = product / curvature;
-            state.advance(step, &direction, &response);
+            state.advance(step, &direction, &response, error);
             residual.iter_mut().zip(&applied).for_each(|(r, a)| *r = minus(*r, times(step, *a)));
             state.balance(&mut residual);
             self.stats.iterations += 1;
@@ -275,20 +292,20 @@ impl ShearSolver {
     /// Projected gradient steps with an exact line search, from the tractions in their discs: the energy falls with each.
     fn projected_gradient(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if state.project() {
-            state.response = self.convolve(operator, &state.cells, &state.shear);
+            self.respond(operator, state);
         }
         for _ in 0..GRADIENT_STEPS {
             state.find_rigid_displacement(self.influence.compliance);
             let direction: Vec<Vector> = (0..state.shear.len())
                 .map(|k| minus(state.projected(k, self.influence.compliance), state.shear[k]))
                 .collect();
-            let response = self.convolve(operator, &state.cells, &direction);
+            let (response, error) = self.convolve(operator, &state.cells, &direction);
             let slope: f64 = (0..direction.len()).map(|k| dot(state.slip(k), direction[k])).sum();
             let curvature: f64 = direction.iter().zip(&response).map(|(d, t)| dot(*d, *t)).sum();
             if !(slope > 0.0 && curvature > 0.0) {
                 return;
             }
-            state.advance((slope / curvature).min(1.0), &direction, &response);
+            state.advance((slope / curvature).min(1.0), &direction, &response, error);
         }
     }
 }

@@ -78,6 +78,8 @@ pub(super) struct State {
     pub(super) shear: Vec<Vector>,
     /// The displacement T q of the cells under their shear.
     pub(super) response: Vec<Vector>,
+    /// Largest error of that displacement by single precision.
+    pub(super) rounding: Metre,
     /// The predicted freedom of each cell.
     pub(super) freedom: Vec<Freedom>,
 }
@@ -108,6 +110,7 @@ impl State {
         Ok(Self {
             free_slip: vectors(task.free_slip),
             response: vec![[0.0; 2]; limit.len()],
+            rounding: 0.0,
             freedom: vec![Freedom::Stick; limit.len()],
             cells,
             limit,
@@ -142,8 +145,9 @@ impl State {
         let Some(wanted) = self.wanted else { return };
         let start = times(1.0 / compliance, self.rigid);
         self.rigid = [0.0; 2];
-        let cells = || (0..self.cells.len()).map(|k| (self.proposed(k, compliance), self.limit[k]));
-        let offset = offset_for_sum(cells, wanted, start);
+        let proposed: Vec<(Vector, f64)> =
+            (0..self.cells.len()).map(|k| (self.proposed(k, compliance), self.limit[k])).collect();
+        let offset = offset_for_sum(|| proposed.iter().copied(), wanted, start);
         self.rigid = times(compliance, offset);
     }
 
@@ -279,8 +283,9 @@ impl State {
         compliance * beyond.map(|b| b * b).sum::<f64>().sqrt()
     }
 
-    /// Moves by `step` times a direction, whose displacement is `response`.
-    pub(super) fn advance(&mut self, step: f64, direction: &[Vector], response: &[Vector]) {
+    /// Moves by `step` times a direction, whose displacement is `response` but for an error.
+    pub(super) fn advance(&mut self, step: f64, direction: &[Vector], response: &[Vector], error: Metre) {
+        self.rounding += step.abs() * error;
         self.shear.iter_mut().zip(direction).for_each(|(q, d)| *q = add(*q, times(step, *d)));
         self.response.iter_mut().zip(response).for_each(|(t, r)| *t = add(*t, times(step, *r)));
     }

@@ -107,7 +107,7 @@ impl Method for SteadySolver {
             state.predict_freedoms(compliance);
             if let Some(direction) = state.direction_to_rims() {
                 let response = self.convolve(operator, &state.cells, &direction);
-                state.advance(1.0, &direction, &response);
+                state.advance(1.0, &direction, &response, 0.0);
             }
             if !self.newton_step(operator, &mut state, &coming, reduction) {
                 return Err(self.not_converged(residual, task));
