@@ -156,11 +156,12 @@ impl Plans<f64> {
 /// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
 /// precision of `T`.
 pub(crate) struct Kernel<T> {
-    plans: Plans<T>,
-    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, `kx ≤ Mx/2`, as a share of the largest. Kernels of either precision share it.
-    spectrum: Arc<Field>,
+    pub(super) plans: Plans<T>,
+    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one rank, and `kx ≤ Mx/2`, as a share of the largest. Kernels of
+    /// either precision share it.
+    pub(super) spectrum: Arc<Field>,
     /// The largest of the spectrum, divided by Mx My.
-    unit: f64,
+    pub(super) unit: f64,
 }
 
 impl Kernel<f64> {
@@ -171,7 +172,7 @@ impl Kernel<f64> {
     /// If the spectrum has another shape.
     pub(crate) fn from_spectrum(shape: [usize; 2], spectrum: Field) -> Self {
         assert_eq!(spectrum.dim(), (shape[1] / 2 + 1, shape[0] / 2 + 1), "shape of the spectrum");
-        Self::normalised(Plans::new(shape), spectrum)
+        Self::of_spectrum(Plans::new(shape), spectrum)
     }
 
     /// The kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
@@ -179,11 +180,16 @@ impl Kernel<f64> {
     pub(crate) fn from_values(shape: [usize; 2], table: &Field) -> Self {
         let plans = Plans::new(shape);
         let spectrum = plans.spectrum(table, [Parity::Even; 2]);
-        Self::normalised(plans, spectrum)
+        Self::of_spectrum(plans, spectrum)
     }
 
-    fn normalised(plans: Plans<f64>, mut spectrum: Field) -> Self {
-        let largest = spectrum.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+    fn of_spectrum(plans: Plans<f64>, spectrum: Field) -> Self {
+        let largest = largest(&spectrum);
+        Self::scaled(plans, spectrum, largest)
+    }
+
+    /// The kernel that has this `spectrum`, or this part of a spectrum, whose `largest` magnitude is given.
+    pub(super) fn scaled(plans: Plans<f64>, mut spectrum: Field, largest: f64) -> Self {
         if largest > 0.0 {
             spectrum /= largest;
         }
@@ -195,6 +201,11 @@ impl Kernel<f64> {
     pub(crate) fn to_single(&self) -> Kernel<f32> {
         Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
     }
+}
+
+/// The largest magnitude in a spectrum.
+pub(super) fn largest(spectrum: &Field) -> f64 {
+    spectrum.iter().fold(0.0, |largest, s| s.abs().max(largest))
 }
 
 /// Convolution of fields of one shape with a [`Kernel`] of that shape or a larger one; what lies beyond the field

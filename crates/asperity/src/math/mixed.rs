@@ -23,43 +23,43 @@ impl<D, S> Mixed<D, S> {
         Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new() })
     }
 
-    fn double(&self) -> Arc<D> {
+    /// The kernel for transforms in double precision.
+    pub(super) fn double(&self) -> Arc<D> {
         Arc::clone(&self.double)
     }
 
-    fn single(&self, to_single: impl FnOnce(&D) -> S) -> Arc<S> {
+    /// The kernel for transforms in single precision.
+    pub(super) fn single(&self, to_single: impl FnOnce(&D) -> S) -> Arc<S> {
         Arc::clone(self.single.get_or_init(|| Arc::new(to_single(&self.double))))
     }
 }
 
-/// The convolution that was asked for last, in one of two precisions: they take turns, and what does not work needs no room.
-enum Latest<D, S> {
+/// What works in one precision at a time, and is kept for that asked for last: the two take turns.
+pub(super) enum Latest<D, S> {
     None,
     Double(D),
     Single(S),
 }
 
 impl<D, S> Latest<D, S> {
-    fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
+    /// What works in double precision; `new` makes it, after what worked in single precision is gone.
+    pub(super) fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
         if !matches!(self, Self::Double(_)) {
             *self = Self::None;
             *self = Self::Double(new());
         }
-        match self {
-            Self::Double(convolution) => convolution,
-            _ => unreachable!("just made"),
-        }
+        let Self::Double(latest) = self else { unreachable!("just made") };
+        latest
     }
 
-    fn single(&mut self, new: impl FnOnce() -> S) -> &mut S {
+    /// What works in single precision; `new` makes it, after what worked in double precision is gone.
+    pub(super) fn single(&mut self, new: impl FnOnce() -> S) -> &mut S {
         if !matches!(self, Self::Single(_)) {
             *self = Self::None;
             *self = Self::Single(new());
         }
-        match self {
-            Self::Single(convolution) => convolution,
-            _ => unreachable!("just made"),
-        }
+        let Self::Single(latest) = self else { unreachable!("just made") };
+        latest
     }
 }
 

@@ -1,47 +1,21 @@
 //! Convolution of fields of which each rank holds a slab.
 
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use ndarray::Array2;
 use realfft::num_complex::Complex;
 use rustfft::FftNum;
 use rustfft::num_traits::Zero;
 
-use super::convolution::{Parity, Plans, multiply, real};
+use super::convolution::{Kernel, Parity, Plans, largest, multiply, real};
+use super::mixed::{Latest, MixedKernel};
 use super::transposition::Transposition;
 use crate::grid::{Field, SingleField};
 use crate::ranks::{Number, Parts, Ranks, Slab};
 
 /// Rows that are turned into columns at a time.
 const BLOCK: usize = 8;
-
-/// A cyclic kernel that is even along both axes, in Fourier space: of which this rank holds its frequencies along y.
-struct Kernel<T> {
-    plans: Plans<T>,
-    /// Real and even: `[ky, kx]` for the ky of this rank and `kx ≤ Mx/2`, as a share of the largest of all. Kernels of either
-    /// precision share it.
-    spectrum: Arc<Field>,
-    /// The largest of the spectrum, divided by Mx My.
-    unit: f64,
-}
-
-impl Kernel<f64> {
-    fn normalised(plans: Plans<f64>, mut spectrum: Field, ranks: &dyn Ranks) -> Self {
-        let own = spectrum.iter().fold(0.0f64, |m, s| m.max(s.abs()));
-        let all = ranks.gather(&[own], &vec![1; ranks.count()]);
-        let largest = all.into_iter().fold(0.0, f64::max);
-        if largest > 0.0 {
-            spectrum /= largest;
-        }
-        let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
-        Self { plans, spectrum: Arc::new(spectrum), unit }
-    }
-
-    fn to_single(&self) -> Kernel<f32> {
-        Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
-    }
-}
 
 /// Convolution in either precision of fields of which each rank holds its rows, with a kernel of their size or a larger one;
 /// what lies beyond the fields counts as zero. It has the bits of [`super::MixedConvolution`].
@@ -51,10 +25,9 @@ impl Kernel<f64> {
 pub(crate) struct SlabConvolution {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
-    kernel: Kernel<f64>,
-    single_kernel: OnceLock<Kernel<f32>>,
-    double: Option<Workspace<f64>>,
-    single: Option<Workspace<f32>>,
+    /// The kernel at the frequencies along y of this rank.
+    kernel: Arc<MixedKernel>,
+    latest: Latest<Workspace<f64>, Workspace<f32>>,
 }
 
 impl SlabConvolution {
@@ -111,27 +84,27 @@ impl SlabConvolution {
     fn new(slab: &Slab, plans: Plans<f64>, spectrum: Field) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
         assert!(rows <= plans.shape[0] && columns <= plans.shape[1], "kernel smaller than the field");
+        let ranks = slab.ranks();
+        let all = ranks.gather(&[largest(&spectrum)], &vec![1; ranks.count()]);
+        let largest = all.into_iter().fold(0.0, f64::max);
         Self {
-            kernel: Kernel::normalised(plans, spectrum, &**slab.ranks()),
-            ranks: Arc::clone(slab.ranks()),
+            ranks: Arc::clone(ranks),
             rows: slab.parts().clone(),
-            single_kernel: OnceLock::new(),
-            double: None,
-            single: None,
+            kernel: MixedKernel::new(Kernel::scaled(plans, spectrum, largest)),
+            latest: Latest::None,
         }
     }
 
     /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
-        let Self { ranks, rows, kernel, double, .. } = self;
-        double.get_or_insert_with(|| Workspace::new(ranks, rows, kernel)).apply(kernel, input, output);
+        let Self { ranks, rows, kernel, latest } = self;
+        latest.double(|| Workspace::new(ranks, rows, kernel.double())).apply(input, output);
     }
 
     /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
-        let Self { ranks, rows, kernel, single_kernel, single, .. } = self;
-        let kernel = single_kernel.get_or_init(|| kernel.to_single());
-        single.get_or_insert_with(|| Workspace::new(ranks, rows, kernel)).apply(kernel, input, output);
+        let Self { ranks, rows, kernel, latest } = self;
+        latest.single(|| Workspace::new(ranks, rows, kernel.single(Kernel::to_single))).apply(input, output);
     }
 }
 
@@ -142,6 +115,7 @@ fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
 
 /// A field on its way through the transforms.
 struct Workspace<T> {
+    kernel: Arc<Kernel<T>>,
     transposition: Transposition<T>,
     row: Vec<T>,
     /// A few transformed rows.
@@ -151,7 +125,7 @@ struct Workspace<T> {
 }
 
 impl<T: FftNum + Number> Workspace<T> {
-    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: &Kernel<T>) -> Self {
+    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: Arc<Kernel<T>>) -> Self {
         let (plans, [mx, my]) = (&kernel.plans, kernel.plans.shape);
         let columns = Parts::even(plans.half(), ranks.count());
         Self {
@@ -160,11 +134,12 @@ impl<T: FftNum + Number> Workspace<T> {
             block: vec![Complex::zero(); BLOCK * plans.half()],
             column: vec![Complex::zero(); mx],
             plan: plans.scratch(),
+            kernel,
         }
     }
 
-    fn apply(&mut self, kernel: &Kernel<T>, input: &Array2<T>, output: &mut Array2<T>) {
-        let Self { transposition, row, block, column, plan } = self;
+    fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
+        let Self { kernel, transposition, row, block, column, plan } = self;
         let (plans, half) = (&kernel.plans, kernel.plans.half());
         for first in (0..input.nrows()).step_by(BLOCK) {
             let count = BLOCK.min(input.nrows() - first);

@@ -23,11 +23,6 @@ pub(crate) fn sums<T: Copy, const N: usize>(values: &[T], terms: impl Fn(usize, 
     lanes.map(|lanes| lanes.iter().sum())
 }
 
-/// The totals of the sums over each of some bands, added in their order.
-pub(crate) fn total<const N: usize>(parts: Vec<[f64; N]>) -> [f64; N] {
-    parts.into_iter().reduce(|a, b| std::array::from_fn(|n| a[n] + b[n])).expect("a band")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

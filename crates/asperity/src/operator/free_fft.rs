@@ -1,6 +1,6 @@
 //! The boundary that is free along one axis or both, by transforms padded with zeros there, pruned to what is not zero.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{Influence, SharedResponse};
@@ -20,7 +20,7 @@ pub struct FreeFamily {
     boundary: Boundary,
     datum: Metre,
     /// The influence of a cell that stands alone.
-    influence: OnceLock<Arc<dyn Influence>>,
+    influence: Shared<(), dyn Influence>,
     /// By the size of their transforms.
     kernels: Shared<[usize; 2], MixedKernel>,
     /// One for each coarse pitch, by its bits: it depends on the number of cells along a periodic axis.
@@ -49,7 +49,7 @@ impl FreeFamily {
             response,
             boundary,
             datum,
-            influence: OnceLock::new(),
+            influence: Shared::default(),
             kernels: Shared::default(),
             coarse: Shared::default(),
         })
@@ -70,14 +70,7 @@ impl FreeFamily {
 
     fn influence(&self, grid: &Grid) -> Arc<dyn Influence> {
         match self.boundary.line(grid, self.datum) {
-            // Made before it is put there, as a [`Shared`] value is.
-            None => match self.influence.get() {
-                Some(known) => Arc::clone(known),
-                None => {
-                    let made = self.response.influence(self.pitch).into();
-                    Arc::clone(self.influence.get_or_init(|| made))
-                }
-            },
+            None => self.influence.get((), || self.response.influence(self.pitch).into()),
             Some(line) => {
                 self.response.line_influence(&line, self.pitch).expect("a response that knows lines").into()
             }

@@ -10,9 +10,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// task meanwhile that asks for a value, too: under the lock it would wait for itself. Threads that ask at the same time make
 /// the same value, of which one is kept.
 #[derive(Debug)]
-pub(super) struct Shared<K, V>(Mutex<HashMap<K, Arc<V>>>);
+pub(super) struct Shared<K, V: ?Sized>(Mutex<HashMap<K, Arc<V>>>);
 
-impl<K: Eq + Hash, V> Shared<K, V> {
+impl<K: Eq + Hash, V: ?Sized> Shared<K, V> {
     /// The value of a `key`, which `make` makes if it is not there.
     pub(super) fn get(&self, key: K, make: impl FnOnce() -> Arc<V>) -> Arc<V> {
         let known = self.lock(|values| values.get(&key).cloned());
@@ -27,7 +27,7 @@ impl<K: Eq + Hash, V> Shared<K, V> {
     }
 }
 
-impl<K, V> Default for Shared<K, V> {
+impl<K, V: ?Sized> Default for Shared<K, V> {
     fn default() -> Self {
         Self(Mutex::default())
     }

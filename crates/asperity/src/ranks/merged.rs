@@ -1,9 +1,17 @@
-//! What is merged over the ranks.
+//! What is merged over bands of rows, blocks and ranks.
 
 /// What several parts of a grid come to, merged of what each does.
 pub(crate) trait Merged: Sized {
     /// Two parts together.
     fn and(self, other: Self) -> Self;
+
+    /// All parts together, merged in their order.
+    ///
+    /// # Panics
+    /// If there is none.
+    fn of_parts(parts: impl IntoIterator<Item = Self>) -> Self {
+        parts.into_iter().reduce(Self::and).expect("a part")
+    }
 
     /// What it consists of, always as many numbers.
     fn numbers(&self) -> Vec<f64>;

@@ -94,7 +94,7 @@ impl Slab {
         }
         let numbers = part.numbers();
         let gathered = self.ranks.gather(&numbers, &vec![numbers.len(); self.ranks.count()]);
-        gathered.chunks_exact(numbers.len()).map(M::of_numbers).reduce(M::and).expect("a rank")
+        M::of_parts(gathered.chunks_exact(numbers.len()).map(M::of_numbers))
     }
 
     /// The whole of a field of which each rank has its rows.

@@ -6,10 +6,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::grid::{Field, SingleField};
-use crate::math::sum::total;
 use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::{Edge, Operator};
-use crate::ranks::{Halo, Slab};
+use crate::ranks::{Halo, Merged, Slab};
 use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
@@ -120,7 +119,7 @@ impl CoarseCorrection {
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
         let bands = sets.bands();
         let parts = bands.rows().zip(bands.cut(r)).zip(bands.cut_mut(z));
-        total(parallel::map(parts, |((rows, r), z)| {
+        Merged::of_parts(parallel::map(parts, |((rows, r), z)| {
             let (first, mut sums) = (rows.start * bands.columns(), [0.0; 3]);
             self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| {
                 let cell = cell - first;

@@ -2,10 +2,9 @@
 
 use crate::grid::CellValues;
 use crate::math::parallel::Pool;
-use crate::math::sum::total;
 use crate::math::{Bands, ROWS_ABOVE, SparseInverse, parallel};
 use crate::operator::Operator;
-use crate::ranks::{Halo, Slab};
+use crate::ranks::{Halo, Merged, Slab};
 use crate::solver::coarse_correction::CoarseCorrection;
 use crate::solver::sets::Sets;
 
@@ -169,7 +168,7 @@ impl Preconditioner {
 fn products(sets: &Sets, r: &[f32], z: &[f32]) -> [f64; 3] {
     let bands = sets.bands();
     let parts = bands.cut(r).zip(bands.cut(z)).zip(sets.in_bands());
-    total(parallel::map(parts, |((r, z), free)| {
+    Merged::of_parts(parallel::map(parts, |((r, z), free)| {
         let cells = free.cells().map(|cell| [f64::from(r[cell]), f64::from(z[cell])]);
         cells.fold([0.0; 3], |sums, [r, z]| [sums[0] + z, sums[1] + r, sums[2] + r * z])
     }))

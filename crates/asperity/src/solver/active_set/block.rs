@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use crate::grid::{Field, SingleField};
-use crate::math::sum::{sums, total};
+use crate::math::sum::sums;
 use crate::math::{Bands, parallel};
 use crate::ranks::{Halo, Largest, Merged, Slab};
 use crate::solver::Terms;
@@ -171,7 +171,7 @@ impl<'a> Block<'a> {
         let parts = parallel::map(self.bands.cut(flat(values)).enumerate(), |(band, values)| {
             sum_within(values, self.bands.first(band), &bounds, &terms)
         });
-        total(parts)
+        Merged::of_parts(parts)
     }
 
     /// Replaces each pressure by a function of it and its bounds.
@@ -275,7 +275,7 @@ impl<'a> Block<'a> {
     pub(super) fn work(&self, approach: Metre) -> [f64; 2] {
         let gap = self.site.initial_gap();
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
-        total(parallel::map(bands.zip(self.bands.cut(flat(&gap))), |((pressure, touch), gap)| {
+        Merged::of_parts(parallel::map(bands.zip(self.bands.cut(flat(&gap))), |((pressure, touch), gap)| {
             let mut sums = [0.0; 2];
             for ((p, touch), h) in pressure.iter().zip(touch).zip(gap) {
                 sums = [sums[0] + p * (approach - h), sums[1] + p * (touch - h)];
@@ -307,7 +307,7 @@ impl<'a> Block<'a> {
                 }))
             })
         });
-        parts.into_iter().reduce(Multiplier::and).expect("a band")
+        Merged::of_parts(parts)
     }
 
     /// The sums of this contact for the residual at an approach.
@@ -329,7 +329,7 @@ impl<'a> Block<'a> {
                 ResidualSums::of(cells, approach, self_influence)
             })
         });
-        parts.into_iter().reduce(ResidualSums::and).expect("a band")
+        Merged::of_parts(parts)
     }
 
     /// Changes each pressure by as much as closes its gap on a cell of that compliance alone.
@@ -397,7 +397,7 @@ impl<'a> Block<'a> {
         let bands = self.bands;
         let parts = bands.cut(flat(&self.touch)).zip(bands.cut(flat(&self.response)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.residual))).zip(self.sets.in_bands());
-        let [sum] = total(parallel::map(parts, |(((touch, predicted), residual), free)| {
+        let [sum] = Merged::of_parts(parallel::map(parts, |(((touch, predicted), residual), free)| {
             let mut sum = 0.0;
             for cell in free.cells() {
                 let w = approach - touch[cell] - f64::from(predicted[cell]);
@@ -454,7 +454,7 @@ impl<'a> Block<'a> {
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(flat(&self.preconditioned)).zip(bands.cut(flat(&self.pressure)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction))).zip(self.sets.in_bands());
-        total(parallel::map(parts.enumerate(), |(band, (((z, p), direction), free))| {
+        Merged::of_parts(parallel::map(parts.enumerate(), |(band, (((z, p), direction), free))| {
             let first = bands.first(band);
             free.cells().for_each(|cell| direction[cell] = damping * (z[cell] - mean));
             let borne = with_bounds!(bounds, of => {
@@ -517,10 +517,11 @@ impl<'a> Block<'a> {
     pub(super) fn reset_direction(&mut self) -> f64 {
         let bands = self.bands;
         let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(flat(&self.touch)));
-        let [sum] = total(parallel::map(parts.zip(self.sets.in_bands()), |((direction, touch), free)| {
-            direction.fill(0.0);
-            [free.cells().map(|cell| touch[cell]).sum()]
-        }));
+        let [sum] =
+            Merged::of_parts(parallel::map(parts.zip(self.sets.in_bands()), |((direction, touch), free)| {
+                direction.fill(0.0);
+                [free.cells().map(|cell| touch[cell]).sum()]
+            }));
         sum
     }
 
@@ -535,7 +536,7 @@ impl<'a> Block<'a> {
         });
         self.convolve_direction();
         let parts = bands.cut(flat(&self.direction)).zip(bands.cut(flat(&self.response)));
-        total(parallel::map(parts.zip(self.sets.in_bands()), |((d, c), free)| {
+        Merged::of_parts(parallel::map(parts.zip(self.sets.in_bands()), |((d, c), free)| {
             let (mut curvature, mut sum) = (0.0, 0.0);
             for cell in free.cells() {
                 curvature += f64::from(d[cell]) * f64::from(c[cell]);
@@ -580,7 +581,7 @@ impl<'a> Block<'a> {
             norms
         });
         self.rounding += SINGLE_PRECISION * step * self.max_response;
-        norms.into_iter().reduce(ResidualNorms::and).expect("a band")
+        Merged::of_parts(norms)
     }
 
     /// Keeps the pressure as the last feasible one.
@@ -601,7 +602,7 @@ impl<'a> Block<'a> {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let bands = self.bands.cut(flat(&self.feasible)).zip(self.bands.cut(flat(before)));
         let bands = bands.zip(self.bands.cut(flat(&self.pressure))).zip(self.bands.cut(flat(&self.touch)));
-        total(parallel::map(bands, |(((feasible, before), pressure), touch)| {
+        Merged::of_parts(parallel::map(bands, |(((feasible, before), pressure), touch)| {
             let (mut slope, mut curvature) = (0.0, 0.0);
             for (((p, before), target), touch) in feasible.iter().zip(before).zip(pressure).zip(touch) {
                 slope += (approach - before) * (target - p);

@@ -209,10 +209,7 @@ impl<'a> Iteration<'a> {
     fn merged<M: Merged + Send>(&mut self, task: impl Fn(&mut Block<'a>) -> M + Sync) -> M {
         let part = match self.blocks.as_mut_slice() {
             [block] => task(block),
-            blocks => {
-                let parts: Vec<M> = blocks.par_iter_mut().map(&task).collect();
-                parts.into_iter().reduce(M::and).expect("a block")
-            }
+            blocks => M::of_parts(blocks.par_iter_mut().map(&task).collect::<Vec<_>>()),
         };
         self.slab.merged(part)
     }
