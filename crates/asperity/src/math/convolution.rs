@@ -396,12 +396,12 @@ impl<T: FftNum> Plans<T> {
         row: &mut [T],
         scratch: &mut [Complex<T>],
     ) {
-        if values.iter().all(T::is_zero) {
+        if values.fold(true, |zero, p| zero & p.is_zero()) {
             half.fill(Complex::zero());
             return;
         }
         let (front, rest) = row.split_at_mut(values.len());
-        front.iter_mut().zip(values).for_each(|(r, p)| *r = *p);
+        ArrayViewMut1::from(front).assign(&values);
         rest.fill(T::zero());
         self.along_y.process_with_scratch(row, half, scratch).expect("lengths of the plan");
     }
@@ -411,7 +411,7 @@ impl<T: FftNum> Plans<T> {
         &self,
         half: &mut [Complex<T>],
         unit: T,
-        values: ArrayViewMut1<'_, T>,
+        mut values: ArrayViewMut1<'_, T>,
         row: &mut [T],
         scratch: &mut [Complex<T>],
     ) {
@@ -422,7 +422,8 @@ impl<T: FftNum> Plans<T> {
             half[my / 2].im = T::zero();
         }
         self.back_y.process_with_scratch(half, row, scratch).expect("lengths of the plan");
-        values.into_iter().zip(row).for_each(|(u, r)| *u = *r * unit);
+        let front = ArrayView1::from(&row[..values.len()]);
+        values.zip_mut_with(&front, |u, r| *u = *r * unit);
     }
 }
 

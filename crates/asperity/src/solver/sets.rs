@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::slice;
 
-use crate::math::{Bands, parallel};
+use crate::math::{Bands, indices_where, parallel};
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
 
@@ -53,25 +53,33 @@ impl Sets {
         Self { bands, of: vec![Set::Lower; shape[0] * shape[1]], free: bands.rows().map(free).collect() }
     }
 
-    /// Puts each cell at the bound that its `pressure` is at or beyond.
-    pub(super) fn assign(&mut self, pressure: impl Fn(usize) -> Pascal + Sync + Send, bounds: &Bounds) {
+    /// Puts each cell at the bound that its pressure is at or beyond; `pressures` gives those of some neighbouring cells.
+    pub(super) fn assign<P: Iterator<Item = Pascal>>(
+        &mut self,
+        pressures: impl Fn(Range<usize>) -> P + Sync + Send,
+        bounds: &Bounds,
+    ) {
         with_bounds!(bounds, of => {
-            self.put(|cell| Set::of(pressure(cell), of(cell)));
+            self.put(|cells| {
+                let first = cells.start;
+                pressures(cells).enumerate().map(move |(cell, p)| Set::of(p, of(first + cell)))
+            });
         });
     }
 
     /// Frees the cells that are free, and puts all others at their lower bound.
     pub(super) fn free_where(&mut self, is_free: impl Fn(usize) -> bool + Sync + Send) {
-        self.put(|cell| if is_free(cell) { Set::Free } else { Set::Lower });
+        self.put(|cells| cells.map(|cell| if is_free(cell) { Set::Free } else { Set::Lower }));
     }
 
-    /// Replaces the sets of all cells.
-    fn put(&mut self, set: impl Fn(usize) -> Set + Sync + Send) {
+    /// Replaces the sets of all cells; `sets` gives those of some neighbouring ones.
+    fn put<S: Iterator<Item = Set>>(&mut self, sets: impl Fn(Range<usize>) -> S + Sync + Send) {
         let Self { bands, of, free } = self;
         let parts = bands.cut_mut(of).zip(free).enumerate();
         parallel::map(parts, |(band, (of, free))| {
             let first = bands.first(band);
-            of.iter_mut().enumerate().for_each(|(cell, value)| *value = set(first + cell));
+            let sets = sets(first..first + of.len());
+            of.iter_mut().zip(sets).for_each(|(value, set)| *value = set);
             free.list(of, bands.columns());
         });
     }
@@ -116,8 +124,8 @@ impl FreeCells {
         self.cells.reserve_exact(of.iter().filter(|set| **set == Set::Free).count());
         for (row, of) in of.chunks(columns).enumerate() {
             self.before[row] = self.cells.len() as u32;
-            let cells = of.iter().enumerate().filter(|(_, set)| **set == Set::Free);
-            self.cells.extend(cells.map(|(column, _)| (row * columns + column) as u32));
+            indices_where(of, |set| *set == Set::Free)
+                .for_each(|column| self.cells.push((row * columns + column) as u32));
         }
         *self.before.last_mut().expect("one more than rows") = self.cells.len() as u32;
     }
@@ -146,7 +154,7 @@ mod tests {
         let bounds = Bounds::up_to(upper).above(-1.0);
         let mut sets = Sets::new([2, 3]);
         let pressures = [-2.0, -1.0, 3.0, 1.5, 3.5, -0.5];
-        sets.assign(|cell| pressures[cell], &bounds);
+        sets.assign(|cells| pressures[cells].iter().copied(), &bounds);
         let expected = [Set::Lower, Set::Lower, Set::Upper, Set::Free, Set::Upper, Set::Free];
         assert_eq!(sets.of(), expected);
         assert_eq!(free(&sets), [3, 5]);

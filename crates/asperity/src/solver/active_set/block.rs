@@ -1,10 +1,12 @@
 //! One of the contacts that share an approach: a diagonal block of their influence matrix.
 
+use std::ops;
+
 use ndarray::Array2;
 
 use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
-use crate::math::{Bands, parallel};
+use crate::math::{Bands, indices_where, parallel};
 use crate::ranks::{Halo, Largest, Merged, Slab};
 use crate::solver::Terms;
 use crate::solver::bounds::{Interval, with_bounds};
@@ -358,7 +360,10 @@ impl<'a> Block<'a> {
     /// Predicts the sets from the proposed pressures, offset.
     pub(super) fn predict_sets(&mut self, approach: Metre, stiffness: f64, offset: Pascal) {
         let (pressure, touch) = (flat(&self.pressure), flat(&self.touch));
-        let proposed = |cell| pressure[cell] + (approach - touch[cell]) * stiffness + offset;
+        let proposed = |cells: ops::Range<usize>| {
+            let cells = pressure[cells.clone()].iter().zip(&touch[cells]);
+            cells.map(|(p, touch)| p + (approach - touch) * stiffness + offset)
+        };
         self.sets.assign(proposed, &self.site.bounds());
         self.residual.fill(0.0);
         self.preconditioner.adapt(&self.sets);
@@ -422,15 +427,15 @@ impl<'a> Block<'a> {
             for ix in rows.start.saturating_sub(reach[0])..nx.min(rows.end + reach[0]) {
                 let reached = ix.saturating_sub(reach[0]).max(rows.start)..(ix + reach[0] + 1).min(rows.end);
                 let from = &direction[ix * ny..][..ny];
-                for (iy, &pressure) in from.iter().enumerate().filter(|(_, d)| **d != 0.0) {
+                indices_where(from, |d| *d != 0.0).for_each(|iy| {
                     let (first, last) = (iy.saturating_sub(reach[1]), ny.min(iy + reach[1] + 1));
                     for i in reached.clone() {
                         let near = near.row(i.abs_diff(ix)).to_slice().expect("rows are contiguous");
-                        let near = &near[first + reach[1] - iy..];
+                        let near = &near[first + reach[1] - iy..][..last - first];
                         let row = &mut response[(i - rows.start) * ny..][first..last];
-                        row.iter_mut().zip(near).for_each(|(u, influence)| *u += influence * pressure);
+                        add_scaled(row, near, from[iy]);
                     }
-                }
+                });
             }
         });
     }
@@ -631,6 +636,19 @@ impl<'a> Block<'a> {
 fn touch_under(site: &dyn Site, pressure: &Field, touch: &mut Field) {
     site.with_operator(&mut |operator| operator.apply(pressure, touch));
     *touch += &*site.initial_gap();
+}
+
+/// Adds the displacements by a `pressure` that has these `influence` coefficients on neighbouring cells of a row.
+fn add_scaled(row: &mut [f32], influence: &[f32], pressure: f32) {
+    const WIDTH: usize = 2 * NEAR_FIELD + 1;
+    let add = |row: &mut [f32], influence: &[f32]| {
+        row.iter_mut().zip(influence).for_each(|(u, influence)| *u += influence * pressure);
+    };
+    // Away from the edges all are as many: their loop is unrolled.
+    match (<&mut [f32; WIDTH]>::try_from(&mut *row), <&[f32; WIDTH]>::try_from(influence)) {
+        (Ok(row), Ok(influence)) => add(row, influence),
+        _ => add(row, influence),
+    }
 }
 
 /// Changes each value of a field by one of another.
