@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
-use ndarray::{Array2, Axis, s};
+use ndarray::{Array2, Axis};
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex64};
 use rustfft::{Fft, FftPlanner};
 
 use crate::grid::Field;
+use crate::math::parallel::{self, Pool};
 
 /// Transform of a real field of one shape: half-complex along y, complex along x.
 ///
 /// `forward` is unnormalised, `ẑ[k, l] = Σ z[i, j] exp(−2πi (k i/nx + l j/ny))` for `l = 0 … ny/2`;
-/// `inverse` divides by `nx ny`, so that it undoes `forward`.
+/// `inverse` divides by `nx ny`, so that it undoes `forward`. Rows and columns are worked on in parallel.
 pub(crate) struct RealFft2 {
     shape: [usize; 2],
     along_y: Arc<dyn RealToComplex<f64>>,
@@ -55,7 +56,9 @@ impl RealFft2 {
             row.iter_mut().zip(values).for_each(|(r, v)| *r = *v);
             row[values.len()..].fill(0.0);
         });
-        self.along_x.process(columns.as_slice_mut().expect("standard layout"));
+        self.each_column(&mut columns, |_, column, scratch| {
+            self.along_x.process_with_scratch(column, scratch);
+        });
         columns.t().as_standard_layout().into_owned()
     }
 
@@ -75,32 +78,55 @@ impl RealFft2 {
     pub(crate) fn inverse_transposed(&self, mut columns: Array2<Complex64>, shape: [usize; 2]) -> Field {
         assert!(shape[0] <= self.shape[0] && shape[1] <= self.shape[1], "shape of the field");
         assert_eq!(columns.dim(), (self.half(), self.shape[0]), "shape of the spectrum");
-        let mut scratch = vec![Complex64::default(); self.back_x.get_inplace_scratch_len()];
-        for mut column in columns.outer_iter_mut() {
+        self.each_column(&mut columns, |_, column, scratch| {
             if column.iter().any(|value| *value != Complex64::default()) {
-                let column = column.as_slice_mut().expect("standard layout");
-                self.back_x.process_with_scratch(column, &mut scratch);
+                self.back_x.process_with_scratch(column, scratch);
             }
-        }
-        let mut field = Field::zeros(shape);
-        let mut block = Array2::zeros([BLOCK, self.half()]);
-        let mut row = self.back_y.make_output_vec();
-        let mut scratch = self.back_y.make_scratch_vec();
+        });
+        let (mut field, half) = (Field::zeros(shape), self.half());
+        let columns = columns.as_slice().expect("standard layout");
         let scale = 1.0 / (self.shape[0] * self.shape[1]) as f64;
-        for (n, mut rows) in field.axis_chunks_iter_mut(Axis(0), BLOCK).enumerate() {
-            let first = n * BLOCK;
-            for (mut to, from) in block.axis_iter_mut(Axis(1)).zip(columns.outer_iter()) {
-                to.iter_mut().zip(from.slice(s![first..])).for_each(|(to, from)| *to = *from);
-            }
-            for (mut values, mut half) in rows.outer_iter_mut().zip(block.outer_iter_mut()) {
-                let half = half.as_slice_mut().expect("standard layout");
-                make_hermitian(half, self.shape[1]);
-                let back = self.back_y.process_with_scratch(half, &mut row, &mut scratch);
-                back.expect("lengths come from the plan");
-                values.iter_mut().zip(&row).for_each(|(v, r)| *v = *r * scale);
-            }
-        }
+        parallel::each(
+            field.axis_chunks_iter_mut(Axis(0), BLOCK).enumerate(),
+            SHARE.div_ceil(BLOCK * half),
+            &Pool::default(),
+            || {
+                let block = vec![Complex64::default(); BLOCK * half];
+                (block, self.back_y.make_output_vec(), self.back_y.make_scratch_vec())
+            },
+            |(block, row, scratch), (n, mut rows)| {
+                let own = n * BLOCK..n * BLOCK + rows.nrows();
+                for (l, column) in columns.chunks_exact(self.shape[0]).enumerate() {
+                    let to = block[l..].iter_mut().step_by(half);
+                    to.zip(&column[own.clone()]).for_each(|(to, from)| *to = *from);
+                }
+                for (mut values, half) in rows.outer_iter_mut().zip(block.chunks_exact_mut(half)) {
+                    make_hermitian(half, self.shape[1]);
+                    let back = self.back_y.process_with_scratch(half, row, scratch);
+                    back.expect("lengths come from the plan");
+                    values.iter_mut().zip(&*row).for_each(|(v, r)| *v = *r * scale);
+                }
+            },
+        );
         field
+    }
+
+    /// Performs a `task` on each of the `columns`, with its number and scratch for the plans along x.
+    fn each_column(
+        &self,
+        columns: &mut Array2<Complex64>,
+        task: impl Fn(usize, &mut [Complex64], &mut [Complex64]) + Sync + Send,
+    ) {
+        let scratch = self.along_x.get_inplace_scratch_len().max(self.back_x.get_inplace_scratch_len());
+        parallel::each(
+            columns.outer_iter_mut().enumerate(),
+            SHARE.div_ceil(self.shape[0]),
+            &Pool::default(),
+            || vec![Complex64::default(); scratch],
+            |scratch, (number, mut column)| {
+                task(number, column.as_slice_mut().expect("standard layout"), scratch);
+            },
+        );
     }
 
     /// The first rows and columns, so many as `shape` says, of a field whose waves are multiplied by `response`,
@@ -118,16 +144,15 @@ impl RealFft2 {
     ) -> Field {
         assert_eq!(response.dim(), (self.half(), self.shape[0]), "shape of the response");
         let mut columns = self.rows_forward(self.shape[0], |_, values| row(values));
-        let mut scratch = vec![Complex64::default(); self.along_x.get_inplace_scratch_len()];
-        for (mut column, response) in columns.outer_iter_mut().zip(response.outer_iter()) {
+        self.each_column(&mut columns, |number, column, scratch| {
+            let response = response.row(number);
             if response.iter().all(|r| *r == 0.0) {
                 column.fill(Complex64::default());
-                continue;
+            } else {
+                self.along_x.process_with_scratch(column, scratch);
+                column.iter_mut().zip(response).for_each(|(v, r)| *v *= *r);
             }
-            let values = column.as_slice_mut().expect("standard layout");
-            self.along_x.process_with_scratch(values, &mut scratch);
-            values.iter_mut().zip(response).for_each(|(v, r)| *v *= *r);
-        }
+        });
         self.inverse_transposed(columns, shape)
     }
 
@@ -157,20 +182,27 @@ pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
     };
     transform_rows(&*along_y, nx / 2 + 1, &mut row, &mut columns);
     let mut transform = Field::zeros([ny / 2 + 1, nx]);
-    let mut scratch = along_x.make_scratch_vec();
-    for (mut column, mut values) in columns.outer_iter_mut().zip(transform.outer_iter_mut()) {
-        let column = column.as_slice_mut().expect("standard layout");
-        // The rows −i have the conjugate transforms of the rows i; so has the inverse plan the sign of the forward one.
-        column.iter_mut().for_each(|value| *value = value.conj());
-        make_hermitian(column, nx);
-        let values = values.as_slice_mut().expect("standard layout");
-        along_x.process_with_scratch(column, values, &mut scratch).expect("lengths come from the plan");
-    }
+    parallel::each(
+        columns.outer_iter_mut().zip(transform.outer_iter_mut()),
+        SHARE.div_ceil(nx),
+        &Pool::default(),
+        || along_x.make_scratch_vec(),
+        |scratch, (mut column, mut values)| {
+            let column = column.as_slice_mut().expect("standard layout");
+            // The rows −i have the conjugate transforms of the rows i; so has the inverse plan the sign of the forward one.
+            column.iter_mut().for_each(|value| *value = value.conj());
+            make_hermitian(column, nx);
+            let values = values.as_slice_mut().expect("standard layout");
+            along_x.process_with_scratch(column, values, scratch).expect("lengths come from the plan");
+        },
+    );
     transform
 }
 
 /// Rows transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
+/// Complex numbers that a thread transforms at the least, so that it is worth its while.
+const SHARE: usize = 1 << 17;
 
 /// Transforms the first `rows` rows, which `row` sets, into the first entries of the columns.
 fn transform_rows(
@@ -181,17 +213,19 @@ fn transform_rows(
 ) {
     let mut values = plan.make_input_vec();
     let mut scratch = plan.make_scratch_vec();
-    let mut block = Array2::zeros([BLOCK, columns.nrows()]);
+    let [half, length] = [columns.nrows(), columns.ncols()];
+    let columns = columns.as_slice_mut().expect("standard layout");
+    let mut block = vec![Complex64::default(); BLOCK * half];
     for first in (0..rows).step_by(BLOCK) {
-        let count = BLOCK.min(rows - first);
-        for (n, mut spectrum) in block.outer_iter_mut().take(count).enumerate() {
-            row(first + n, &mut values);
-            let spectrum = spectrum.as_slice_mut().expect("standard layout");
+        let own = first..rows.min(first + BLOCK);
+        for (ix, spectrum) in own.clone().zip(block.chunks_exact_mut(half)) {
+            row(ix, &mut values);
             plan.process_with_scratch(&mut values, spectrum, &mut scratch)
                 .expect("lengths come from the plan");
         }
-        for (mut to, from) in columns.outer_iter_mut().zip(block.axis_iter(Axis(1))) {
-            to.slice_mut(s![first..first + count]).assign(&from.slice(s![..count]));
+        for (l, column) in columns.chunks_exact_mut(length).enumerate() {
+            let from = block[l..].iter().step_by(half);
+            column[own.clone()].iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         }
     }
 }
@@ -212,6 +246,8 @@ pub(crate) fn angular_frequency(k: usize, n: usize, pitch: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use ndarray::s;
+
     use super::*;
 
     #[test]
@@ -240,11 +276,11 @@ mod tests {
         let (small, fft) =
             (Field::from_shape_fn([3, 4], |(i, j)| (1 + 5 * i + j * j) as f64), RealFft2::new([6, 7]));
         let mut padded = Field::zeros([6, 7]);
-        padded.slice_mut(ndarray::s![..3, ..4]).assign(&small);
+        padded.slice_mut(s![..3, ..4]).assign(&small);
         let spectrum = fft.forward(&small);
         assert_eq!(spectrum, fft.forward(&padded));
         let whole = fft.inverse_leading(&spectrum, fft.shape);
-        assert_eq!(fft.inverse_leading(&spectrum, [2, 5]), whole.slice(ndarray::s![..2, ..5]));
+        assert_eq!(fft.inverse_leading(&spectrum, [2, 5]), whole.slice(s![..2, ..5]));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rustfft::num_complex::Complex64;
@@ -14,6 +14,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::grid::Grid;
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
+use crate::math::parallel;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
@@ -81,23 +82,35 @@ impl SelfAffine {
         let (along_x, along_y) = (numbers(0), numbers(1));
         let mut spectrum = Array2::<Complex64>::zeros([among.len(), nx]);
         let (mut height, mut slope) = (0.0, 0.0);
-        for_each_wave(grid.shape, seed, among.clone(), |k, l, phase| {
-            let wave = [along_x[k], along_y[l]];
-            let q = wave[0].hypot(wave[1]);
-            // A wave on the limit belongs to the surface, whatever the round-off.
-            if q * shortest > TAU * (1.0 + 1e-9) {
-                return;
+        // The squares are added wave by wave, in one order whatever the threads.
+        for (number, mut some) in spectrum.axis_chunks_iter_mut(Axis(0), AT_ONCE).enumerate() {
+            let first = among.start + number * AT_ONCE;
+            let squares = parallel::map(some.outer_iter_mut().enumerate(), |(n, mut spectrum)| {
+                let l = first + n;
+                let mut squares = Vec::with_capacity(nx);
+                for_each_wave(grid.shape, seed, l, |k, phase| {
+                    let wave = [along_x[k], along_y[l]];
+                    let q = wave[0].hypot(wave[1]);
+                    // A wave on the limit belongs to the surface, whatever the round-off.
+                    if q * shortest > TAU * (1.0 + 1e-9) {
+                        return;
+                    }
+                    let magnitude = self.magnitude(q);
+                    // The phase is that at the grid's corner, half a cell before the first centre.
+                    let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
+                    spectrum[k] = Complex64::from_polar(magnitude, phase + to_centre);
+                    if l == 0 {
+                        spectrum[nx - k] = spectrum[k].conj();
+                    }
+                    squares.push([2.0 * magnitude * magnitude, 2.0 * (q * magnitude).powi(2)]);
+                });
+                squares
+            });
+            for [of_height, of_slope] in squares.into_iter().flatten() {
+                height += of_height;
+                slope += of_slope;
             }
-            let magnitude = self.magnitude(q);
-            // The phase is that at the grid's corner, half a cell before the first centre.
-            let to_centre = 0.5 * (wave[0] * grid.pitch[0] + wave[1] * grid.pitch[1]);
-            spectrum[[l - among.start, k]] = Complex64::from_polar(magnitude, phase + to_centre);
-            if l == 0 {
-                spectrum[[0, nx - k]] = spectrum[[0, k]].conj();
-            }
-            height += 2.0 * magnitude * magnitude;
-            slope += 2.0 * (q * magnitude).powi(2);
-        });
+        }
         Ok((spectrum, [height, slope]))
     }
 
@@ -148,23 +161,27 @@ impl SelfAffine {
     }
 }
 
-/// Calls `f(k, l, phase)` for one wave of each pair ±q that the grid resolves, l `among` some: l periods along y, k along x,
-/// negative ones counted down from nx.
+/// Frequencies along y that are worked on in parallel.
+const AT_ONCE: usize = 16;
+
+/// Calls `f(k, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x, negative ones counted
+/// down from nx.
 ///
 /// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so
 /// they depend on the seed and the wave, not on the shape.
-fn for_each_wave([nx, ny]: [usize; 2], seed: u64, among: Range<usize>, mut f: impl FnMut(usize, usize, f64)) {
+fn for_each_wave([nx, ny]: [usize; 2], seed: u64, l: usize, mut f: impl FnMut(usize, f64)) {
+    if 2 * l >= ny {
+        return;
+    }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    for l in among.start..among.end.min(ny.div_ceil(2)) {
-        random.set_stream(l as u64);
-        random.set_word_pos(0);
-        for number in 0..2 * nx.div_ceil(2) - 1 {
-            let phase = TAU * random.random::<f64>();
-            let periods = number.div_ceil(2);
-            let positive = number % 2 == 1;
-            if l > 0 || positive {
-                f(if positive || number == 0 { periods } else { nx - periods }, l, phase);
-            }
+    random.set_stream(l as u64);
+    random.set_word_pos(0);
+    for number in 0..2 * nx.div_ceil(2) - 1 {
+        let phase = TAU * random.random::<f64>();
+        let periods = number.div_ceil(2);
+        let positive = number % 2 == 1;
+        if l > 0 || positive {
+            f(if positive || number == 0 { periods } else { nx - periods }, phase);
         }
     }
 }
