@@ -615,7 +615,7 @@ impl Simulation {
             true => (guess, &contacts[..self.distinct]),
             false => (None, &[][..]),
         };
-        let warm = WarmStart::new(guess, again, jump, represented);
+        let warm = WarmStart::new(guess, again, jump, represented, &self.warm);
         for output in outputs.iter_mut() {
             let motion = &self.motion;
             let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);

@@ -7,10 +7,13 @@
 //! /bearing       cells with p > 0 at each position
 //! /cell          those cells, position by position: flat index
 //! /pressure      their pressure, Pa
+//! /change        its change since the computed pass before, Pa per pass of the motion
+//! /persistence   of each position, the share of this change that is expected again
 //! /sum_lower_1_1 what the first law that repeats has summed first over the last pass of the lower body; and so on, where
 //!                bodies wear or grow films
 //! ```
 
+use std::iter;
 use std::path::Path;
 
 use crate::error::{Error, Result};
@@ -52,6 +55,8 @@ pub(super) fn write(
         ("bearing", "1", "position", of_positions(|p| p.pressure.len() as f64)),
         ("cell", "1", "bearing", of_cells(|(cell, _)| f64::from(*cell))),
         ("pressure", "Pa", "bearing", of_cells(|(_, p)| *p)),
+        ("change", "Pa", "bearing", warm.positions.iter().flat_map(|p| &p.change).copied().collect()),
+        ("persistence", "1", "position", of_positions(|p| p.persistence)),
     ] {
         if !values.is_empty() {
             file.add_series(name, unit, axis, 1.0, 0.0, &values);
@@ -83,12 +88,17 @@ pub(super) fn read(path: &Path) -> Result<WarmStart> {
             false => Ok(Vec::new()),
         }
     };
-    let [approach, bearing, cell, pressure] =
-        [series("approach")?, series("bearing")?, series("cell")?, series("pressure")?];
+    let [approach, bearing, persistence] = [series("approach")?, series("bearing")?, series("persistence")?];
+    let [cell, pressure, change] = [series("cell")?, series("pressure")?, series("change")?];
     let mut cells = cell.into_iter().map(|cell| cell as u32).zip(pressure);
-    let positions = approach.into_iter().zip(bearing).map(|(approach, count)| Bearing {
+    // Files of earlier versions have neither change nor persistence.
+    let mut changes = change.into_iter().chain(iter::repeat(0.0));
+    let positions = approach.into_iter().zip(bearing).zip(persistence.into_iter().chain(iter::repeat(0.0)));
+    let positions = positions.map(|((approach, count), persistence)| Bearing {
         approach,
         pressure: cells.by_ref().take(count as usize).collect(),
+        change: changes.by_ref().take(count as usize).collect(),
+        persistence,
     });
     let positions = positions.collect();
     let guess = number("approach").zip(number("slope"));

@@ -159,6 +159,20 @@ fn jumps_lead_where_all_passes_do_and_within_their_bound() {
 }
 
 #[test]
+fn steadily_worn_passes_begin_where_the_last_ones_lead() {
+    let motion = Motion::new(SLIDE, Control::Load(0.8)).with_passes(8).with_stride(16);
+    let simulation =
+        Simulation::new(rough(f64::INFINITY, 64), Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let kept = Kept::of(simulation.with_law(archard(1e-15)));
+    let convolutions: Vec<f64> = kept.passes.iter().map(|pass| pass.convolutions / 4.0).collect();
+    // Two changes are known after the third pass.
+    assert!(
+        convolutions[3..].iter().all(|each| *each <= 12.0 && *each < convolutions[1]),
+        "{convolutions:?}"
+    );
+}
+
+#[test]
 fn the_volume_is_archards_and_the_ledger_balances() {
     let kept = run_in(1.5e9, 60, Acceleration::default().with_max_wear(20e-9));
     let before = rough(1.5e9, 16);
