@@ -259,6 +259,14 @@ def is_accessible(tab, axe):
     tab.emulate_media(color_scheme="light")
 
 
+def fits(tab, width):
+    """The page is no wider than a window of that width."""
+    tab.set_viewport_size({"width": width, "height": 900})
+    tab.wait_for_timeout(400)
+    beyond = tab.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    assert beyond <= 0, f"{beyond} pixels beyond {width}"
+
+
 def look_at(browser, path, results, folder, axe):
     text = path.read_text()
     page = Data(text)
@@ -283,10 +291,7 @@ def look_at(browser, path, results, folder, axe):
     downloads(tab, folder)
     is_accessible(tab, axe)
     for width in (1280, 400):
-        tab.set_viewport_size({"width": width, "height": 900})
-        tab.wait_for_timeout(400)
-        beyond = tab.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
-        assert beyond <= 0, f"{beyond} pixels beyond {width}"
+        fits(tab, width)
         tab.screenshot(path=folder / f"{path.stem}-{width}.png", full_page=True)
     assert not wrong, wrong
     assert [url for url in requests if not url.startswith(("blob:", "data:"))] == [path.as_uri()], requests
@@ -407,10 +412,7 @@ def look_at_study(browser, directory, folder, axe):
     nothing_is_empty(tab)
     downloads(tab, folder)
     for width in (1280, 400):
-        tab.set_viewport_size({"width": width, "height": 900})
-        tab.wait_for_timeout(400)
-        beyond = tab.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
-        assert beyond <= 0, f"{beyond} pixels beyond {width}"
+        fits(tab, width)
         is_accessible(tab, axe)
         heads_stay(tab)
         tab.evaluate("scrollTo(0, 0)")

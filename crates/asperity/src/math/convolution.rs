@@ -9,12 +9,11 @@ use rustfft::num_traits::Zero;
 use rustfft::{Fft, FftNum, FftPlanner};
 
 use crate::grid::Field;
+use crate::math::fft::SHARE;
 use crate::math::parallel::{self, Pool};
 
 /// Columns that are transformed together: one or two cache lines of a row.
 const STRIP: usize = 8;
-/// Complex numbers that a thread transforms at the least, so that it is worth its while.
-const SHARE: usize = 1 << 17;
 /// Room between the columns of a strip: without it columns of a power of two share their cache lines' places.
 const ROOM: usize = 8;
 

@@ -202,7 +202,7 @@ pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
 /// Rows transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
 /// Complex numbers that a thread transforms at the least, so that it is worth its while.
-const SHARE: usize = 1 << 17;
+pub(super) const SHARE: usize = 1 << 17;
 
 /// Transforms the first `rows` rows, which `row` sets, into the first entries of the columns.
 fn transform_rows(

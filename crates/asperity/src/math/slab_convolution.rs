@@ -12,7 +12,7 @@ use super::convolution::{Kernel, Parity, Plans, largest, multiply, real};
 use super::mixed::{Latest, MixedKernel};
 use super::transposition::Transposition;
 use crate::grid::{Field, SingleField};
-use crate::ranks::{Number, Parts, Ranks, Slab};
+use crate::ranks::{Largest, Number, Parts, Ranks, Slab};
 
 /// Rows that are turned into columns at a time.
 const BLOCK: usize = 8;
@@ -84,11 +84,9 @@ impl SlabConvolution {
     fn new(slab: &Slab, plans: Plans<f64>, spectrum: Field) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
         assert!(rows <= plans.shape[0] && columns <= plans.shape[1], "kernel smaller than the field");
-        let ranks = slab.ranks();
-        let all = ranks.gather(&[largest(&spectrum)], &vec![1; ranks.count()]);
-        let largest = all.into_iter().fold(0.0, f64::max);
+        let Largest(largest) = slab.merged(Largest(largest(&spectrum)));
         Self {
-            ranks: Arc::clone(ranks),
+            ranks: Arc::clone(slab.ranks()),
             rows: slab.parts().clone(),
             kernel: MixedKernel::new(Kernel::scaled(plans, spectrum, largest)),
             latest: Latest::None,

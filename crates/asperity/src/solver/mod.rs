@@ -443,6 +443,10 @@ fn finite(quantity: &'static str, value: f64) -> Result<()> {
     )
 }
 
+/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
+const TOLERANCE_REDUCTION: f64 = 0.3;
+/// Error of a displacement in single precision, as a share of its largest value.
+const SINGLE_PRECISION: f64 = 4e-7;
 /// Relative error of the load at which an answer is accepted.
 const LOAD_TOLERANCE: f64 = 1e-10;
 

@@ -8,19 +8,17 @@ use crate::grid::{Field, SingleField};
 use crate::math::sum::sums;
 use crate::math::{Bands, indices_where, parallel};
 use crate::ranks::{Halo, Largest, Merged, Slab};
-use crate::solver::Terms;
 use crate::solver::bounds::{Interval, with_bounds};
 use crate::solver::feasible::{Range, extremes, map_within, sum_within, within};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::residual::{Cell, Multiplier, ResidualSums};
 use crate::solver::sets::{Set, Sets};
 use crate::solver::site::Site;
+use crate::solver::{SINGLE_PRECISION, Terms};
 use crate::units::{Metre, Pascal};
 
 /// Radius, in cells, of the influence by which a residual is predicted without a convolution.
 const NEAR_FIELD: usize = 4;
-/// Error of a displacement in single precision, as a share of its largest value.
-const SINGLE_PRECISION: f64 = 4e-7;
 
 /// One contact in the iteration: pressure, displacement, direction and residual of its cells.
 ///

@@ -16,7 +16,7 @@ use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::Residual;
 use crate::solver::site::Site;
 use crate::solver::watch::go_on;
-use crate::solver::{Control, Stats, Terms, finite};
+use crate::solver::{Control, Stats, TOLERANCE_REDUCTION, Terms, finite};
 use crate::units::{Metre, Pascal};
 
 use block::{Block, ResidualNorms};
@@ -58,8 +58,6 @@ const BEST_AFTER_SEARCH: f64 = 2.0;
 
 /// The error of single precision in the displacement may be this share of the residual that is wanted.
 const MAX_ROUNDING: f64 = 0.1;
-/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
-const TOLERANCE_REDUCTION: f64 = 0.3;
 /// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
 const FIRST_PRESSURE: f64 = 0.3;
 

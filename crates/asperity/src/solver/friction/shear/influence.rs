@@ -2,14 +2,13 @@
 
 use crate::grid::{Field, SingleField};
 use crate::operator::CoupledOperator;
+use crate::solver::SINGLE_PRECISION;
 use crate::solver::friction::disc::{Vector, length};
 use crate::solver::friction::self_compliance;
+use crate::solver::friction::shear::state::State;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::Sets;
 use crate::units::Metre;
-
-/// Error of a displacement in single precision, as a share of its largest value.
-const SINGLE_PRECISION: f64 = 4e-7;
 
 /// The cells of one grid under shear.
 pub(super) struct Influence {
@@ -85,10 +84,12 @@ impl Influence {
         (displaced, SINGLE_PRECISION * largest)
     }
 
-    /// Adapts the approximate inverse to the cells that are `coupled`.
-    pub(super) fn adapt(&mut self, cells: &[usize], coupled: impl Iterator<Item = bool>) {
+    /// Adapts the approximate inverse to the cells whose predicted freedoms are coupled.
+    pub(super) fn adapt(&mut self, state: &State) {
         let mut is_free = vec![false; self.single[0].len()];
-        cells.iter().zip(coupled).for_each(|(cell, coupled)| is_free[*cell] = coupled);
+        for (cell, freedom) in state.cells.iter().zip(&state.freedom) {
+            is_free[*cell] = !freedom.is_diagonal(self.compliance);
+        }
         self.sets.free_where(|cell| is_free[cell]);
         self.preconditioner.adapt(&self.sets);
     }

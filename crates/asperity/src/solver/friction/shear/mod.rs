@@ -10,7 +10,7 @@ use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::transport::History;
 use crate::solver::watch::go_on;
-use crate::solver::{Stats, Watch};
+use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::{Metre, SquareMetre};
 
 use influence::{Influence, at};
@@ -31,8 +31,6 @@ const PROGRESS: f64 = 0.7;
 const MAX_STAGNATIONS: usize = 4;
 /// After the projected gradient steps the least residual is taken to be so much larger: the next outer step may lose a little.
 const BEST_AFTER_GRADIENT: f64 = 2.0;
-/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
-const TOLERANCE_REDUCTION: f64 = 0.3;
 /// The displacement is computed anew, in double precision, when its rounding is more than this share of the residual.
 const ROUNDING_SHARE: f64 = 0.01;
 /// Conjugate gradient steps on one prediction of stick and slip, at the most.
@@ -225,9 +223,7 @@ impl ShearSolver {
     /// Preconditioned conjugate gradients on the predicted freedoms, to the largest residual `wanted` or until the limits are
     /// violated more.
     fn conjugate_gradients(&mut self, operator: &mut dyn CoupledOperator, state: &mut State, wanted: f64) {
-        let compliance = self.influence.compliance;
-        let coupled = state.freedom.iter().map(|freedom| !freedom.is_diagonal(compliance));
-        self.influence.adapt(&state.cells, coupled);
+        self.influence.adapt(state);
 
         let mut residual = state.newton_residual();
         let mut direction = vec![[0.0; 2]; residual.len()];

@@ -8,19 +8,15 @@ use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, combination, minus, times};
 use crate::solver::friction::shear::influence::{Influence, at};
 use crate::solver::friction::shear::state::State;
-use crate::solver::friction::shear::{Answer, Method, Task};
+use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
 use crate::solver::friction::transport::Ahead;
 use crate::solver::watch::go_on;
-use crate::solver::{Stats, Watch};
+use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::SquareMetre;
 
-/// A Newton step has made progress when it leaves less than this share of the least residual so far.
-const PROGRESS: f64 = 0.7;
 /// Newton steps without progress, one after another, of which one more ends the iteration. The first ones may lose: where all sticks at
 /// first, the shear is large at the trailing edge.
 const MAX_STAGNATIONS: usize = 8;
-/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
-const TOLERANCE_REDUCTION: f64 = 0.3;
 /// The Newton equations are solved to this share of their residual,
 const REDUCTION: f64 = 0.1;
 /// less where the last step has reduced the residual much, down to this,
@@ -168,9 +164,7 @@ impl SteadySolver {
         coming: &[Option<usize>],
         reduction: f64,
     ) -> bool {
-        let compliance = self.influence.compliance;
-        let coupled = state.freedom.iter().map(|freedom| !freedom.is_diagonal(compliance));
-        self.influence.adapt(&state.cells, coupled);
+        self.influence.adapt(state);
         // What the preconditioner makes of a rigid displacement, by which it leaves the force as it is.
         let under_rigid = state.wanted.map(|_| {
             [[1.0, 0.0], [0.0, 1.0]].map(|rigid| {
