@@ -48,7 +48,7 @@ fn a_cell_at_its_own_cap_is_plastic_whatever_the_hardness() {
     let folder = tempfile::tempdir().unwrap();
     let classes = |attribute: Option<f64>, field: Option<[f64; 3]>| {
         let path = folder.path().join("fields.h5");
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&path);
         file.set("hardness", 2e9);
         if let Some(cap) = attribute {
             file.set("cap", cap);
@@ -57,7 +57,7 @@ fn a_cell_at_its_own_cap_is_plastic_whatever_the_hardness() {
             file.add_field("cap", "Pa", &grid, [0.0; 2], &row(caps));
         }
         file.add_field("pressure", "Pa", &grid, [0.0; 2], &row([0.0, 1.6e9, 2e9]));
-        file.write(&path).unwrap();
+        file.write().unwrap();
         let fields = Fields::open(&path).unwrap();
         let contact = Stored::read(&fields, "pressure").unwrap().contact(&Cap::read(&fields).unwrap());
         contact.field.iter().map(|class| *class == 2.0).collect::<Vec<_>>()

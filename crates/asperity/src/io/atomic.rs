@@ -69,24 +69,58 @@ pub(crate) fn is_temporary(name: &OsStr) -> bool {
 const PREFIX: &str = ".asperity-";
 
 fn persist(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let directory = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent.to_owned(),
-        _ => PathBuf::from("."),
-    };
-    let mut temporary = create_in(&directory).map_err(without_temporary_name)?;
-    // It says that its process lives, to `sweep`; it goes with the file. Without locks only a sweep at the same time harms.
-    let _ = temporary.as_file().try_lock();
-    let mut writer = BufWriter::new(temporary.as_file_mut());
+    let mut draft = Draft::new(path)?;
+    let mut writer = BufWriter::new(draft.temporary.as_file_mut());
     contents(&mut writer)?;
     writer.flush()?;
     drop(writer);
-    temporary.as_file().sync_all()?;
-    temporary.persist(path).map_err(|failed| failed.error)?;
-    // The name itself survives a power cut only once its directory is on the disk; not every system can do that.
-    if cfg!(unix) {
-        let _ = File::open(&directory).and_then(|directory| directory.sync_all());
+    draft.publish()
+}
+
+/// A file that is written under its temporary name, which is gone unless it is published.
+pub(crate) struct Draft {
+    temporary: NamedTempFile,
+    directory: PathBuf,
+    path: PathBuf,
+}
+
+impl Draft {
+    /// An empty file that is to replace the one at `path`.
+    ///
+    /// # Errors
+    /// If its directory does not exist or cannot be written to.
+    pub(crate) fn new(path: &Path) -> io::Result<Self> {
+        let directory = match path.parent() {
+            Some(parent) if parent != Path::new("") => parent.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        let temporary = create_in(&directory).map_err(without_temporary_name)?;
+        // It says that its process lives, to `sweep`; it goes with the file. Without locks only a sweep at the same time harms.
+        // Where locks are not advisory it would keep those out who write under the temporary name.
+        if cfg!(unix) {
+            let _ = temporary.as_file().try_lock();
+        }
+        Ok(Self { temporary, directory, path: path.to_owned() })
     }
-    Ok(())
+
+    /// Where it is written.
+    pub(crate) fn temporary_path(&self) -> &Path {
+        self.temporary.path()
+    }
+
+    /// Replaces the file at its path, once all of it is on the disk.
+    ///
+    /// # Errors
+    /// If the disk is full, or the file cannot be renamed.
+    pub(crate) fn publish(self) -> io::Result<()> {
+        self.temporary.as_file().sync_all()?;
+        self.temporary.persist(&self.path).map_err(|failed| failed.error)?;
+        // The name itself survives a power cut only once its directory is on the disk; not every system can do that.
+        if cfg!(unix) {
+            let _ = File::open(&self.directory).and_then(|directory| directory.sync_all());
+        }
+        Ok(())
+    }
 }
 
 fn create_in(directory: &Path) -> io::Result<NamedTempFile> {

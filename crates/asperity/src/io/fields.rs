@@ -5,7 +5,7 @@
 //! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
 //! ```
 //!
-//! A file is written in one go and atomically, so that a killed run leaves only whole files: one for each pass.
+//! A file takes its name when all of it is written, so that a killed run leaves only whole files: one for each pass.
 //! `origin` is the position of the centre of the first cell.
 
 use std::collections::BTreeMap;
@@ -13,21 +13,26 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hdf5_pure::{AttrValue, Dataset, File, FileBuilder};
-use ndarray::{ArrayD, Ix2};
+use hdf5_pure::{
+    AttrValue, Dataset, DatasetBuilder, File, FileAccessProperties, FileCreateProperties, FileLocking,
+    SyncPolicy,
+};
+use ndarray::{ArrayD, ArrayRef, Dimension, Ix2};
 use sha2::{Digest as _, Sha256};
 
-use super::{atomic, sha256};
+use super::atomic::Draft;
+use super::sha256;
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::units::Metre;
 
-/// Fields to be written to one file.
+/// Fields that are written to one file. Arrays go to the disk while others are added: no more than some are held in memory.
 pub struct FieldFile {
-    builder: FileBuilder,
     attributes: BTreeMap<String, Attribute>,
     /// The digest of each array, by its name.
     arrays: BTreeMap<String, Digest>,
+    /// The file on the disk, or why there is none.
+    draft: Result<FieldDraft>,
 }
 
 /// A fact about a file.
@@ -58,22 +63,17 @@ pub struct StoredField {
     pub values: ArrayD<f64>,
 }
 
-impl Default for FieldFile {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl FieldFile {
-    /// A file with nothing in it.
-    pub fn new() -> Self {
-        Self { builder: FileBuilder::new(), attributes: BTreeMap::new(), arrays: BTreeMap::new() }
+    /// A file with nothing in it, which is to be at `path`, in a folder that is made if there is none. It is there once
+    /// [`FieldFile::write`] has ended; errors until then come to light there.
+    pub fn new(path: &Path) -> Self {
+        Self { attributes: BTreeMap::new(), arrays: BTreeMap::new(), draft: FieldDraft::new(path) }
     }
 
-    /// A file of the run of this identity, which it says.
+    /// A file at `path` of the run of this identity, which it says.
     #[cfg(feature = "study")]
-    pub(crate) fn of_run(identity: &str) -> Self {
-        let mut file = Self::new();
+    pub(crate) fn of_run(identity: &str, path: &Path) -> Self {
+        let mut file = Self::new(path);
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
         file
     }
@@ -98,8 +98,7 @@ impl FieldFile {
     ) -> &mut Self {
         assert_eq!(values.shape(), grid.shape, "{name} is not on the grid");
         let origin = [corner[0] + grid.centre(0, 0), corner[1] + grid.centre(1, 0)];
-        let values: Vec<f64> = values.iter().copied().collect();
-        self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, &values)
+        self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, flat(&values.as_standard_layout()))
     }
 
     /// Adds values on a section along x and into the depth z, whose first row is the surface and whose first column
@@ -115,8 +114,8 @@ impl FieldFile {
         x: Metre,
         values: &Field,
     ) -> &mut Self {
-        let flat: Vec<f64> = values.iter().copied().collect();
-        self.add(name, unit, "x,z", values.shape(), &pitch, &[x, 0.0], &flat)
+        let values = values.as_standard_layout();
+        self.add(name, unit, "x,z", values.shape(), &pitch, &[x, 0.0], flat(&values))
     }
 
     /// Adds values in layers below the cells of `grid`, `[ix, iy, iz]`.
@@ -133,8 +132,8 @@ impl FieldFile {
     ) -> &mut Self {
         assert_eq!(values.shape()[..2], grid.shape, "{name} is not on the grid");
         let origin = [grid.centre(0, 0), grid.centre(1, 0)];
-        let flat: Vec<f64> = values.iter().copied().collect();
-        self.add(name, unit, "x,y,layer", values.shape(), &grid.pitch, &origin, &flat)
+        let values = values.as_standard_layout();
+        self.add(name, unit, "x,y,layer", values.shape(), &grid.pitch, &origin, flat(&values))
     }
 
     /// Adds values at `origin`, `origin + pitch`, … along one axis.
@@ -169,43 +168,103 @@ impl FieldFile {
         let other = self.arrays.insert(name.to_owned(), digest);
         assert!(other.is_none(), "two arrays named {name}");
         let shape: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
-        let dataset = self.builder.create_dataset(name);
-        dataset.with_f64_data(values).with_shape(&shape);
-        if values.len() >= MIN_COMPRESSED {
-            // Most of a pressure field is 0, and neighbouring heights share their exponents.
-            dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
+        let describe = |dataset: &mut DatasetBuilder| {
+            dataset.with_f64_data(values).with_shape(&shape);
+            if values.len() >= MIN_COMPRESSED {
+                // Most of a pressure field is 0, and neighbouring heights share their exponents.
+                dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
+            }
+            dataset
+                .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
+                .set_attr("axes", AttrValue::VarLenString(axes.to_owned()))
+                .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
+                .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
+        };
+        if let Ok(draft) = &mut self.draft
+            && let Err(error) = draft.add(name, size_of_val(values), describe)
+        {
+            self.draft = Err(file_error(&draft.path, error));
         }
-        dataset
-            .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
-            .set_attr("axes", AttrValue::VarLenString(axes.to_owned()))
-            .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
-            .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
         self
     }
 
-    /// Writes the file to `path`, atomically, in a folder that is made if there is none.
+    /// Ends the file, and gives it its name.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn write(mut self, path: &Path) -> Result<()> {
+    pub fn write(mut self) -> Result<()> {
         let digest = content_digest(&self.attributes, &self.arrays);
         self.set(DIGEST, digest.as_str());
-        for (name, value) in self.attributes {
-            let value = match value {
-                Attribute::Text(text) => AttrValue::VarLenString(text),
-                Attribute::Number(number) => AttrValue::F64(number),
-                Attribute::Integer(number) => AttrValue::I64(number),
-                Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
-            };
-            self.builder.set_attr(&name, value);
-        }
-        let image = self.builder.finish().map_err(|error| file_error(path, error))?;
+        let FieldDraft { path, draft, file, .. } = self.draft?;
+        let end = || {
+            for (name, value) in self.attributes {
+                let value = match value {
+                    Attribute::Text(text) => AttrValue::VarLenString(text),
+                    Attribute::Number(number) => AttrValue::F64(number),
+                    Attribute::Integer(number) => AttrValue::I64(number),
+                    Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
+                };
+                file.root().set_attr(&name, value)?;
+            }
+            file.commit()?;
+            file.close()?;
+            draft.publish().map_err(hdf5_pure::Error::Io)
+        };
+        end().map_err(|error| file_error(&path, error))
+    }
+}
+
+/// A file of fields under its temporary name.
+struct FieldDraft {
+    path: PathBuf,
+    file: File,
+    draft: Draft,
+    /// Bytes of the arrays that wait to be written.
+    waiting: usize,
+}
+
+impl FieldDraft {
+    fn new(path: &Path) -> Result<Self> {
         if let Some(folder) = path.parent() {
             let failed = |source| Error::File { path: folder.to_owned(), source };
             std::fs::create_dir_all(folder).map_err(failed)?;
         }
-        atomic::replace(path, &image)
+        let open = || {
+            let draft = Draft::new(path)?;
+            let create = FileCreateProperties::new();
+            // Nobody else knows it, and it reaches the disk when it is published.
+            let access = without_lock().with_sync_policy(SyncPolicy::OnClose);
+            let file = File::create_with_options(draft.temporary_path(), create, access)?;
+            Ok(Self { path: path.to_owned(), file, draft, waiting: 0 })
+        };
+        open().map_err(|error| file_error(path, error))
     }
+
+    /// Adds an array of so many bytes.
+    fn add(
+        &mut self,
+        name: &str,
+        bytes: usize,
+        describe: impl FnOnce(&mut DatasetBuilder),
+    ) -> std::result::Result<(), hdf5_pure::Error> {
+        self.file.root().create_dataset(name, describe)?;
+        self.waiting += bytes;
+        if self.waiting >= MAX_WAITING {
+            self.file.commit()?;
+            self.waiting = 0;
+        }
+        Ok(())
+    }
+}
+
+/// Access to a file that is not locked: files take their names when they are whole.
+fn without_lock() -> FileAccessProperties {
+    FileAccessProperties::new().with_locking(FileLocking::Disabled)
+}
+
+/// The values of an array in the order of its axes, the last first.
+fn flat<D: Dimension>(values: &ArrayRef<f64, D>) -> &[f64] {
+    values.as_slice().expect("standard layout")
 }
 
 /// SHA-256.
@@ -244,6 +303,8 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
 
 /// Fields of fewer values are not compressed.
 const MIN_COMPRESSED: usize = 1024;
+/// So many bytes of arrays are written together.
+const MAX_WAITING: usize = 1 << 24;
 /// Level of the compression, 1 to 9.
 const DEFLATE_LEVEL: u32 = 4;
 
@@ -277,7 +338,8 @@ impl Fields {
     /// # Errors
     /// [`Error::File`].
     pub fn open(path: &Path) -> Result<Self> {
-        let file = File::open(path).map_err(|error| file_error(path, error))?;
+        let file = File::open_streaming_with_options(path, without_lock())
+            .map_err(|error| file_error(path, error))?;
         Ok(Self { path: path.to_owned(), file })
     }
 
@@ -386,7 +448,11 @@ fn attribute(value: &AttrValue) -> Option<Attribute> {
 fn file_error(path: &Path, error: hdf5_pure::Error) -> Error {
     let source = match error {
         hdf5_pure::Error::Io(error) => error,
-        other => io::Error::new(io::ErrorKind::InvalidData, format!("HDF5: {other}")),
+        other => {
+            let text = other.to_string();
+            let text = if text.starts_with("HDF5") { text } else { format!("HDF5: {text}") };
+            io::Error::new(io::ErrorKind::InvalidData, text)
+        }
     };
     Error::File { path: path.to_owned(), source }
 }
@@ -417,6 +483,8 @@ impl From<Vec<f64>> for Attribute {
 
 #[cfg(test)]
 mod tests {
+    use std::process::Command;
+
     use super::*;
 
     fn field(grid: &Grid) -> Field {
@@ -433,13 +501,13 @@ mod tests {
         with_hole[[1, 1]] = f64::NAN;
         let loads: Vec<f64> = (0..5).map(f64::from).collect();
 
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&path);
         file.set("version", "0.1.0").set("pass", 3).set("load", 2.5).set("window", vec![0.0, 1.0]);
         file.add_field("gap", "m", &small, [0.0, 0.0], &with_hole);
         file.add_field("pressure", "Pa", &large, [1e-3, 0.0], &field(&large));
         file.add_series("load", "N", "x", 1e-6, 0.0, &loads);
         file.add_section("stress", "Pa", [1e-6, 5e-7], 3e-6, &field(&small));
-        file.write(&path).unwrap();
+        file.write().unwrap();
 
         let fields = Fields::open(&path).unwrap();
         assert_eq!(fields.names().unwrap(), ["gap", "load", "pressure", "stress"]);
@@ -474,12 +542,62 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("fields.h5");
         let grid = Grid::new([2, 2], [1.0, 1.0]).unwrap();
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&path);
         file.add_field("gap", "m", &grid, [0.0, 0.0], &grid.zeros());
-        file.write(&path).unwrap();
+        file.write().unwrap();
         let error = read_field(&path, "presure").unwrap_err();
         assert!(error.to_string().starts_with("no field `presure` in "), "{error}");
         assert_eq!(error.hint().unwrap(), "it holds `gap`");
+    }
+
+    #[test]
+    fn what_is_written_in_turns_is_what_others_read() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("many").join("fields.h5");
+        let large = Grid::new([1024, 1100], [1e-6; 2]).unwrap();
+        let small = Grid::new([8, 9], [1e-6; 2]).unwrap();
+        let mut file = FieldFile::new(&path);
+        // Some times as much as waits to be written, and more of each than fit into a header.
+        for n in 0..5 {
+            file.add_field(&format!("large_{n}"), "m", &large, [0.0; 2], &(field(&large) + f64::from(n)));
+            for m in 0..6 {
+                let name = format!("small_{n}_{m}");
+                file.add_field(&name, "m", &small, [0.0; 2], &(field(&small) * f64::from(n - m)));
+                file.set(&name, f64::from(n - m));
+            }
+        }
+        assert!(!path.exists());
+        file.write().unwrap();
+        let fields = Fields::open(&path).unwrap();
+        fields.verify().unwrap();
+        assert_eq!((fields.names().unwrap().len(), fields.attributes().unwrap().len()), (35, 31));
+        assert_eq!(fields.read("large_4").unwrap().into_field().unwrap(), field(&large) + 4.0);
+        assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+
+        let python = std::env::var("ASPERITY_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+        let run = |script: &str| Command::new(&python).args(["-c", script]).arg(&path).output();
+        if !run("import h5py").is_ok_and(|output| output.status.success()) {
+            assert!(std::env::var_os("CI").is_none(), "{python} has no h5py");
+            return;
+        }
+        let script = "import sys, h5py\nf = h5py.File(sys.argv[1])\nl = f['large_3']\n\
+                      print(len(f), len(f.attrs), l.shape, l.attrs['unit'], l[1023, 1099], \
+                      f['small_4_1'][1, 0] / f['small_1_0'][1, 0], f.attrs['small_4_1'])";
+        let output = run(script).unwrap();
+        let last = field(&large)[[1023, 1099]] + 3.0;
+        let expected = format!("35 31 (1024, 1100) m {last:?} 3.0 3.0");
+        assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), expected, "{output:?}");
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_written_says_so_in_the_end() {
+        let directory = tempfile::tempdir().unwrap();
+        let inside = directory.path().join("taken");
+        std::fs::write(&inside, b"a file").unwrap();
+        let mut file = FieldFile::new(&inside.join("fields.h5"));
+        let grid = Grid::new([3, 2], [1e-6; 2]).unwrap();
+        file.set("pass", 3).add_field("gap", "m", &grid, [0.0; 2], &field(&grid));
+        assert!(matches!(file.write(), Err(Error::File { path, .. }) if path == inside));
     }
 
     #[test]
@@ -509,12 +627,12 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("fields.h5");
         let grids = [[3, 2], [40, 30]].map(|shape| Grid::new(shape, [1e-6; 2]).unwrap());
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&path);
         file.set("version", "0.1.0").set("pass", 3);
         for (name, grid) in ["small", "large"].into_iter().zip(&grids) {
             file.add_field(name, "m", grid, [0.0; 2], &field(grid));
         }
-        file.write(&path).unwrap();
+        file.write().unwrap();
         let whole = std::fs::read(&path).unwrap();
         // Whatever is read is read in full: the values, or an error.
         let read = || -> Result<()> {

@@ -212,13 +212,13 @@ mod tests {
         let part = Grid::new([2, 3], [1e-6, 2e-6]).unwrap();
         let other = Grid::new([4, 3], [1e-6, 2e-6]).unwrap();
         let numbered = |grid: &Grid| Field::from_shape_fn(grid.shape, |(i, j)| (10 * i + j) as f64);
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&path);
         file.add_field("lower", "m", &grid, [0.0; 2], &numbered(&grid));
         file.add_field("upper", "m", &other, [0.0; 2], &numbered(&other));
         file.add_field("mean_pressure_upper", "Pa", &other, [0.0; 2], &numbered(&other));
         // Wraps around: on columns 4 and 0.
         file.add_field("pressure_00001", "Pa", &part, [4e-6, 0.0], &numbered(&part));
-        file.write(&path).unwrap();
+        file.write().unwrap();
         write_fields(&path).unwrap();
 
         let say = "d = i.GetCellData()\nprint(i.GetDimensions(), i.GetSpacing()[:2], i.GetOrigin(), \

@@ -87,7 +87,7 @@ impl LoadingOutput for LoadingWriter {
 
 impl LoadingWriter {
     fn write(&self, state: &LoadingState) -> Result<()> {
-        let mut file = FieldFile::of_run(&self.identity);
+        let mut file = FieldFile::of_run(&self.identity, &self.results.increment_state_path());
         let mut add = |name: &str, unit: &str, field: &Field| {
             file.add_field(name, unit, &self.grid, [0.0, 0.0], field);
         };
@@ -130,7 +130,7 @@ impl LoadingWriter {
             .set("origin_approach", approach)
             .set("origin_force", force.to_vec())
             .set("origin_displacement", displacement.to_vec());
-        file.write(&self.results.increment_state_path())
+        file.write()
     }
 
     /// The state of a loading as it is `stored`.

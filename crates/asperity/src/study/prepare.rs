@@ -656,11 +656,11 @@ mod tests {
         let grid = Grid::new([4, 3], [1e-6; 2]).unwrap();
         let lower = Field::from_shape_fn(grid.shape, |(ix, iy)| 1e-9 * (ix * ix + 2 * iy) as f64);
         let upper = &lower * 3.0 + 5e-9;
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(&directory.path().join("pass-0005.h5"));
         file.set("version", "0.1.0").set("pass", 5).set("identity", "a digest");
         file.add_field("lower", "m", &grid, [0.0; 2], &lower)
             .add_field("upper", "m", &grid, [0.0; 2], &upper);
-        file.write(&directory.path().join("pass-0005.h5")).unwrap();
+        file.write().unwrap();
         let mounted = |channel: &str, mount: &str| {
             let body = |name: &str, more: &str, channel: &str| {
                 format!(

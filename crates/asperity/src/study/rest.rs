@@ -290,7 +290,8 @@ impl Solved {
                 (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
             }
         };
-        // Between the bodies as they are prepared, whatever the course of a loading has left of them.
+        // Those of the bodies as they are prepared, whatever the course of a loading has left of them.
+        drop(normal.initial_gap);
         let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
         let mut fields = Vec::new();
         let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
@@ -370,9 +371,10 @@ impl RestFields {
         Some(self.fields.swap_remove(at).values)
     }
 
-    /// What acts on the lower body; the fields are used up.
-    pub(super) fn into_tractions(mut self) -> Tractions {
-        let shear = ["traction_x", "traction_y"].map(|name| self.take(name));
-        Tractions { pressure: self.take("pressure").expect("every contact has a pressure"), shear }
+    /// What acts on the lower body.
+    pub(super) fn tractions(&self) -> Tractions {
+        let of = |name| self.fields.iter().find(|field| field.name == name).map(|field| field.values.clone());
+        let shear = ["traction_x", "traction_y"].map(of);
+        Tractions { pressure: of("pressure").expect("every contact has a pressure"), shear }
     }
 }

@@ -54,7 +54,8 @@ pub fn run(
     let under_way = solved.take_under_way();
     let flowed = solved.take_flowed();
     let fields = solved.into_fields(rest::displaced(pair, flowed.as_ref()));
-    writer.write_rest(&fields)?;
+    let below = subsurface.map(|plan| (plan, fields.tractions()));
+    writer.write_rest(fields)?;
     let volumes = match &flowed {
         None => &[][..],
         Some(flowed) => {
@@ -62,9 +63,8 @@ pub fn run(
             &flowed.volumes
         }
     };
-    let stress = subsurface
-        .map(|plan| writer.write_subsurface(&plan, fields.into_tractions(), volumes))
-        .transpose()?;
+    let stress =
+        below.map(|(plan, tractions)| writer.write_subsurface(&plan, tractions, volumes)).transpose()?;
     let computed = Computed { outcome, subsurface: stress.into_iter().collect(), sliding, flow: None };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     under_way.map_or(Ok(()), |under_way| under_way.done())?;

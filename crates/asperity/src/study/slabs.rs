@@ -96,7 +96,7 @@ pub fn collect(directory: &Path) -> Result<()> {
     let index = Index::read(directory)?;
     let mut summary = results.summary()?;
     let grid = Grid::new(index.shape, index.pitch)?;
-    let mut file = FieldFile::of_run(&index.identity);
+    let mut file = FieldFile::of_run(&index.identity, &results.static_path());
     file.set("approach", index.approach).set("hardness", index.hardness.unwrap_or(f64::INFINITY));
     let parts = index.open_parts(directory)?;
     let mut needed = Vec::new();
@@ -107,7 +107,7 @@ pub fn collect(directory: &Path) -> Result<()> {
             needed.push(values);
         }
     }
-    file.write(&results.static_path())?;
+    file.write()?;
     let [pressure, lower, upper] = needed.as_slice() else { unreachable!("every contact has these fields") };
     let boundary = Boundary(index.periodic.map(|wraps| if wraps { Edge::Periodic } else { Edge::Free }));
     let rim = cut_off(pressure, || upper - lower, grid.pitch, boundary);
@@ -239,13 +239,13 @@ impl Index {
     /// Writes the fields on the rows of this rank.
     fn write_part(&self, directory: &Path, slab: &Slab, fields: RestFields) -> Result<()> {
         let Part { file: name, first_row, .. } = &self.parts[slab.ranks().rank()];
-        let mut file = FieldFile::of_run(&self.identity);
+        let mut file = FieldFile::of_run(&self.identity, &directory.join("fields").join(name));
         file.set("first_row", *first_row);
         let origin = [*first_row as f64 * self.pitch[0], 0.0];
         for NamedField { name, unit, values } in fields.fields {
             file.add_field(name, unit, &slab.grid(), origin, &values);
         }
-        file.write(&directory.join("fields").join(name))
+        file.write()
     }
 
     /// The files of the parts, undamaged and of this run.

@@ -84,10 +84,10 @@ impl SlidingOutput for SlidingWriter {
         if done == self.updates {
             return Ok(());
         }
-        let mut file = FieldFile::of_run(&self.identity);
+        let mut file = FieldFile::of_run(&self.identity, &self.results.update_state_path());
         file.set("updates", done);
         add_bodies(&mut file, &state.pair);
         file.add_field("pressure", "Pa", &state.pair.lower_grid(), [0.0, 0.0], &state.pressure);
-        file.write(&self.results.update_state_path())
+        file.write()
     }
 }

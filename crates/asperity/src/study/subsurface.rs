@@ -226,7 +226,7 @@ impl Plan {
         if let Some(residual) = body.residual() {
             self.add_residual(&mut file, residual, row);
         }
-        file.write(path)?;
+        file.write()?;
         Ok(record)
     }
 

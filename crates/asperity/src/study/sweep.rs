@@ -40,7 +40,7 @@ impl SweepOutput for SweepWriter {
     fn point(&mut self, points: &[SweepRecord], contact: &LoadedContact) -> Result<()> {
         if is_kept(points.len(), self.fields_every) {
             let solution = contact.solution.normal();
-            let mut file = FieldFile::of_run(&self.identity);
+            let mut file = FieldFile::of_run(&self.identity, &self.results.point_path(points.len()));
             file.set("point", points.len()).set("approach", solution.approach);
             let mut add = |name: &str, unit: &str, field: &Field| {
                 file.add_field(name, unit, &self.grid, [0.0, 0.0], field);
@@ -50,7 +50,7 @@ impl SweepOutput for SweepWriter {
             if self.yields {
                 add("plastic", "m", &contact.plastic);
             }
-            file.write(&self.results.point_path(points.len()))?;
+            file.write()?;
         }
         tables::write_sweep(&self.results.sweep_path(), points)
     }

@@ -25,13 +25,7 @@ use crate::motion::{Bearing, Guess, Jump, WarmStart};
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn write(
-    mut file: FieldFile,
-    path: &Path,
-    pass: usize,
-    grids: &[Grid; 2],
-    warm: &WarmStart,
-) -> Result<()> {
+pub(super) fn write(mut file: FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) -> Result<()> {
     file.set("pass", pass).set("represented", warm.represented);
     if let Some(jump) = &warm.jump {
         file.set("jump", jump.passes);
@@ -62,7 +56,7 @@ pub(super) fn write(
             file.add_series(name, unit, axis, 1.0, 0.0, &values);
         }
     }
-    file.write(path)
+    file.write()
 }
 
 /// Name of the field of a sum of one of the laws that repeat over the last computed pass of a body; all are counted from 0.

@@ -134,7 +134,7 @@ impl Table {
     /// # Errors
     /// [`crate::Error::File`].
     pub fn write_hdf5(&self, path: &Path) -> Result<()> {
-        let mut file = FieldFile::new();
+        let mut file = FieldFile::new(path);
         file.set("version", env!("CARGO_PKG_VERSION"));
         let mut add = |name: &str, unit: &str, value: &dyn Fn(&Row) -> f64| {
             let values: Vec<f64> = self.rows.iter().map(value).collect();
@@ -168,7 +168,7 @@ impl Table {
         if !failures.is_empty() {
             file.set("failures", failures.join("\n").as_str());
         }
-        file.write(path)
+        file.write()
     }
 }
 

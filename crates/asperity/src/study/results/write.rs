@@ -94,13 +94,13 @@ impl Writer {
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub fn write_rest(&self, contact: &RestFields) -> Result<()> {
-        let mut file = self.field_file();
+    pub fn write_rest(&self, contact: RestFields) -> Result<()> {
+        let mut file = self.field_file(&self.results.static_path());
         file.set("approach", contact.approach).set("hardness", contact.hardness);
-        for NamedField { name, unit, values } in &contact.fields {
-            file.add_field(name, unit, &contact.grid, [0.0, 0.0], values);
+        for NamedField { name, unit, values } in contact.fields {
+            file.add_field(name, unit, &contact.grid, [0.0, 0.0], &values);
         }
-        file.write(&self.results.static_path())
+        file.write()
     }
 
     /// Writes what has flowed below the surfaces of a static contact.
@@ -108,10 +108,10 @@ impl Writer {
     /// # Errors
     /// [`crate::Error::File`].
     pub(in crate::study) fn write_flow(&self, contact: &Flowed) -> Result<()> {
-        let mut file = self.field_file();
+        let mut file = self.field_file(&self.results.flow_path(None));
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
         add_volumes(&mut file, &contact.volumes, left);
-        file.write(&self.results.flow_path(None))?;
+        file.write()?;
         tables::write_increments(&self.results.increments_path(), &contact.increments)
     }
 
@@ -144,7 +144,8 @@ impl Writer {
         let seat = Seat::flush(plan.grid.shape);
         let flowed = flowed.iter().find(|volume| volume.body == plan.side());
         let flowed = flowed.map(|volume| (&volume.state, &seat));
-        plan.write(self.field_file(), &self.results.subsurface_path(None), None, tractions, flowed)
+        let path = self.results.subsurface_path(None);
+        plan.write(self.field_file(&path), &path, None, tractions, flowed)
     }
 
     /// Writes the bodies before the first pass, which slide under `friction`.
@@ -152,11 +153,11 @@ impl Writer {
     /// # Errors
     /// [`crate::Error::File`].
     pub fn write_initial(&self, pair: &Pair, friction: Option<&Friction>) -> Result<()> {
-        let mut file = self.field_file();
+        let mut file = self.field_file(&self.results.fields_path(0));
         file.set("pass", 0);
         set_caps(&mut file, pair, friction);
         add_bodies(&mut file, pair);
-        file.write(&self.results.fields_path(0))
+        file.write()
     }
 
     /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
@@ -200,8 +201,8 @@ impl Writer {
     }
 
     /// A file of fields that says which run it is of.
-    fn field_file(&self) -> FieldFile {
-        FieldFile::of_run(&self.identity)
+    fn field_file(&self, path: &Path) -> FieldFile {
+        FieldFile::of_run(&self.identity, path)
     }
 }
 
@@ -231,7 +232,7 @@ impl Output for PassWriter {
     fn pass(&mut self, report: &PassReport) -> Result<()> {
         let pair = report.pair;
         let results = &self.results;
-        let mut file = FieldFile::of_run(&self.identity);
+        let mut file = FieldFile::of_run(&self.identity, &results.fields_path(report.record.pass));
         file.set("pass", report.record.pass);
         set_caps(&mut file, pair, report.motion.friction.as_ref());
         add_bodies(&mut file, pair);
@@ -257,7 +258,7 @@ impl Output for PassWriter {
                 }
             }
         }
-        file.write(&results.fields_path(report.record.pass))?;
+        file.write()?;
         if let Some(plan) = &self.plan {
             let pass = Some(report.record.pass);
             let contact = &report.contacts[plan.index];
@@ -271,18 +272,18 @@ impl Output for PassWriter {
             let looked_at = report.flowed.iter().zip(report.looked_at);
             let flowed = looked_at.into_iter().find(|(volume, _)| volume.body == plan.side());
             let flowed = flowed.map(|(_, state)| (state, &seats[plan.side()]));
-            plan.write(FieldFile::of_run(&self.identity), &path, pass, tractions, flowed)?;
+            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, flowed)?;
         }
         let passes = report.record.pass;
         if !report.flowed.is_empty() {
-            let mut file = FieldFile::of_run(&self.identity);
+            let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
             file.set("pass", passes);
             add_volumes(&mut file, report.flowed, report.flowed);
-            file.write(&results.flow_path(Some(passes)))?;
+            file.write()?;
         }
-        let file = FieldFile::of_run(&self.identity);
+        let file = FieldFile::of_run(&self.identity, &results.warm_start_path(passes));
         let grids = [pair.lower_grid(), pair.upper_grid()];
-        warm_start::write(file, &results.warm_start_path(passes), passes, &grids, report.warm)?;
+        warm_start::write(file, passes, &grids, report.warm)?;
         self.steps.add(report.steps)?;
         self.passes.add(std::slice::from_ref(report.record))?;
         if self.keep == Keep::Last {

@@ -444,16 +444,16 @@ fn fields_of_results_in_metres_are_channels() {
 
 fn results() -> Vec<u8> {
     let (grid, heights) = example();
-    let mut file = FieldFile::new();
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("pass-0003.h5");
+    let mut file = FieldFile::new(&path);
     file.set("version", "0.1.0").set("pass", 3).set("identity", "a digest");
     file.add_field("gap", "m", &grid, [0.0; 2], &heights);
     file.add_field("pressure", "Pa", &grid, [0.0; 2], &heights);
     file.add_field("upper", "m", &grid, [0.0; 2], &(&heights * 2.0));
     file.add_field("lower", "m", &grid, [0.0; 2], &heights);
     file.add_series("line", "m", "x", 1e-6, 0.0, &[1.0, 2.0]);
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("pass-0003.h5");
-    file.write(&path).unwrap();
+    file.write().unwrap();
     std::fs::read(&path).unwrap()
 }
 
