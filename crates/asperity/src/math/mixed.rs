@@ -89,6 +89,11 @@ impl MixedConvolution {
         let new = || Convolution::new(kernel.single(Kernel::to_single), *shape);
         latest.single(new).apply(input, output);
     }
+
+    /// Gives back the scratch.
+    pub(crate) fn release(&mut self) {
+        self.latest = Latest::None;
+    }
 }
 
 /// Convolution of three fields of one shape with a tensor of kernels, in either precision, as [`MixedConvolution`] does it of one.

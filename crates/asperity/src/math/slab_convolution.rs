@@ -104,6 +104,11 @@ impl SlabConvolution {
         let Self { ranks, rows, kernel, latest } = self;
         latest.single(|| Workspace::new(ranks, rows, kernel.single(Kernel::to_single))).apply(input, output);
     }
+
+    /// Gives back the scratch.
+    pub(crate) fn release(&mut self) {
+        self.latest = Latest::None;
+    }
 }
 
 /// The frequencies along y of this rank, of so many.

@@ -101,6 +101,10 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Operator for Compliant<
         }
     }
 
+    fn release(&mut self) {
+        self.operator.release();
+    }
+
     fn coarse(&self) -> Box<dyn Operator> {
         let (operator, compliance) = (self.operator.coarse(), self.compliance.coarse());
         let grid = *operator.grid();

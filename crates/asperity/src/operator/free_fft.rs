@@ -128,6 +128,10 @@ impl Operator for FreeFft {
         self.convolution.apply_single(pressure, displacement);
     }
 
+    fn release(&mut self) {
+        self.convolution.release();
+    }
+
     fn coarse(&self) -> Box<dyn Operator> {
         let FreeFamily { ref response, boundary, datum, ref coarse, .. } = *self.family;
         let grid = boundary.coarse(&self.grid);

@@ -68,6 +68,9 @@ pub trait Operator: Send {
         displacement.zip_mut_with(&double, |single, double| *single = *double as f32);
     }
 
+    /// Gives back the room that convolutions work in, if there is any: the next one makes it anew.
+    fn release(&mut self) {}
+
     /// An operator of the same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;
 }

@@ -84,6 +84,10 @@ impl Operator for PeriodicFft {
         self.convolution.apply_single(pressure, displacement);
     }
 
+    fn release(&mut self) {
+        self.convolution.release();
+    }
+
     fn coarse(&self) -> Box<dyn Operator> {
         let PeriodicKernel { grid, response, coarse, .. } = self.shared.as_ref();
         let coarse =

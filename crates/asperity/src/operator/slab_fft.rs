@@ -142,6 +142,10 @@ impl Operator for SlabFft {
         self.convolution.apply_single(pressure, displacement);
     }
 
+    fn release(&mut self) {
+        self.convolution.release();
+    }
+
     fn coarse(&self) -> Box<dyn Operator> {
         let Self { slab, response, boundary, datum, .. } = self;
         let slab = slab.coarse(boundary.coarse(&slab.whole_grid()));

@@ -216,11 +216,22 @@ impl<'a> Block<'a> {
         self.rounding
     }
 
-    /// Computes h + u from the whole pressure, in double precision.
+    /// Computes h + u from the whole pressure, in double precision. What is kept in single precision, of which nothing is needed
+    /// any more, makes room for the transforms.
     pub(super) fn convolve(&mut self) {
+        let shape = self.touch.raw_dim();
+        self.in_single().into_iter().for_each(|field| *field = SingleField::default([0, 0]));
         touch_under(self.site, &self.pressure, &mut self.touch);
+        self.site.with_operator(&mut |operator| operator.release());
+        self.in_single().into_iter().for_each(|field| *field = SingleField::zeros(shape));
         self.convolutions += 1;
         self.rounding = 0.0;
+    }
+
+    /// The fields of an outer step.
+    fn in_single(&mut self) -> [&mut SingleField; 4] {
+        let Self { direction, response, residual, preconditioned, .. } = self;
+        [direction, response, residual, preconditioned]
     }
 
     /// Computes h + u from the whole pressure, in single precision.
