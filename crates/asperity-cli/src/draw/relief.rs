@@ -285,12 +285,12 @@ type Corner = ([f64; 3], [f64; 3]);
 struct Canvas {
     width: usize,
     height: usize,
-    pixels: Vec<(f64, Rgb)>,
+    pixels: Vec<(f32, Rgb)>,
 }
 
 impl Canvas {
     fn new(width: usize, height: usize) -> Self {
-        Self { width, height, pixels: vec![(f64::NEG_INFINITY, PAPER); width * height] }
+        Self { width, height, pixels: vec![(f32::NEG_INFINITY, PAPER); width * height] }
     }
 
     fn triangle(&mut self, triangle: [Corner; 3]) {
@@ -315,7 +315,7 @@ impl Canvas {
                 let shares =
                     [cross(b, c, px, py), cross(c, a, px, py), cross(a, b, px, py)].map(|v| v / area);
                 if shares.iter().all(|share| *share >= -1e-9) {
-                    let near = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+                    let near = (shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2]) as f32;
                     let pixel = &mut self.pixels[y * self.width + x];
                     if near > pixel.0 {
                         let mixed = |i: usize| (0..3).map(|k| shares[k] * colours[k][i]).sum::<f64>();

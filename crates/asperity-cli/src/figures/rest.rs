@@ -16,42 +16,12 @@ use crate::report::Outcome;
 /// Draws them, and says of what load they are.
 pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     let fields = results.static_fields()?;
-    let read = |name| Stored::read(&fields, name);
-    let (bodies, p) = ([read("lower")?, read("upper")?], read("pressure")?);
-    let [lower, upper] = &bodies;
-    let (gap, plastic) = (read("gap")?, read("plastic")?);
-    let cap = Cap::read(&fields)?;
+    let p = Stored::read(&fields, "pressure")?;
     let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
     let of = format!("load {}", format(load, Dimension::Force));
 
-    sheet.add("topographies", "topographies", &of, || Ok(topographies(lower, upper)))?;
-    for (name, title, body) in [
-        ("relief_lower", "lower body in perspective", lower),
-        ("relief_upper", "upper body in perspective, underside", upper),
-    ] {
-        if !body.relief().is_flat() {
-            sheet.add(name, title, &of, || Ok(body.relief()))?;
-        }
-    }
-    sheet.add_dear(&surfaces::NAMES, &of, || Ok(surfaces::curves(&surfaces::as_measured(&bodies)?, None)))?;
-    sheet.add("pressure", "pressure", &of, || Ok(Maps::new(vec![p.pressure("")])))?;
-    sheet.add("pressure_histogram", "distribution of the pressure over the contact", &of, || {
-        Ok(pressure::histogram([&p.field], &cap))
-    })?;
-    let contact = p.contact(&cap);
-    sheet.add("contact", "contact", &of, || {
-        Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
-    })?;
-    let open = open_gap(&gap, &plastic.field, &p);
-    sheet.add("gap", "deformed gap", &of, || {
-        let map = open.map("", "gap", Unit::Length, Colours::Gap);
-        Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
-    })?;
-    if cap.is_finite() {
-        sheet.add("plastic", "plastic interference", &of, || {
-            Ok(Maps::new(vec![plastic.map("", "interference", Unit::Length, Colours::Pressure)]))
-        })?;
-    }
+    bodies(&fields, sheet, &of)?;
+    contact(&fields, &p, sheet, &of)?;
     if let Some(profile) = profile(&fields, &results.case()?)? {
         sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile))?;
     }
@@ -67,6 +37,47 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
         curves.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
     }
     Ok(of)
+}
+
+/// The bodies as they are pressed together.
+fn bodies(fields: &Fields, sheet: &mut Sheet, of: &str) -> Outcome<()> {
+    let bodies = [Stored::read(fields, "lower")?, Stored::read(fields, "upper")?];
+    let [lower, upper] = &bodies;
+    sheet.add("topographies", "topographies", of, || Ok(topographies(lower, upper)))?;
+    for (name, title, body) in [
+        ("relief_lower", "lower body in perspective", lower),
+        ("relief_upper", "upper body in perspective, underside", upper),
+    ] {
+        if !body.relief().is_flat() {
+            sheet.add(name, title, of, || Ok(body.relief()))?;
+        }
+    }
+    sheet.add_dear(&surfaces::NAMES, of, || Ok(surfaces::curves(&surfaces::as_measured(&bodies)?, None)))
+}
+
+/// The pressure `p`, and what it makes of the gap.
+fn contact(fields: &Fields, p: &Stored, sheet: &mut Sheet, of: &str) -> Outcome<()> {
+    let cap = Cap::read(fields)?;
+    sheet.add("pressure", "pressure", of, || Ok(Maps::new(vec![p.pressure("")])))?;
+    sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
+        Ok(pressure::histogram([&p.field], &cap))
+    })?;
+    let contact = p.contact(&cap);
+    sheet.add("contact", "contact", of, || {
+        Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
+    })?;
+    let plastic = Stored::read(fields, "plastic")?;
+    let open = open_gap(Stored::read(fields, "gap")?, &plastic.field, p);
+    sheet.add("gap", "deformed gap", of, || {
+        let map = open.map("", "gap", Unit::Length, Colours::Gap);
+        Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
+    })?;
+    if cap.is_finite() {
+        sheet.add("plastic", "plastic interference", of, || {
+            Ok(Maps::new(vec![plastic.map("", "interference", Unit::Length, Colours::Pressure)]))
+        })?;
+    }
+    Ok(())
 }
 
 /// The section through the most loaded spot; none without contact.
@@ -105,12 +116,11 @@ fn topographies<'a>(lower: &'a Stored, upper: &'a Stored) -> Maps<'a> {
 }
 
 /// Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
-pub(crate) fn open_gap(gap: &Stored, plastic: &Field, pressure: &Stored) -> Stored {
-    let mut open = gap.with(&gap.field + plastic);
-    ndarray::Zip::from(&mut open.field).and(&pressure.field).and(plastic).for_each(|gap, p, w| {
-        *gap = if *p > 0.0 { -w.max(0.0) } else { gap.max(0.0) };
+pub(crate) fn open_gap(mut gap: Stored, plastic: &Field, pressure: &Stored) -> Stored {
+    ndarray::Zip::from(&mut gap.field).and(&pressure.field).and(plastic).for_each(|gap, p, w| {
+        *gap = if *p > 0.0 { -w.max(0.0) } else { (*gap + w).max(0.0) };
     });
-    open
+    gap
 }
 
 /// The approach at which the fields were found; NaN where it is not said.

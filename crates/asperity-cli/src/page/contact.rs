@@ -330,9 +330,10 @@ fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, Stored)>> {
     }
     if has("gap") {
         let gap = read("gap")?;
-        let plastic = if has("plastic") { read("plastic")?.field } else { Field::zeros(gap.field.raw_dim()) };
-        maps.push(("gap", figures::open_gap(&gap, &plastic, &pressure)));
-        maps.push(("plastic", gap.with(plastic)));
+        let none = || gap.with(Field::zeros(gap.field.raw_dim()));
+        let plastic = if has("plastic") { read("plastic")? } else { none() };
+        maps.push(("gap", figures::open_gap(gap, &plastic.field, &pressure)));
+        maps.push(("plastic", plastic));
     }
     if has("temperature") {
         maps.push(("temperature", read("temperature")?.celsius()));

@@ -43,12 +43,18 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
     let surfaces = sizes.surfaces();
     let Memory { solver, together, results } = sizes.memory();
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
-    let [program, working] = match case.motion {
-        // What a static contact leaves is written when its solver is gone.
-        None => [PROGRAM, solvers.max(results)],
-        Some(_) => [PROGRAM + ANIMATION, (solvers + results).max(together + solver)],
-    };
-    let memory = program + surfaces.making.max(surfaces.kept + working);
+    let memory = PROGRAM
+        + match case.motion {
+            // What a static contact leaves is written when its solver is gone, and drawn when all is written.
+            None => {
+                let drawn = PICTURES + NUMBER * DRAWN * sizes.facing().iter().product::<f64>();
+                surfaces.making.max(surfaces.kept + solvers.max(results)).max(drawn)
+            }
+            Some(_) => {
+                let working = (solvers + results).max(together + solver);
+                PICTURES + ANIMATION + surfaces.making.max(surfaces.kept + working)
+            }
+        };
     let effort = sizes.effort(threads);
     Ok(Demand { surfaces: surfaces.making.max(surfaces.kept), solver, together, results, memory, effort })
 }
@@ -69,10 +75,14 @@ impl Demand {
     }
 }
 
-/// The program itself, its libraries and figures.
+/// The program itself and its libraries.
 const PROGRAM: f64 = 12e6;
+/// Pictures as they are drawn.
+const PICTURES: f64 = 60e6;
 /// The pictures of the animation of a motion.
-const ANIMATION: f64 = 24e6;
+const ANIMATION: f64 = 12e6;
+/// Fields of a static contact that are drawn at a time.
+const DRAWN: f64 = 7.0;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
@@ -144,10 +154,12 @@ impl Sizes<'_> {
     fn memory(&self) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
-        // Seven numbers of the iteration for each cell; of the padded transform half is stored, and a quarter as its real kernel.
+        // Seven numbers of the iteration for each cell. Of the padded transform half is stored, where that is enough in single
+        // precision; of the real kernel a quarter, and those of the coarse grids.
         let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
         let padded = padded_x * nx * (padded_y * ny + 2.0);
-        let transforms = padded * (1.0 / padded_x + 0.25);
+        let stored = if matches!(case.contact.method, Method::Auto | Method::ActiveSet) { 0.5 } else { 1.0 };
+        let transforms = padded * (stored / padded_x + 1.0 / 3.0);
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
         let normal = 7.0 * nx * ny + transforms + dense;
         // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
@@ -169,8 +181,8 @@ impl Sizes<'_> {
                 memory_together(&motion, case.contact.method, yields, self.solved(), self.lower.shape[1])
             })
             .unwrap_or(0.0);
-        // Each field as it is, and as it is written; the solution.
-        let statics = if case.friction.is_some() { 30.0 } else { 15.0 };
+        // The fields besides the bodies, and one as it is written.
+        let statics = if case.friction.is_some() { 16.0 } else { 8.0 };
         let results = case.motion.map_or(statics * nx * ny, |_| {
             let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
             let kept = match case.output.pressure_every {
