@@ -12,10 +12,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use hdf5_pure::{
     AttrValue, Dataset, DatasetBuilder, File, FileAccessProperties, FileCreateProperties, FileLocking,
-    SyncPolicy,
+    MetadataCacheConfig, SyncPolicy,
 };
 use ndarray::{ArrayD, ArrayRef, Dimension, Ix2};
 use sha2::{Digest as _, Sha256};
@@ -305,6 +306,8 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
 const MIN_COMPRESSED: usize = 1024;
 /// So many bytes of arrays are written together.
 const MAX_WAITING: usize = 1 << 24;
+/// So many bytes of what describes arrays are kept while a file is read.
+const MAX_METADATA: usize = 1 << 24;
 /// Level of the compression, 1 to 9.
 const DEFLATE_LEVEL: u32 = 4;
 
@@ -330,6 +333,8 @@ fn chunk(shape: &[u64]) -> Vec<u64> {
 pub struct Fields {
     path: PathBuf,
     file: File,
+    /// Names of the arrays, sorted, once they have been asked for.
+    names: OnceLock<Vec<String>>,
 }
 
 impl Fields {
@@ -338,9 +343,10 @@ impl Fields {
     /// # Errors
     /// [`Error::File`].
     pub fn open(path: &Path) -> Result<Self> {
-        let file = File::open_streaming_with_options(path, without_lock())
-            .map_err(|error| file_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file })
+        let access = without_lock().with_metadata_cache(MetadataCacheConfig::new(MAX_METADATA));
+        let file =
+            File::open_streaming_with_options(path, access).map_err(|error| file_error(path, error))?;
+        Ok(Self { path: path.to_owned(), file, names: OnceLock::new() })
     }
 
     /// Names of the arrays, sorted.
@@ -348,9 +354,16 @@ impl Fields {
     /// # Errors
     /// [`Error::File`].
     pub fn names(&self) -> Result<Vec<String>> {
+        Ok(self.known()?.to_vec())
+    }
+
+    fn known(&self) -> Result<&[String]> {
+        if let Some(names) = self.names.get() {
+            return Ok(names);
+        }
         let mut names = self.file.root().datasets().map_err(|error| self.error(error))?;
         names.sort_unstable();
-        Ok(names)
+        Ok(self.names.get_or_init(|| names))
     }
 
     /// Facts about the whole file.
@@ -367,8 +380,9 @@ impl Fields {
     /// # Errors
     /// [`Error::NoField`], [`Error::File`].
     pub fn read(&self, name: &str) -> Result<StoredField> {
-        let available = self.names()?;
-        if !available.iter().any(|other| other == name) {
+        let known = self.known()?;
+        if !known.iter().any(|other| other == name) {
+            let available = known.to_vec();
             return Err(Error::NoField { path: self.path.clone(), name: name.to_owned(), available });
         }
         self.file.dataset(name).and_then(|dataset| stored(&dataset)).map_err(|error| self.error(error))
