@@ -208,6 +208,26 @@ fn a_case_that_fails_has_a_row_with_its_message_and_is_done_until_it_is_retried(
 }
 
 #[test]
+fn a_damaged_summary_is_a_row_that_says_so() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"contact.load\" = [\"1 mN\", \"2 mN\"]\n");
+    let path = |name: &str| folder.path().join(name);
+    ok(&asperity(&folder, "study load.toml"));
+    let whole = fs::read_to_string(path("load/table.csv")).unwrap();
+    let summary = path("load/cases/0002/summary.json");
+    for damaged in ["", "{\"version\": ", "not JSON"] {
+        fs::write(&summary, damaged).unwrap();
+        let output = asperity(&folder, "study load.toml --collect");
+        assert!(stderr(&output).starts_with("1 of 2 cases are done, 1 have failed"), "{output:?}");
+        let rows = table(&path("load/table.csv"));
+        assert_eq!([&rows[0]["state"], &rows[1]["state"]], ["done", "failed"]);
+        assert!(rows[1]["message"].starts_with("its summary.json is damaged"), "{}", rows[1]["message"]);
+    }
+    fs::remove_file(&summary).unwrap();
+    ok(&asperity(&folder, "study load.toml"));
+    assert_eq!(fs::read_to_string(path("load/table.csv")).unwrap(), whole);
+}
+
+#[test]
 fn a_motion_whose_bodies_never_touch_is_a_row_too() {
     let folder = folder_with("base = \"case.toml\"\n[axes]\n\"contact.approach\" = [\"-1 um\", \"20 nm\"]\n");
     add_motion(&folder);

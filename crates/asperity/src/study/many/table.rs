@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -10,7 +11,7 @@ use serde_json::Value;
 use super::axis::Axis;
 use super::folder::Folder;
 use super::plan::{Study, name, quoted};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
 use crate::study::results::Results;
@@ -180,19 +181,34 @@ struct Found {
     failure: Option<String>,
 }
 
-fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
-    if folder.is_done(case) {
-        let summary = Results::open(&folder.case(case))?.summary()?;
-        let (warnings, wall_time) = (summary.warnings.len(), summary.wall_time_s);
-        return Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }));
+impl Found {
+    fn failed(message: String) -> Self {
+        Self { numbers: Vec::new(), warnings: 0, wall_time: 0.0, failure: Some(message) }
     }
-    let failure = folder.failure(case)?;
-    Ok(failure.map(|message| Found {
-        numbers: Vec::new(),
-        warnings: 0,
-        wall_time: 0.0,
-        failure: Some(message),
-    }))
+}
+
+/// What there is of a case. One whose summary is damaged has failed: the others have their rows.
+fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
+    if !folder.is_done(case) {
+        return Ok(folder.failure(case)?.map(Found::failed));
+    }
+    match Results::open(&folder.case(case)).and_then(|results| results.summary()) {
+        Ok(summary) => {
+            let (warnings, wall_time) = (summary.warnings.len(), summary.wall_time_s);
+            Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }))
+        }
+        Err(Error::File { source, .. }) if is_damage(&source) => {
+            let message =
+                format!("its summary.json is damaged; without it the case is computed again: {source}");
+            Ok(Some(Found::failed(message)))
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a file was read that is not what it was.
+fn is_damage(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
 }
 
 /// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then what has
