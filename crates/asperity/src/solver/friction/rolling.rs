@@ -147,21 +147,22 @@ fn cell_by_cell(
     let unloaded = Loading { tangential: Tangential::Force([0.0; 2]), ..loading };
     let mut state = solve(unloaded, Start::default(), present, &within)?;
     let mut stats = state.normal.stats;
+    let mut left = f64::INFINITY;
     for _ in 0..max_cells {
         let slip = passage.arriving(&state.displacement).map(|u| -u);
         let start = Start { history: History::Increment(slip), ..Start::after(&state) };
         let mut next = solve(loading, start, present, &within)?;
         stats = stats.and(&next.normal.stats);
-        let change = change(&next, &state);
-        watch.iteration(change, tolerance);
-        if change < tolerance && present <= tolerance {
+        left = change(&next, &state);
+        watch.iteration(left, tolerance);
+        if left < tolerance && present <= tolerance {
             next.normal.stats = stats;
             return Ok(next);
         }
-        present = (TOLERANCE_REDUCTION * change).clamp(tolerance, FIRST_TOLERANCE.max(tolerance));
+        present = (TOLERANCE_REDUCTION * left).clamp(tolerance, FIRST_TOLERANCE.max(tolerance));
         state = next;
     }
-    Err(Error::NotConverged { iterations: stats.iterations, residual: state.normal.residual, tolerance })
+    Err(Error::NotConverged { iterations: stats.iterations, residual: left, tolerance })
 }
 
 /// Largest change of the shear from one state to the next, as a share of the largest shear.
