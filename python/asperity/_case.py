@@ -6,8 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from . import _core
+from ._units import path, whole
 from .body import Handed
-from ._units import whole
 from .errors import bad_input
 
 _IN_PLANE = ("force", "displacement", "sliding")
@@ -64,7 +65,7 @@ def threads(count: int | None) -> int:
     """Number of threads for the compiled module: 0 is one for each core."""
     if count is None:
         return 0
-    return whole("threads", count, 1, ", or None for one on each core")
+    return whole("threads", count, 1, ", or None for one on each core", most=_core.MAX_THREADS)
 
 
 def existing(resume: bool, overwrite: bool) -> str:
@@ -77,4 +78,4 @@ def existing(resume: bool, overwrite: bool) -> str:
 
 def directory(out: str | os.PathLike[str]) -> str:
     """The directory for results, as a path."""
-    return os.fspath(out)
+    return path("out", out)

@@ -65,7 +65,11 @@ class Contact(Comparable):
     max_shear : float
         Largest shear traction, Pa.
     dissipation : float
-        Energy that friction took, J.
+        Energy that friction took, J; in rolling, while the contact moves on by a cell, from the work of force, moment and
+        pressure.
+    slip_work : float
+        Work of the shear on the slip of the cells, J, in rolling: the dissipation without what the step from cell to cell
+        takes.
     creepage : list of float
         Creepage along x and y, in rolling.
     spin, moment : float
@@ -106,6 +110,7 @@ class Contact(Comparable):
     stick_area: float
     max_shear: float
     dissipation: float
+    slip_work: float
     creepage: list[float]
     spin: float
     moment: float

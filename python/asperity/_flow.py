@@ -44,7 +44,7 @@ class Flow(Comparable):
         residual_displacement: NDArray[np.float64],
         back_stress: NDArray[np.float64] | None = None,
     ) -> None:
-        self.depths: NDArray[np.float64] = np.asarray(depths, dtype=np.float64)
+        self.depths: NDArray[np.float64] = np.array(depths, dtype=np.float64)
         self.strain = strain
         self.accumulated = accumulated
         self.back_stress = back_stress

@@ -128,7 +128,10 @@ def surface(surface: Surface) -> str:
     rows = _grid(surface.shape, surface.pitch)
     there = heights[np.isfinite(heights)]
     if there.size:
-        rows += [("Sq", _core.format(float(there.std()), "length")), ("Sz", _core.format(float(np.ptp(there)), "length"))]
+        # Heights of 1e300 have no square.
+        with np.errstate(over="ignore", invalid="ignore"):
+            sq, sz = float(there.std()), float(np.ptp(there))
+        rows += [("Sq", _core.format(sq, "length")), ("Sz", _core.format(sz, "length"))]
     if surface.undefined:
         rows.append(("missing", f"{surface.undefined} ({100.0 * surface.undefined / heights.size:.2g} %)"))
     return _shown("Surface", rows, _map("heights", heights), _range("heights", heights, "m"))
@@ -165,8 +168,10 @@ def contact(contact: Contact) -> str:
     rows += [("mean pressure on it", _quantity(mean, "Pa")), ("largest pressure", _quantity(contact.max_pressure, "Pa"))]
     rows.append(("mean gap", _quantity(contact.mean_gap, "m")))
     if contact.plastic_volume > 0.0:
-        cells = f"{contact.plastic_cells} cells, {_quantity(contact.plastic_volume, 'm³')}"
-        rows.append(("plastic", cells))
+        # A point of a sweep has the area of these cells.
+        dx, dy = contact.pitch
+        cells = numbers["plastic_cells"] if "plastic_cells" in numbers else round(numbers["plastic_area"] / (dx * dy))
+        rows.append(("plastic", f"{cells} cells, {_quantity(contact.plastic_volume, 'm³')}"))
     force = numbers.get("tangential_force")
     if force is not None and any(force):
         rows.append(("tangential force", f"{_quantity(float(np.hypot(*force)), 'N')} ({numbers['force_ratio']:.3g} of the load)"))

@@ -55,7 +55,7 @@ def _bar(ax: Any, image: Any, values: Any, label: str) -> Any:
 
 
 def _labelled(name: str, unit: str) -> str:
-    return words(name) if unit == "1" else f"{words(name)} ({unit})"
+    return words(name) if unit in ("", "1") else f"{words(name)} ({unit})"
 
 
 def field(field: Field, ax: Any = None, **options: Any) -> Any:

@@ -15,6 +15,7 @@ from ._progress import Teller, Told
 from ._same import Comparable
 from ._temporary import Temporary
 from ._units import Quantity
+from ._units import path as paths
 from .body import Body
 from ._contact import Contact, Friction
 from .errors import _make, bad_input, warn
@@ -42,8 +43,8 @@ class Run(Comparable):
     """
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
-        self.directory = _path(directory)
-        self._core = _core.Results(os.fspath(directory))
+        self.directory = _path(paths("directory", directory))
+        self._core = _core.Results(os.fspath(self.directory))
         self._temporary: Temporary | None = None
 
     def _compared(self) -> dict[str, Any]:
@@ -204,7 +205,7 @@ class Run(Comparable):
         out : path, optional
             The file; by default `report.html` beside the results, which goes with them where no `out` was given to keep them.
         """
-        return _path(self._core.report(out))
+        return _path(self._core.report(None if out is None else paths("out", out)))
 
     def animate(self, number: int | None = None, **options: Any) -> Any:
         """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays.
@@ -394,7 +395,7 @@ def run(
     count, existing = _case.threads(threads), _case.existing(resume, overwrite)
     handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
     with Teller(progress) as tell:
-        _core.run(os.fspath(case), handed, _case.directory(out), existing, count, tell)
+        _core.run(paths("case", case), handed, _case.directory(out), existing, count, tell)
     return open(out)
 
 
@@ -408,7 +409,7 @@ def open(directory: str | os.PathLike[str]) -> Run | Contact:
     asperity.errors.NotResumable
         If a contact at rest was interrupted: `resume` finishes it.
     """
-    core = _core.Results(os.fspath(directory))
+    core = _core.Results(paths("directory", directory))
     if "motion" in core.case():
         return Run(directory)
     if core.summary() is None:

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _core
+
 _POWER = {"m²": 2, "m³": 3}
 """A prefix stands before the metre, and is raised with it."""
 
@@ -38,26 +40,9 @@ def largest(values: NDArray[Any]) -> float:
     return float(finite.max()) if finite.size else 0.0
 
 
-# In the order in which they are looked for.
-_COLUMNS = (
-    (r"pass|step|point|stage|increment|.*cells|.*columns|.*iterations|convolutions|residual", "1"),
-    (r"friction_coefficient|.*fraction|force_ratio|creepage.*", "1"),
-    (r".*volume.*", "m³"),
-    (r".*area.*", "m²"),
-    (r".*pressure|max_shear", "Pa"),
-    (r".*load|.*force.*", "N"),
-    (r".*energy|dissipation", "J"),
-    (r"moment", "N m"),
-    (r"spin", "1/m"),
-    (r"stiffness", "N/m"),
-    (r".*_s", "s"),
-    (r"approach|offset|.*displacement.*|mean_gap|sq_.*", "m"),
-)
-
-
 def unit_of(column: str) -> str:
-    """The unit of a column of the tables of results."""
-    return next((unit for pattern, unit in _COLUMNS if re.fullmatch(pattern, column)), "1")
+    """The SI unit of a column of the tables of results: ``"1"`` of a pure number, nothing of a text or of an unknown column."""
+    return _core.unit_of_column(column) or ""
 
 
 _NAMES = {

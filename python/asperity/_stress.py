@@ -64,7 +64,7 @@ class Stress(Comparable):
     def __init__(
         self, xx: ArrayLike, yy: ArrayLike, zz: ArrayLike, yz: ArrayLike, xz: ArrayLike, xy: ArrayLike
     ) -> None:
-        parts = [np.asarray(part, dtype=np.float64) for part in (xx, yy, zz, yz, xz, xy)]
+        parts = [np.array(part, dtype=np.float64) for part in (xx, yy, zz, yz, xz, xy)]
         for name, part in zip(COMPONENTS, parts, strict=True):
             if part.shape != parts[0].shape:
                 message = f"'{name}' has the shape {part.shape}, expected that of 'xx', {parts[0].shape}"

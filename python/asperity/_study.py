@@ -12,6 +12,7 @@ from . import _case, _core
 from ._progress import Teller, Told
 from ._run import _path, open
 from ._same import Comparable
+from ._units import path
 from .errors import FailedCases, NoResults, NotResumable, _make, bad_input, warn
 
 if TYPE_CHECKING:
@@ -56,8 +57,8 @@ class Study(Comparable):
     """
 
     def __init__(self, file: str | os.PathLike[str], out: str | os.PathLike[str] | None = None) -> None:
-        self.file = _path(file)
-        self.directory = self.file.with_suffix("") if out is None else _path(out)
+        self.file = _path(path("file", file))
+        self.directory = self.file.with_suffix("") if out is None else _path(path("out", out))
         self._core = _core.Study(os.fspath(self.file), os.fspath(self.directory))
         self.title: str = self._core.title()
         axes = self._core.axes()
@@ -201,7 +202,8 @@ class Study(Comparable):
         from ._convert import frame
 
         made = frame(self.table, "case")
-        made.attrs["units"].update(self.units)
+        for key, values in self.axes.items():
+            made.attrs["units"][key] = self.units[key] or ("1" if values.dtype.kind in "iuf" else "")
         return made
 
     def _records(self, collected: Any) -> NDArray[np.void]:

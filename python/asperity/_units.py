@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from . import _core
 from .errors import bad_input
@@ -23,7 +26,7 @@ def quantity(key: str, value: Any, dimension: str, *, positive: bool = True, inf
 
 def lengths(key: str, value: Pair) -> tuple[float, float]:
     """One length for x and y, or one for each, in metres."""
-    if isinstance(value, (str, float, int)) or not hasattr(value, "__len__"):
+    if isinstance(value, (str, float, int)) or not hasattr(value, "__len__") or np.ndim(value) == 0:
         both = quantity(key, value, "length")
         return both, both
     if len(value) != 2:
@@ -43,8 +46,27 @@ def number(key: str, value: Any, expected: str, least: float, most: float = math
     return found
 
 
-def whole(key: str, value: Any, least: int, instead: str = "") -> int:
-    """A whole number of at least `least`; `instead` says what else would do."""
-    if isinstance(value, bool) or not hasattr(value, "__index__") or value.__index__() < least:
-        raise bad_input(key, f"'{key}' is {value!r}, expected a whole number of at least {least}{instead}")
-    return int(value.__index__())
+def whole(key: str, value: Any, least: int, instead: str = "", most: int | None = None) -> int:
+    """A whole number of at least `least`, at most `most`; `instead` says what else would do."""
+    try:
+        found = None if isinstance(value, (bool, np.bool_)) else int(value.__index__())
+    except (AttributeError, TypeError):
+        found = None
+    if found is None or found < least or (most is not None and found > most):
+        expected = f"of at least {least}" if most is None else f"from {least} to {most}"
+        raise bad_input(key, f"'{key}' is {value!r}, expected a whole number {expected}{instead}")
+    return found
+
+
+def path(key: str, value: Any) -> str:
+    """The path of a file or a directory as text.
+
+    Raises
+    ------
+    TypeError
+        For what is neither a text nor a path, such as bytes.
+    """
+    found = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
+    if not isinstance(found, str):
+        raise TypeError(f"'{key}' is of type {type(value).__name__}, expected a text or a path")
+    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -57,13 +58,17 @@ class Body(Comparable):
         self.surface = surface
         self.material = material
         self.mount = mount
-        self.wear = None if wear is None else dict(wear)
-        self.film = None if film is None else dict(film)
-        self.thermal = None if thermal is None else dict(thermal)
+        self.wear = _copied(wear)
+        self.film = _copied(film)
+        self.thermal = _copied(thermal)
 
     def __repr__(self) -> str:
         mount = "" if self.mount is None else f", mount={self.mount!r}"
         return f"Body({self.surface!r}, {self.material!r}{mount})"
+
+
+def _copied(table: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    return None if table is None else copy.deepcopy(dict(table))
 
 
 class Handed:

@@ -202,7 +202,7 @@ class BearingCurve(Comparable):
     """
 
     def __init__(self, samples: ArrayLike) -> None:
-        self._samples = np.asarray(samples, dtype=np.float64).ravel()
+        self._samples = np.array(samples, dtype=np.float64).ravel()
         self._core  # noqa: B018
 
     @cached_property
@@ -305,7 +305,7 @@ class Profile(Comparable):
     """
 
     def __init__(self, heights: ArrayLike, pitch: Quantity) -> None:
-        given = np.asarray(heights, dtype=np.float64)
+        given = np.array(heights, dtype=np.float64)
         if given.ndim != 1:
             message = f"'heights' has {given.ndim} dimensions, expected heights along a line"
             raise bad_input("heights", message)

@@ -170,6 +170,26 @@ class AtIncrement(Failed):
     cause: AsperityError
 
 
+class AtPass(Failed):
+    """The answer of a pass has no meaning: `pass_number`, from 1, and `cause`, what is wrong there."""
+
+    cause: AsperityError
+
+
+class AtUpdate(Failed):
+    """The answer of an update of wear in place has no meaning: `update`, from 1 (0 before the first), and `cause`."""
+
+    update: int
+    cause: AsperityError
+
+
+class NotFinite(Failed):
+    """An answer is NaN or infinite: `field`, and `cell`, the index of the first such cell along each axis (empty for a number)."""
+
+    field: str
+    cell: list[int]
+
+
 class FlowNotConverged(Failed):
     """Plastic strain and stress did not come to agree: `products`, `mismatch` over the yield stress, `tolerance`."""
 
@@ -236,6 +256,19 @@ class TooManyRanks(BadInput):
 
     ranks: int
     rows: int
+
+
+class OtherRows(FileProblem):
+    """The file of a rank holds other rows than the index of its run says.
+
+    `path`; `rows`, the first and the last that it holds, and `ranks`, how many ranks its run had; `expected` and `expected_ranks`,
+    what the index says of them.
+    """
+
+    rows: list[int]
+    ranks: int
+    expected: list[int]
+    expected_ranks: int
 
 
 class RanksDiffer(BadInput):

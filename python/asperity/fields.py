@@ -20,7 +20,7 @@ class Field(Comparable):
     name : str
         Name of the field.
     values : ndarray
-        The values, ``[ix, iy]`` of a field on cells.
+        The values, ``[ix, iy]`` of a field on cells; the array that is handed in, not a copy.
     unit : str
         Unit of the values, SI.
     axes : tuple of str

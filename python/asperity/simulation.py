@@ -160,7 +160,7 @@ class Pass(_Moving):
         ):
             here = np.bincount(cell, weights * (1.0 - beyond), nx * ny)
             there = np.bincount((cell + ny) % (nx * ny), weights * beyond, nx * ny)
-            sums.append((here + there).reshape(nx, ny))
+            sums.append((here + there).reshape(nx, ny).astype(np.float64, copy=False))
         return sums[0], sums[1]
 
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:

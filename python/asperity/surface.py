@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Sequence
 from typing import Any, Literal
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, describe
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
+from ._units import path as paths
 from .describe import (
     WOLF_PRUNING,
     Axis,
@@ -47,8 +49,8 @@ class Surface(Comparable):
     Parameters
     ----------
     heights : array_like
-        A matrix ``[ix, iy]`` of heights, in metres if no `unit` is given; anything that ``np.asarray`` takes. Masked or NaN
-        where missing. Also an xarray DataArray, which tells its pitch by its coordinates, and a topography of the package
+        A matrix ``[ix, iy]`` of heights, in metres if no `unit` is given; anything that ``np.asarray`` takes. It is copied. Masked or
+        NaN where missing. Also an xarray DataArray, which tells its pitch by its coordinates, and a topography of the package
         SurfaceTopography, which tells pitch and unit.
     pitch : float, str or pair of them
         Size of a cell along x and y, above 0, m.
@@ -82,12 +84,13 @@ class Surface(Comparable):
             if scale is not None:
                 raise bad_input("unit", "'unit' is given, but the heights have a unit of their own")
             scale = _unit(unit)
-        if scale is not None:
-            array = scale * array
+        if scale not in (None, 1.0):
+            array *= scale
         if pitch is None and told is None:
             raise bad_input("pitch", "'pitch' is missing: how far apart are the heights?", "for example pitch=\"0.5 um\"")
         _check(array)
         self._table: dict[str, Any] = {"given": "heights"}
+        array.flags.writeable = False
         self._given: NDArray[np.float64] | None = array
         self._given_pitch = lengths("pitch", pitch) if pitch is not None else told
         self._made: dict[str, Any] | None = None
@@ -97,7 +100,8 @@ class Surface(Comparable):
         """The surface of a table `[topography]` of a case."""
         _core.check_surface(table)
         surface = cls.__new__(cls)
-        surface._table = table
+        # What it names may be changed by others since.
+        surface._table = copy.deepcopy(table)
         surface._given = None if given is None else given._given
         surface._given_pitch = None if given is None else given._given_pitch
         surface._made = None
@@ -126,11 +130,17 @@ class Surface(Comparable):
                 made |= {"spikes": 0, "radius": None, "underside": False}
             else:
                 made = _core.surface(self._table, self._handed())
-            made["heights"].flags.writeable = False
+            heights = made["heights"]
+            heights.flags.writeable = False
+            # Nobody makes a view of it writeable again.
+            made["heights"] = heights.view()
             self._made = made
         return self._made
 
     def _compared(self) -> dict[str, Any]:
+        if any(key in self._table for key in _MADE) and not {"shape", "pitch"} <= self._table.keys():
+            # It has no heights before it meets another body.
+            return {"table": self._table}
         return {"heights": self.heights, "pitch": self.pitch}
 
     def __getstate__(self) -> dict[str, Any]:
@@ -367,7 +377,7 @@ class Surface(Comparable):
         asperity.errors.File
             If the file cannot be written.
         """
-        _core.write_surface(os.fspath(path), (self.heights, self.pitch))
+        _core.write_surface(paths("path", path), (self.heights, self.pitch))
 
     def to_xarray(self) -> Any:
         """The heights as a DataArray of xarray, with the centres of the cells as coordinates, m."""
@@ -412,7 +422,7 @@ def read(
     asperity.errors.MissingFile, asperity.errors.CaseError
         If the file is not there, or holds no such topography.
     """
-    path = os.fspath(path)
+    path = paths("path", path)
     if not os.path.exists(path):
         raise _make("File", f"{path}: no such file", {"path": path, "errno": 2}, None)
     table: dict[str, Any] = {"file": path, "channel": channel, "unit": unit}
@@ -425,7 +435,7 @@ def read(
 
 def channels(path: str | os.PathLike[str]) -> list[str]:
     """Names of the height channels of a file, the one that is read without a `channel` first."""
-    return _core.channels(os.fspath(path))
+    return _core.channels(paths("path", path))
 
 
 def _grid(surface: Surface) -> str:
@@ -441,7 +451,7 @@ def _unit(unit: Quantity) -> float:
 def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | None, float | None]:
     """Heights as a matrix, their pitch where they tell it, and what a 1 stands for where they tell that."""
     if isinstance(heights, Surface):
-        return heights.heights, heights.pitch, 1.0
+        return heights.heights.copy(), heights.pitch, 1.0
     if hasattr(heights, "physical_sizes") and callable(getattr(heights, "heights", None)):
         return _of_topography(heights)
     told = scale = None
@@ -453,7 +463,8 @@ def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | N
     if np.ma.isMaskedArray(heights):
         heights = np.ma.asarray(heights, dtype=np.float64).filled(np.nan)
     try:
-        found = np.asarray(heights)
+        # A copy: whoever hands them in may change them.
+        found = np.array(heights)
     except (TypeError, ValueError) as error:
         raise bad_input("heights", f"'heights' is no matrix of numbers: {error}") from error
     if found.dtype.kind not in "fiub":
@@ -464,7 +475,7 @@ def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | N
 def _of_topography(topography: Any) -> tuple[NDArray[np.float64], tuple[float, float], float]:
     """Heights, pitch and unit of a topography of the package SurfaceTopography."""
     found = topography.heights()
-    array = np.ma.asarray(found, dtype=np.float64).filled(np.nan)
+    array = np.array(np.ma.asarray(found, dtype=np.float64).filled(np.nan))
     if array.ndim != 2:
         raise bad_input("heights", f"the topography has {array.ndim} dimensions, expected 2")
     unit = getattr(topography, "unit", None)

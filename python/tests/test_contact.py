@@ -172,7 +172,7 @@ def test_what_is_to_be_wary_of_is_a_warning(steel: asp.Material) -> None:
         ({"load": 1e-3, "tolerance": 2}, "'tolerance' is 2", ValueError),
         ({"load": 1e-3, "friction": -0.1}, "'coefficient' is -0.1", ValueError),
         ({"load": 1e-3, "friction": {"coefficent": 0.1}}, "unknown key 'coefficent'", ValueError),
-        ({"load": 1e-3, "threads": 0}, "'threads' is 0, expected a whole number of at least 1", ValueError),
+        ({"load": 1e-3, "threads": 0}, "'threads' is 0, expected a whole number from 1 to 1024", ValueError),
         ({"load": 1e-3, "threads": 1.5}, "'threads' is 1.5", ValueError),
         ({"load": 1e-3, "subsurface": {"to": "5 um"}}, "'subsurface' is given without 'out'", ValueError),
         ({"load": 1e-3, "resume": True}, "'resume' is given without 'out'", ValueError),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pathlib
 import re
 
+import numpy as np
 import pytest
 
 import asperity as asp
@@ -21,6 +22,20 @@ def test_each_error_of_the_library_has_its_exception() -> None:
     for name in variants:
         exception = getattr(asp.errors, {"Case": "CaseError"}.get(name, name), None)
         assert exception is not None and issubclass(exception, asp.errors.AsperityError), name
+
+
+def test_a_number_that_is_none_does_not_leave_the_program() -> None:
+    steel = asp.Material(young="210 GPa", poisson=0.3)
+    flat, ball = asp.form.flat((8, 8), pitch="1 um"), asp.form.sphere("100 um")
+    depth = np.zeros((8, 8))
+    depth[2, 3] = 1e308
+    with pytest.raises(asp.errors.AtPass, match=r"pass 1: `lower` is not a finite number in cell \[2, 3\]") as raised:
+        for p in asp.Simulation(flat, ball, steel, steel, load="1 mN", passes=2, stride=4, progress=False):
+            for _ in range(2):
+                p.remove(depth, 0.0, law="spoil")
+    cause = raised.value.cause
+    assert raised.value.pass_number == 1 and isinstance(cause, asp.errors.NotFinite)
+    assert cause.field == "lower" and cause.cell == [2, 3]
 
 
 def test_flow_that_does_not_settle_says_in_which_increment() -> None:

@@ -12,6 +12,8 @@ import pytest
 
 import asperity as asp
 from asperity import _show
+from conftest import rough
+from test_study import CASE
 
 plt = pytest.importorskip("matplotlib.pyplot")
 
@@ -227,6 +229,49 @@ def test_every_column_of_the_tables_has_a_unit():
     }  # fmt: skip
     for column in {*_core.STEP_COLUMNS, *_core.PASS_COLUMNS, *_core.INCREMENT_COLUMNS, *_core.SWEEP_COLUMNS}:
         assert (_show.unit_of(column) == "1") == (column in plain), column
+    for column, unit in _core.COLUMN_UNITS:
+        assert _show.unit_of(column) == unit
+
+
+@pytest.mark.parametrize(
+    ("column", "unit"),
+    [
+        ("distance", "m"), ("time", "s"), ("max_wear_lower", "m"), ("max_wear_upper", "m"), ("mean_film_lower", "m"),
+        ("mean_film_upper", "m"), ("error_estimate", "m"), ("friction_work", "J"), ("max_flash_temperature", "K"),
+        ("plastic_work_lower", "J"), ("plastic_work_rim", "J"), ("surface_shift_upper", "m"), ("max_temperature", "K"),
+        ("friction_power", "W"), ("offset_y", "m"), ("subsurface_max_von_mises", "Pa"), ("max_residual_tension", "Pa"),
+        ("own_volume_lower", "m³"), ("represents", "1"), ("state", ""), ("message", ""), ("of nobody", ""),
+    ],
+)  # fmt: skip
+def test_columns_have_the_units_of_the_documents(column, unit):
+    assert _show.unit_of(column) == unit
+
+
+def test_what_a_run_writes_has_units_in_frame_and_dataset(tmp_path, steel):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    worn = asp.Body(rough(1), steel, wear={"coefficient": 1e-15})
+    run = asp.simulate(worn, asp.Body(rough(2), steel), load="20 mN", passes=1, stride=8, speed=1.0, friction=0.1,
+                       progress=False)  # fmt: skip
+    frame, dataset = run.to_pandas(), run.to_xarray()
+    from asperity import _core
+
+    for column in run.passes.dtype.names:
+        unit = _core.unit_of_column(column)
+        assert unit is not None, column
+        if column != "pass":
+            assert frame.attrs["units"][column] == unit and dataset[column].attrs["units"] == unit
+    assert run.plot("max_wear_lower").get_ylabel().endswith("m)")
+    (tmp_path / "case.toml").write_text(CASE)
+    (tmp_path / "load.toml").write_text('base = "case.toml"\n[axes]\n"contact.load" = ["1 mN"]\n"lower.topography.seed" = [1]\n')
+    study = asp.study(tmp_path / "load.toml", progress=False)
+    units = study.to_pandas().attrs["units"]
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(study.directory / "table.h5") as file:
+        for name, dataset in file.items():
+            unit = dataset.attrs["unit"]
+            assert (unit.decode() if isinstance(unit, bytes) else unit) == units.get(name, "1"), name
+    assert units["lower.topography.seed"] == "1" and units["contact.load"] == "N" and units["message"] == ""
 
 
 @pytest.mark.parametrize(

@@ -230,7 +230,7 @@ def test_a_study_grows_and_has_words_for_values(folder: pathlib.Path) -> None:
     assert grown.table["contact.boundary"].tolist() == ["free", "free", "periodic", "periodic"]
     frame = grown.to_pandas()
     assert frame.index.name == "case" and frame["contact.boundary"].tolist() == grown.table["contact.boundary"].tolist()
-    assert frame.attrs["units"]["contact_area"] == "m²" and frame.attrs["units"]["contact.tolerance"] == ""
+    assert frame.attrs["units"]["contact_area"] == "m²" and frame.attrs["units"]["contact.tolerance"] == "1"
 
 
 def test_studies_pickle_copy_and_show(folder: pathlib.Path) -> None:

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use asperity::Choice;
-use asperity::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
+use asperity::motion::{FilmLaw, LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
+use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey};
 use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
@@ -33,7 +33,7 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
         ("contact", contact(case, estimate)),
         ("motion", motion(case, estimate)),
         ("memory", memory(demand)),
-        ("time", format!("about {}, without figures", units::format_time(demand.time()))),
+        ("time", time(demand)),
     ];
     let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, estimate)));
     let history = match &estimate.loading_path {
@@ -44,7 +44,8 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
     };
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
-    for (name, value) in rows.into_iter().chain(friction).chain(history).chain(stress) {
+    let laws = laws(case, demand);
+    for (name, value) in rows.into_iter().chain(friction).chain(history).chain(laws).chain(stress) {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page
@@ -285,6 +286,81 @@ fn memory(demand: &Demand) -> String {
         bytes(solver),
         bytes(results)
     )
+}
+
+fn time(demand: &Demand) -> String {
+    let [solving, drawing] = demand.times();
+    format!(
+        "about {}: {} to solve and write, {} for figures and page",
+        units::format_time(solving + drawing),
+        units::format_time(solving),
+        units::format_time(drawing)
+    )
+}
+
+/// Wear, films, heat and extrapolation, a row for each that the case has.
+fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
+    let bodies = [("lower", &case.lower), ("upper", &case.upper)];
+    let of_bodies = |describe: &dyn Fn(&Body) -> Option<String>| {
+        let texts = bodies.into_iter().filter_map(|(name, body)| Some((name, describe(body)?)));
+        let texts: Vec<(&str, String)> = texts.collect();
+        match texts.as_slice() {
+            [] => None,
+            [(_, one), (_, other)] if one == other => Some(format!("of both bodies {one}")),
+            _ => {
+                let texts: Vec<_> =
+                    texts.iter().map(|(name, text)| format!("of the {name} body {text}")).collect();
+                Some(texts.join("; "))
+            }
+        }
+    };
+    let wear = of_bodies(&|body| {
+        let spec = body.wear?;
+        let coefficient = |value| units::format(value, Dimension::WearCoefficient);
+        let (bare, driver) = match spec.coefficient {
+            WearKey::Coefficient(value) => (value, "per load and distance"),
+            WearKey::Energy(value) => (value, "per energy of friction"),
+        };
+        let under = spec.under_film.map(|value| format!(", {} under the film", coefficient(value)));
+        Some(format!("{} {driver}{}", coefficient(bare), under.unwrap_or_default()))
+    });
+    let film = of_bodies(&|body| {
+        let spec = body.film?;
+        let law = match spec.law {
+            FilmLaw::Arrhenius { .. } => "Arrhenius growth",
+            FilmLaw::MechanoChemical { .. } => "mechano-chemical growth",
+            _ => "growth",
+        };
+        let most = units::format(spec.max_thickness, Dimension::Length);
+        let hardness = spec.hardness.map(|value| {
+            format!(", pressure up to {} where it is thickest", units::format(value, Dimension::Pressure))
+        });
+        Some(format!("{law} up to {most}{}", hardness.unwrap_or_default()))
+    });
+    let heat = case.temperature.map(|spec| {
+        let [lower, upper] = spec.bulk.map(|kelvin| units::format(kelvin, Dimension::Temperature));
+        let bulk = if lower == upper { lower } else { format!("{lower} (lower) and {upper} (upper)") };
+        let flash = match (spec.every, case.motion.is_some()) {
+            (0, _) => "no flash temperature".to_owned(),
+            (_, false) => "flash temperature of the cells in contact".to_owned(),
+            (1, true) => "flash temperature at each position".to_owned(),
+            (every, true) => format!("flash temperature at each position of every {every}th computed pass"),
+        };
+        format!("bulk {bulk}, {flash}")
+    });
+    let passes = case.acceleration.and_then(|acceleration| {
+        let passes = case.motion?.passes;
+        Some(format!(
+            "about {} of {passes} computed, each extrapolated over at most {} or a wear of {}",
+            units::format_number(demand.passes.round()),
+            plural(acceleration.max_jump.min(passes), "pass", "passes"),
+            units::format(acceleration.max_wear, Dimension::Length)
+        ))
+    });
+    [("wear", wear), ("film", film), ("heat", heat), ("passes", passes)]
+        .into_iter()
+        .filter_map(|(name, text)| Some((name, text?)))
+        .collect()
 }
 
 fn stress(case: &Case, plan: &Plan) -> String {

@@ -22,9 +22,13 @@ use std::ffi::OsString;
 use clap::Parser;
 
 use args::{Arguments, Command};
-pub use machine::{available as available_memory, worker as this_process};
+pub use machine::{available as available_memory, on_machine as memory_of_machine, worker as this_process};
 pub use page::make as write_report;
+pub use report::{Program, print_data, report_error, report_warning};
+pub use run::text as text_of_results;
+pub use signals::survive_size_limit;
 pub use study::collect as collect_study;
+pub use threads::MAX_THREADS;
 pub use verify::{
     expected as verification_expects, text as verification_text, verdict as verification_verdict,
 };
@@ -39,7 +43,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match command(arguments) {
         Ok(()) => 0,
         Err(failure) => {
-            report::report(&failure);
+            report::report(&failure, report::Program::Command);
             report::exit_code(&failure)
         }
     }
@@ -51,8 +55,8 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
         Err(error) => return args::unparsed(&error),
     };
     threads::start(match &command {
-        Command::Run(arguments) => arguments.threads.map(usize::from),
-        Command::Study(arguments) => arguments.threads.map(usize::from),
+        Command::Run(arguments) => arguments.threads,
+        Command::Study(arguments) => arguments.threads,
         _ => None,
     })?;
     match command {

@@ -18,8 +18,14 @@ pub(crate) fn holds(needed: f64) -> Result<()> {
     if needed <= available { Ok(()) } else { Err(Error::Memory { needed, available }) }
 }
 
-/// Bytes that can be had: of memory and swap, of those of the container, of the address space (`ulimit -v`).
+/// Returns the bytes that this process can have: memory and swap of the machine or its container, within the limit of its address
+/// space (`ulimit -v`).
 pub fn available() -> f64 {
+    address_space().map_or(f64::INFINITY, |bytes| bytes as f64).min(on_machine())
+}
+
+/// Returns the free bytes of memory and swap of the machine, or of the container, which all its processes share.
+pub fn on_machine() -> f64 {
     let memory = MemoryRefreshKind::nothing().with_ram().with_swap();
     let system = System::new_with_specifics(RefreshKind::nothing().with_memory(memory));
     let system = sysinfo::IS_SUPPORTED_SYSTEM.then_some(system);
@@ -27,10 +33,7 @@ pub fn available() -> f64 {
     // What a container holds of files can be had back: only what is resident is taken.
     let limits = system.and_then(|system| system.cgroup_limits());
     let contained = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
-    [free, contained, address_space()]
-        .into_iter()
-        .flatten()
-        .fold(f64::INFINITY, |least, bytes| least.min(bytes as f64))
+    [free, contained].into_iter().flatten().fold(f64::INFINITY, |least, bytes| least.min(bytes as f64))
 }
 
 /// This process, as other processes that work on a study know it.

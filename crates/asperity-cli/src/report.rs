@@ -73,13 +73,47 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
+/// The program that reports an error: which of its options hints may name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Program {
+    /// The command `asperity`.
+    Command,
+    /// A rank of `asperity-mpi`, which resumes nothing.
+    Rank(usize),
+}
+
+/// Writes an error of the library with its place and its hint to stderr, and returns the exit code: 1 if the computation failed,
+/// 2 if the input is bad, 130 if it was interrupted.
+pub fn report_error(error: Error, program: Program) -> u8 {
+    let failure = Failure::Library(error);
+    report(&failure, program);
+    exit_code(&failure)
+}
+
+/// Writes a warning to stderr, in a paragraph of bounded length.
+pub fn report_warning(warning: &str) {
+    note(&format!("warning: {}", clipped(warning)));
+}
+
+/// Writes data to stdout; a pipe that is closed takes none, and is no error.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn print_data(text: &str) -> Result<(), Error> {
+    print(text).map_err(|failure| match failure {
+        Failure::Stdout(source) => Error::File { path: "standard output".into(), source },
+        Failure::Library(error) => error,
+        other => unreachable!("printing cannot fail with {other:?}"),
+    })
+}
+
 /// Writes the error, its place and its hint to stderr.
-pub(crate) fn report(failure: &Failure) {
+pub(crate) fn report(failure: &Failure, program: Program) {
     let stderr = std::io::stderr();
     let colours = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
     // Where stderr is closed nobody reads: the exit code remains.
-    let _ = writeln!(stderr.lock(), "{}", render(failure, &renderer));
+    let _ = writeln!(stderr.lock(), "{}", render(failure, program, &renderer));
 }
 
 /// 1 where the computation failed, 2 where the input is bad, 130 after Ctrl-C.
@@ -103,10 +137,13 @@ fn code(error: &Error) -> u8 {
         | Error::Threads { .. }
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
-        | Error::PeriodicFullContact { .. } => 1,
+        | Error::PeriodicFullContact { .. }
+        | Error::NotFinite { .. } => 1,
         Error::AtPosition { source, .. }
         | Error::AtPoint { source, .. }
-        | Error::AtIncrement { source, .. } => code(source),
+        | Error::AtIncrement { source, .. }
+        | Error::AtPass { source, .. }
+        | Error::AtUpdate { source, .. } => code(source),
         Error::Interrupted => 130,
         Error::File { source, .. } => code_of_io(source),
         _ => 2,
@@ -116,20 +153,25 @@ fn code(error: &Error) -> u8 {
 fn code_of_io(error: &std::io::Error) -> u8 {
     use ErrorKind::{
         InvalidData, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound, PermissionDenied,
-        ReadOnlyFilesystem,
+        ReadOnlyFilesystem, UnexpectedEof,
     };
     match error.kind() {
         NotFound | PermissionDenied | ReadOnlyFilesystem | InvalidData | InvalidFilename | InvalidInput
-        | IsADirectory | NotADirectory => 2,
+        | IsADirectory | NotADirectory | UnexpectedEof => 2,
         _ => 1,
     }
 }
 
-fn render(failure: &Failure, renderer: &Renderer) -> String {
+fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     let message = clipped(&message(failure));
-    let title = Level::ERROR.primary_title(message.as_str());
+    // Most errors occur on all ranks: only another rank than the first names itself.
+    let name = match program {
+        Program::Command | Program::Rank(0) => "error".to_owned(),
+        Program::Rank(rank) => format!("error on rank {rank}"),
+    };
+    let title = Level::ERROR.with_name(name).primary_title(message.as_str());
     let hint = match failure {
-        Failure::Library(error) => hint(error),
+        Failure::Library(error) => hint_on_ranks(error, program).unwrap_or_else(|| hint(error)),
         Failure::FiguresInterrupted { directory } => {
             Some(format!("the results are whole; `asperity plot {}` draws the figures", directory.display()))
         }
@@ -231,6 +273,25 @@ fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::El
     Snippet::source(text).line_start(case.line).path(file).annotation(annotation).into()
 }
 
+/// The hint of `asperity-mpi`, where that of the command does not fit: it resumes nothing, and has one thread.
+fn hint_on_ranks(error: &Error, program: Program) -> Option<Option<String>> {
+    let Program::Rank(_) = program else { return None };
+    Some(match error {
+        Error::Memory { .. } => Some(
+            "fewer cells take less: `shape` or `resample`; ranks on more machines have more memory together"
+                .to_owned(),
+        ),
+        Error::ResultsExist { results: true, .. } => {
+            Some("--overwrite replaces them, --out names another directory".to_owned())
+        }
+        Error::NotResumable { .. } | Error::OtherRows { .. } => error
+            .hint()
+            .or_else(|| Some("bring back the file of this run, or compute the contact anew".to_owned())),
+        Error::Interrupted => None,
+        _ => return None,
+    })
+}
+
 fn hint(error: &Error) -> Option<String> {
     match error {
         Error::Case(case) => case.hint.clone(),
@@ -271,7 +332,9 @@ fn hint(error: &Error) -> Option<String> {
         )),
         Error::AtPosition { source, .. }
         | Error::AtPoint { source, .. }
-        | Error::AtIncrement { source, .. } => hint(source),
+        | Error::AtIncrement { source, .. }
+        | Error::AtPass { source, .. }
+        | Error::AtUpdate { source, .. } => hint(source),
         Error::FlowNotConverged { .. } => {
             Some("raise `increments` in [plasticity], so that each of them flows less".to_owned())
         }
@@ -314,7 +377,7 @@ mod tests {
 
     fn rendered(text: &str) -> String {
         let error = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap_err();
-        render(&error.into(), &Renderer::plain())
+        render(&error.into(), Program::Command, &Renderer::plain())
     }
 
     #[test]
@@ -354,7 +417,7 @@ hint: did you mean `GPa`?"#;
         let deep = format!("[lower]\nyoung = [{}]\n", "1,\n".repeat(5000));
         assert!(rendered(&deep).lines().count() < 8, "{}", rendered(&deep));
         let path = PathBuf::from(format!("/{}/case.toml", "ü".repeat(4000)));
-        let text = render(&Error::NoResults { path }.into(), &Renderer::plain());
+        let text = render(&Error::NoResults { path }.into(), Program::Command, &Renderer::plain());
         assert!(text.len() < 2000 && text.ends_with("(there is no case.json)"), "{text}");
         assert_eq!(clipped("a\u{1b}[2Jb\nc"), "a\\u{1b}[2Jb\nc");
         assert_eq!(clipped(""), "");
@@ -368,7 +431,7 @@ hint: did you mean `GPa`?"#;
     fn other_errors_have_their_hint_and_code() {
         let error = Error::BeyondPlasticLimit { load: 2.0, limit: 0.0123 };
         let error = Failure::from(error);
-        let text = render(&error, &Renderer::plain());
+        let text = render(&error, Program::Command, &Renderer::plain());
         assert!(text.starts_with("error: load 2 N exceeds the plastic limit"), "{text}");
         assert!(
             text.ends_with("\nhint: give a load below 12.3 mN, a greater hardness or larger surfaces"),

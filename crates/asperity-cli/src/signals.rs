@@ -33,11 +33,12 @@ impl Stop {
     }
 }
 
-/// From now on a file that grows beyond the limit of the process is an error of its write, not the end of the process.
+/// Makes the write of a file beyond the size limit of the process an error, instead of the end of the process.
 #[cfg(unix)]
-pub(crate) fn survive_size_limit() {
+pub fn survive_size_limit() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
+/// Makes the write of a file beyond the size limit of the process an error, where the system has such limits.
 #[cfg(not(unix))]
-pub(crate) fn survive_size_limit() {}
+pub fn survive_size_limit() {}

@@ -32,15 +32,21 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         let message = format!("the study has {} cases", study.len());
         return Err(Failure::usage(message, Some("`--yes` computes them, `--list` prints them")));
     }
-    let folder = Folder::enter(&directory, &study)?;
-    compute(&Queue::new(&study, &folder, machine::worker(), task, arguments.retry)?, arguments.quiet)?;
+    let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
+    compute(&Queue::new(&study, &folder, machine::worker(), task, arguments.retry)?, arguments.quiet)
+        .map_err(changed)?;
     let tally = Tally::of(&folder.states(&study, &machine::worker())?);
-    if tally.left() == 0 {
+    if tally.left() == 0 && folder.has_grown(&study)? {
+        note(
+            "the study has grown since this file was written: its tables are left as they are, and its present file makes them",
+        );
+    } else if tally.left() == 0 {
         let table = collect(&study, &folder)?;
         if !arguments.quiet {
             tell(&table, &study, &folder);
         }
-    } else if !arguments.quiet {
+    } else {
+        // The results are incomplete: no wish for quiet hides that.
         note(&format!(
             "{} of {} cases are done, {} have failed, {} are under way elsewhere, {} are left; \
              who finishes the last makes the tables, as --collect does",
@@ -54,6 +60,17 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     match tally.failed {
         0 => Ok(()),
         failed => Err(Failure::Cases { failed, all: tally.all() }),
+    }
+}
+
+/// What to do about a file of the study that has changed.
+fn changed(failure: Failure) -> Failure {
+    match failure {
+        Failure::Library(error @ Error::SurfaceChanged { .. }) => Failure::usage(
+            error.to_string(),
+            Some("bring the file back as it was, or begin the study anew: --out names another directory"),
+        ),
+        other => other,
     }
 }
 
@@ -84,8 +101,12 @@ fn compute(queue: &Queue, quiet: bool) -> Outcome {
 /// Makes the tables and the page of what is there of a study, and gives the table.
 ///
 /// # Errors
-/// [`Error::File`].
+/// [`Error::NotThisStudy`] if the study has grown beyond this file of it; [`Error::File`].
 pub fn collect(study: &Study, folder: &Folder) -> asperity::Result<Table> {
+    if folder.has_grown(study)? {
+        let what = "has grown: its plan has cases that this study file does not have";
+        return Err(Error::NotThisStudy { path: folder.path().to_owned(), what });
+    }
     let table = Table::collect(study, folder)?;
     let path = |name: &str| folder.path().join(name);
     table.write_csv(&path("table.csv"))?;

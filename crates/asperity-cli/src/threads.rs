@@ -8,6 +8,9 @@ use rayon::ThreadPoolBuilder;
 
 use crate::report::note;
 
+/// The most threads that a computation may have.
+pub const MAX_THREADS: usize = 1024;
+
 /// Makes so many threads, by default as many as are this process's; the first of them is the one that calls.
 pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
     // Of them rayon knows its own variable, the affinity of the process and the share of its control group.

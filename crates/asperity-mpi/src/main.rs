@@ -1,6 +1,7 @@
 //! The command `asperity-mpi`: a contact at rest on a grid that is divided among the ranks of MPI.
 
-mod world;
+mod memory; // whether that of the machines suffices
+mod world; // the processes that mpirun starts
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -8,15 +9,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use asperity::Error;
-use asperity::motion::StaticRecord;
 use asperity::ranks::Ranks;
-use asperity::study::{Case, Existing, Outcome, Summary, collect, run_on_ranks};
-use asperity::units::{self, Dimension};
+use asperity::study::{Case, Existing, Results, Summary, collect, run_on_ranks};
+use asperity_cli::{Program, print_data, report_error, report_warning, text_of_results};
 use clap::{Parser, Subcommand};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::Communicator;
 
+use memory::check;
 use world::World;
 
 /// A contact at rest on a grid that is divided among ranks, each of which holds a slab of its rows
@@ -53,8 +54,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    asperity_cli::survive_size_limit();
     let Some((universe, _)) = mpi::initialize_with_threading(Threading::Serialized) else {
-        return fail(0, "MPI is in use already", None);
+        unreachable!("nothing has initialised MPI before");
     };
     let rank = World::new().rank();
     end_all_on_panic();
@@ -73,13 +75,7 @@ fn main() -> ExitCode {
     threads.expect("nothing has used the threads before");
     match run(arguments.command) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let hint = match &error {
-                Error::Case(case) => case.hint.clone(),
-                other => other.hint(),
-            };
-            fail(rank, &error.to_string(), hint)
-        }
+        Err(error) => fail(rank, error),
     }
 }
 
@@ -90,17 +86,21 @@ fn run(command: Command) -> Result<(), Error> {
             let directory = out.unwrap_or_else(|| results_of(&path));
             let existing = if overwrite { Existing::Overwrite } else { Existing::Keep };
             let ranks: Arc<dyn Ranks> = Arc::new(World::new());
+            check(&case, &*ranks, collects)?;
             let summary = run_on_ranks(&case, &ranks, &directory, existing)?;
             let memory = ranks.gather(&[peak_memory()], &vec![1; ranks.count()]);
-            if let Some(summary) = summary {
+            if let Some(mut summary) = summary {
                 if collects {
                     collect(&directory)?;
+                    summary = Results::open(&directory)?.summary()?;
                 }
-                tell(&summary, &memory);
+                summary.warnings.iter().for_each(|warning| report_warning(warning));
+                print_data(&text(&case, &summary, &memory))?;
             }
         }
         Command::Collect { results } => {
             if World::new().rank() == 0 {
+                memory::check_collecting(&results)?;
                 collect(&results)?;
             }
         }
@@ -108,29 +108,26 @@ fn run(command: Command) -> Result<(), Error> {
     Ok(())
 }
 
-/// The directory of the results of a case that names none.
+/// Returns the results directory of a case that names none.
 fn results_of(case: &Path) -> PathBuf {
     let mut name = case.file_stem().unwrap_or_default().to_owned();
     name.push("-results");
     PathBuf::from(name)
 }
 
-/// Prints the contact in numbers, and the peak memory of the ranks.
-fn tell(summary: &Summary, memory: &[f64]) {
-    if let Outcome::Static(record) = &summary.outcome {
-        let StaticRecord { load, approach, contact_area, max_pressure, residual, iterations, .. } = **record;
-        println!("load          {}", units::format(load, Dimension::Force));
-        println!("approach      {}", units::format(approach, Dimension::Length));
-        println!("contact area  {:.4} %", 100.0 * contact_area / record.apparent_area);
-        println!("max pressure  {}", units::format(max_pressure, Dimension::Pressure));
-        println!("residual      {residual:.1e} after {iterations} iterations");
-    }
+/// Describes the contact in numbers, as `asperity run` does, and the peak memory of the ranks.
+fn text(case: &Case, summary: &Summary, memory: &[f64]) -> String {
     let most = memory.iter().copied().fold(0.0, f64::max);
-    println!("ranks         {}, each of at most {:.1} MB", memory.len(), most / 1e6);
-    println!("time          {:.2} s", summary.wall_time_s);
+    format!(
+        "{}ranks             {}, each of at most {:.1} MB\ntime              {:.2} s\n",
+        text_of_results(case, summary),
+        memory.len(),
+        most / 1e6,
+        summary.wall_time_s
+    )
 }
 
-/// The most memory that this process has had, B; 0 where the system does not tell.
+/// Returns the peak memory of this process in bytes; 0 where the system does not tell.
 fn peak_memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -139,21 +136,17 @@ fn peak_memory() -> f64 {
     1024.0 * number.unwrap_or(0.0)
 }
 
-/// Says what is wrong and ends all ranks, which would wait for this one.
-fn fail(rank: usize, message: &str, hint: Option<String>) -> ExitCode {
-    // Most errors all ranks have: the first tells of them.
+/// Reports the error and ends all ranks, which would wait for this one.
+fn fail(rank: usize, error: Error) -> ExitCode {
+    // Most errors occur on all ranks: the first reports them.
     if rank > 0 {
         std::thread::sleep(Duration::from_secs(2));
     }
-    let of_rank = if rank > 0 { format!(" on rank {rank}") } else { String::new() };
-    eprintln!("error{of_rank}: {message}");
-    if let Some(hint) = hint {
-        eprintln!("hint: {hint}");
-    }
-    SimpleCommunicator::world().abort(1)
+    let code = report_error(error, Program::Rank(rank));
+    SimpleCommunicator::world().abort(code.into())
 }
 
-/// Has a panic end all ranks.
+/// Makes a panic end all ranks.
 fn end_all_on_panic() {
     let tell = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

@@ -41,13 +41,9 @@ impl World {
                 own = Some((part, room));
                 continue;
             }
-            // What is empty here is empty there, and not sent.
-            if out > 0 {
-                to.push((process(rank), part));
-            }
-            if back > 0 {
-                from.push((process(rank), room));
-            }
+            // Messages between two ranks arrive in the order in which they are sent; an empty part has none.
+            to.extend(part.chunks(MAX_MESSAGE).map(|message| (process(rank), message)));
+            from.extend(room.chunks_mut(MAX_MESSAGE).map(|message| (process(rank), message)));
         }
         request::scope(|scope| {
             let receives: Vec<_> =
@@ -94,6 +90,9 @@ impl Ranks for World {
         self.exchange_parts(sent, out, received, back);
     }
 }
+
+/// The most numbers of a message: MPI counts up to 2³¹.
+const MAX_MESSAGE: usize = 1 << 30;
 
 /// A number of numbers as MPI counts them.
 fn as_count(count: usize) -> Count {

@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use asperity::Field;
-use asperity::study::{Case, Existing, Given, Outcome, Results, run};
+use asperity::study::{Case, Existing, Given, Outcome, Results, demand_on_ranks, run};
 use tempfile::TempDir;
 
 /// Two rough bodies of 256 × 256 cells.
@@ -142,22 +142,30 @@ fn fields_may_be_collected_later_and_results_replaced() {
     let at = |name: &str| folder.path().join("case-results").join(name);
     let found = output(3, &["run", "case.toml"], folder.path());
     assert!(found.status.success(), "{}", text(&found.stderr));
-    assert!(text(&found.stdout).contains("ranks         3"), "{}", text(&found.stdout));
+    assert!(text(&found.stdout).contains("ranks             3"), "{}", text(&found.stdout));
     assert!(at("fields/rank-0002.h5").exists() && at("fields/ranks.json").exists());
     assert!(at("summary.json").exists() && !at("fields.h5").exists());
     let kept = output(2, &["run", "case.toml"], folder.path());
-    assert!(!kept.status.success() && text(&kept.stderr).contains("case-results"), "{}", text(&kept.stderr));
+    let said = text(&kept.stderr);
+    assert_eq!(kept.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: case-results already holds results\nhint: --overwrite replaces"), "{said}");
+    assert!(!said.contains("--resume"), "nothing is resumed: {said}");
     let replaced = output(2, &["run", "case.toml", "--overwrite"], folder.path());
     assert!(replaced.status.success(), "{}", text(&replaced.stderr));
     assert!(!at("fields/rank-0002.h5").exists());
     let collected = output(1, &["collect", "case-results"], folder.path());
     assert!(collected.status.success(), "{}", text(&collected.stderr));
     assert!(at("fields.h5").exists());
-    // A file of another run is not taken for one of this.
+    // Neither the rows of another rank nor a damaged file are taken for those of a rank.
     fs::copy(at("fields/rank-0000.h5"), at("fields/rank-0001.h5")).unwrap();
+    let exchanged = output(1, &["collect", "case-results"], folder.path());
+    let said = text(&exchanged.stderr);
+    assert_eq!(exchanged.status.code(), Some(2), "{said}");
+    assert!(said.contains("rank-0001.h5 holds rows 0 to 31") && said.contains("hint: "), "{said}");
     fs::write(at("fields/rank-0001.h5"), b"nothing").unwrap();
     let damaged = output(1, &["collect", "case-results"], folder.path());
-    assert!(!damaged.status.success() && text(&damaged.stderr).contains("rank-0001.h5"));
+    assert_eq!(damaged.status.code(), Some(2));
+    assert!(text(&damaged.stderr).contains("rank-0001.h5"), "{}", text(&damaged.stderr));
 }
 
 #[test]
@@ -166,17 +174,82 @@ fn what_cannot_be_computed_is_refused_at_its_place() {
     let few = case("free", "", [3, 48], "load = \"50 mN\"").replace("16 um", "2 um");
     let line = moving.lines().position(|line| line.trim() == "[motion]").unwrap() + 1;
     for (case, expected) in [
-        (moving.as_str(), format!("case.toml:{line}: 'motion' is not computed on ranks")),
+        (moving.as_str(), format!("error: 'motion' is not computed on ranks\n  --> case.toml:{line}:")),
         (few.as_str(), "4 ranks are too many for a grid of 3 rows along x".to_owned()),
         ("[lower]\nyoung = 3\n", "case.toml:".to_owned()),
     ] {
         let (folder, _) = folder(case);
         let found = output(4, &["run", "case.toml"], folder.path());
         let stderr = text(&found.stderr);
-        assert!(!found.status.success() && stderr.contains(&expected), "{expected}: {stderr}");
+        assert!(found.status.code() == Some(2) && stderr.contains(&expected), "{expected}: {stderr}");
         assert_eq!(stderr.matches("error: ").count(), 1, "one rank tells: {stderr}");
         assert!(!folder.path().join("case-results").join("case.json").exists());
     }
+}
+
+#[test]
+fn what_no_machine_holds_is_refused_with_both_numbers() {
+    let (folder, _) = folder(&case("free", "", [1 << 16, 1 << 16], LOAD));
+    // Some 300 GB, on any machine more than these ranks may have.
+    let script =
+        "ulimit -v 16000000 && exec mpirun --oversubscribe --allow-run-as-root -np 2 \"$0\" run case.toml";
+    let mut command = Command::new("sh");
+    command.args(["-c", script, env!("CARGO_BIN_EXE_asperity-mpi")]).current_dir(folder.path());
+    let found = command.output().expect("mpirun");
+    let said = text(&found.stderr);
+    assert_eq!(found.status.code(), Some(1), "{said}");
+    let line = said.lines().find(|line| line.starts_with("error: ")).unwrap_or_default();
+    assert!(line.contains(" GB of memory are needed, ") && line.ends_with(" are free"), "{said}");
+    assert!(said.contains("\nhint: fewer cells take less"), "{said}");
+    assert!(!said.contains("panicked") && !said.contains("backtrace"), "{said}");
+    assert!(!folder.path().join("case-results").exists());
+}
+
+#[test]
+fn the_memory_of_a_rank_is_foretold() {
+    let text_of_case = case("free", "", [1024, 1024], "load = \"30 N\"").replace("low-pass", "self-affine");
+    let text_of_case =
+        text_of_case.replace("cutoff = \"16 um\"", "hurst = 0.8\nrolloff = \"64 um\"\nshortest = \"8 um\"");
+    let (folder, file) = folder(&text_of_case);
+    let case = Case::load(&file).unwrap();
+    for count in [1, 2, 4] {
+        let found = output(count, &["run", "case.toml", "--overwrite"], folder.path());
+        let told = text(&found.stdout);
+        assert!(found.status.success(), "{}", text(&found.stderr));
+        let used = told.split("each of at most ").nth(1).and_then(|rest| rest.split(' ').next());
+        let used: f64 = used.unwrap().parse().unwrap();
+        let needed = demand_on_ranks(&case, count).unwrap();
+        let needed = needed.steady.max(needed.making) / 1e6;
+        assert!(
+            (1.0 / 1.5..1.5).contains(&(needed / used)),
+            "{count} ranks: {needed:.0} MB told, {used} MB used"
+        );
+    }
+}
+
+#[test]
+fn ranks_with_different_results_directories_are_refused() {
+    let (folder, _) = folder(&case("free", "", [64, 48], "load = \"50 mN\""));
+    let program = env!("CARGO_BIN_EXE_asperity-mpi");
+    let mut command = Command::new("mpirun");
+    command.args([
+        "--oversubscribe",
+        "--allow-run-as-root",
+        "-np",
+        "1",
+        program,
+        "run",
+        "case.toml",
+        "--out",
+        "one",
+    ]);
+    command.args([":", "-np", "1", program, "run", "case.toml", "--out", "other"]);
+    let found = command.current_dir(folder.path()).output().expect("mpirun");
+    let said = text(&found.stderr);
+    assert_eq!(found.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: rank 1 has another results directory than rank 0"), "{said}");
+    let left = |name: &str| folder.path().join(name).join("case.json").exists();
+    assert!(!left("one") && !left("other"));
 }
 
 #[test]

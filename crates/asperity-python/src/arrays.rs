@@ -29,7 +29,8 @@ pub(crate) fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
         Value::Bool(flag) => PyBool::new(py, *flag).to_owned().into_any(),
         Value::Number(number) => match number.as_i64() {
             Some(whole) => whole.into_pyobject(py)?.into_any(),
-            None => number.as_f64().unwrap_or(f64::NAN).into_pyobject(py)?.into_any(),
+            // A force without contact is 0, never −0.
+            None => (number.as_f64().unwrap_or(f64::NAN) + 0.0).into_pyobject(py)?.into_any(),
         },
         Value::String(text) => text.into_pyobject(py)?.into_any(),
         Value::Array(items) => {

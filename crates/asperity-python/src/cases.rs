@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::motion::Watch;
-use asperity::study::dimension_of_column;
+use asperity::study::unit_of_column;
 use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, Tally, Task};
 use asperity_cli::{available_memory, collect_study, this_process};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -80,7 +80,8 @@ impl CoreStudy {
             let ended = |_: usize, _: &Computed| looking.over(queue.len());
             many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
             let states = self.stand(&folder)?;
-            if Tally::of(&states).left() == 0 {
+            // The tables of a study that has grown are its present file's to make.
+            if Tally::of(&states).left() == 0 && !folder.has_grown(&self.study)? {
                 collect_study(&self.study, &folder)?;
             }
             let failed =
@@ -133,7 +134,7 @@ fn values<'py>(py: Python<'py>, axis: &Axis) -> PyResult<Bound<'py, PyList>> {
 fn collected<'py>(py: Python<'py>, table: &Table) -> Collected<'py> {
     let rows = table.rows();
     let column = |(n, name): (usize, &String)| {
-        let unit = dimension_of_column(name).map(|dimension| dimension.si()).unwrap_or_default();
+        let unit = unit_of_column(name).unwrap_or_default().to_owned();
         let values: Vec<f64> = rows.iter().map(|row| row.numbers[n]).collect();
         (name.clone(), unit, values.into_pyarray(py))
     };

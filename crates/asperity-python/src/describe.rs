@@ -1,10 +1,11 @@
 //! What a surface is like: parameters, profiles, curves, spectra, hills.
 
 use asperity::surface::{
-    Axis, BearingCurve, Bins, Classes, Correlation, Distribution, GreenwoodWilliamson, Motif, Parameter,
-    Profile, Segmentation, SelfAffinity, Slope, SpectralMoments, SpectralPoint, Spectrum, Summits,
-    Topography, Window,
+    Axis, BearingCurve, Bins, Classes, Correlation, Distribution, FeatureParameters, GreenwoodWilliamson,
+    Motif, Parameter, Parameters, Profile, Segmentation, SelfAffinity, Slope, SpectralMoments, SpectralPoint,
+    Spectrum, Stop, Summits, Topography, Window,
 };
+use asperity::motion::Watch;
 use asperity::{Choice, Result};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, ToPyArray};
 use pyo3::prelude::*;
@@ -12,6 +13,16 @@ use pyo3::prelude::*;
 use crate::arrays::ok;
 use crate::surface::{Heights, topography};
 use crate::{errors, work};
+
+/// What `work` makes of the topography of these heights, unless it is asked to stop.
+fn of_until<T: Send>(
+    py: Python<'_>,
+    heights: &Heights<'_>,
+    work: impl FnOnce(&Topography, Stop<'_>) -> Result<T> + Send,
+) -> PyResult<T> {
+    let topography = topography(py, heights)?;
+    work::run(py, 0, None, |looking| work(&topography, &|| looking.stop()))
+}
 
 /// The option that is called so.
 fn word<C: Choice>(py: Python<'_>, key: &str, word: &str) -> PyResult<C> {
@@ -45,13 +56,15 @@ fn table(rows: Vec<Parameter>) -> Vec<Row> {
 /// All parameters of ISO 25178.
 #[pyfunction]
 pub(crate) fn parameters(py: Python<'_>, heights: Heights<'_>) -> PyResult<Vec<Row>> {
-    of(py, &heights, |topography| Ok(table(topography.parameters().rows())))
+    of_until(py, &heights, |topography, stop| Ok(table(Parameters::until(topography, stop)?.rows())))
 }
 
 /// The feature parameters of ISO 25178, pruned at this share of Sz.
 #[pyfunction]
 pub(crate) fn feature_parameters(py: Python<'_>, heights: Heights<'_>, pruning: f64) -> PyResult<Vec<Row>> {
-    of(py, &heights, |topography| Ok(table(topography.feature_parameters(pruning)?.rows())))
+    of_until(py, &heights, |topography, stop| {
+        Ok(table(FeatureParameters::until(topography, pruning, stop)?.rows()))
+    })
 }
 
 /// Parameters of ISO 21920 of the roughness of all profiles along an axis, each the mean over them.
@@ -377,9 +390,9 @@ pub(crate) fn segments<'py>(
     dales: bool,
     pruning: f64,
 ) -> PyResult<(Bound<'py, PyArray2<u32>>, Vec<Feature>)> {
-    let Segmentation { labels, motifs } = of(py, &heights, |topography| match dales {
-        true => topography.dales(pruning),
-        false => topography.hills(pruning),
+    let Segmentation { labels, motifs } = of_until(py, &heights, |topography, stop| match dales {
+        true => topography.dales_until(pruning, stop),
+        false => topography.hills_until(pruning, stop),
     })?;
     let feature = |motif: Motif| {
         let Motif { at: [ix, iy], height, saddle, prominence, curvature, area, volume, closed } = motif;

@@ -106,6 +106,18 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
             a.set_item("cause", raised(py, source)?)?;
             variant!(a, "AtIncrement", increment = increment)
         }
+        Error::AtPass { pass, source } => {
+            a.set_item("pass_number", pass)?;
+            hint = hint.or(source.hint());
+            a.set_item("cause", raised(py, source)?)?;
+            "AtPass"
+        }
+        Error::AtUpdate { update, source } => {
+            hint = hint.or(source.hint());
+            a.set_item("cause", raised(py, source)?)?;
+            variant!(a, "AtUpdate", update = update)
+        }
+        Error::NotFinite { field, cell } => variant!(a, "NotFinite", field = field, cell = cell),
         Error::FlowNotConverged { products, mismatch, tolerance } => {
             variant!(a, "FlowNotConverged", products = products, mismatch = mismatch, tolerance = tolerance)
         }
@@ -128,6 +140,15 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
         }
         Error::SurfaceChanged { path, file } => variant!(a, "SurfaceChanged", path = path, file = file),
         Error::NotResumable { path, reason } => variant!(a, "NotResumable", path = path, reason = reason),
+        Error::OtherRows { path, rows, ranks, expected, expected_ranks } => variant!(
+            a,
+            "OtherRows",
+            path = path,
+            rows = rows.to_vec(),
+            ranks = ranks,
+            expected = expected.to_vec(),
+            expected_ranks = expected_ranks
+        ),
         Error::InUse { path } => variant!(a, "InUse", path = path),
         Error::TooManyRanks { ranks, rows } => variant!(a, "TooManyRanks", ranks = ranks, rows = rows),
         Error::RanksDiffer { rank, what } => variant!(a, "RanksDiffer", rank = rank, what = what),

@@ -42,7 +42,7 @@ mod _core {
     #[pymodule_export]
     use super::reference::{closed_form, compliances};
     #[pymodule_export]
-    use super::results::CoreResults;
+    use super::results::{CoreResults, unit_of_column};
     #[pymodule_export]
     use super::stress::{invariants, most_stressed, stress};
     #[pymodule_export]
@@ -59,6 +59,8 @@ mod _core {
         module.add("PASS_COLUMNS", study::PASS_COLUMNS)?;
         module.add("INCREMENT_COLUMNS", study::INCREMENT_COLUMNS)?;
         module.add("SWEEP_COLUMNS", study::SWEEP_COLUMNS)?;
+        module.add("COLUMN_UNITS", study::COLUMN_UNITS.to_vec())?;
+        module.add("MAX_THREADS", asperity_cli::MAX_THREADS)?;
         module.add("COUPLED_PUNCHES", crate::reference::coupled_punches())?;
         module.add("AREA_COEFFICIENTS", [rough::BGT_COEFFICIENT, rough::PERSSON_COEFFICIENT])?;
         module.add("WOLF_PRUNING", WOLF_PRUNING)

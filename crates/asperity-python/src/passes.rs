@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
-use asperity::motion::SolvedPass;
+use asperity::motion::{SolvedPass, Watch};
 use asperity::study::{self, Existing, Passes};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -79,7 +79,9 @@ impl CorePasses {
     ) -> PyResult<Self> {
         let (case, given) = asked(py, &source, &handed, threads)?;
         let existing = self::existing(existing);
-        let passes = work::run(py, threads, None, |_| Passes::enter(&case, given, &directory, existing))?;
+        let passes = work::run(py, threads, None, |looking| {
+            Passes::enter_until(&case, given, &directory, existing, &|| looking.stop())
+        })?;
         Ok(Self { state: Mutex::new(State { passes: Some(passes), solved: None }), threads })
     }
 
@@ -147,9 +149,9 @@ impl CorePasses {
                 shear.push(magnitude.copysign(contact.tangential_force));
             }
             plastic.extend(contact.interference());
-            match contact.temperature.is_empty() {
-                true => temperature.resize(pressure.len(), f64::NAN),
-                false => temperature.extend(&contact.temperature),
+            match &contact.temperature {
+                None => temperature.resize(pressure.len(), f64::NAN),
+                Some(of_cells) => temperature.extend(of_cells),
             }
         }
         Ok((

@@ -15,6 +15,13 @@ use crate::work;
 /// An array as it is stored: values, unit, names of the axes, pitch and origin along each.
 type Stored<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
 
+/// The SI unit of a column of a table or of a number of a summary: "1" of a pure number, nothing of a text; none where there is no such
+/// column.
+#[pyfunction]
+pub(crate) fn unit_of_column(column: &str) -> Option<&'static str> {
+    asperity::study::unit_of_column(column)
+}
+
 #[pyclass(name = "Results", frozen)]
 pub(crate) struct CoreResults {
     results: Results,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Grid;
+use asperity::motion::Watch;
 use asperity::study::{self, Given, Made};
 use asperity::surface::{ReadOptions, Round, Topography};
 use asperity::units::{self, Dimension};
@@ -42,7 +43,9 @@ pub(crate) fn surface<'py>(
         handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
     }
     let Made { topography, origin, findings, .. } =
-        work::run(py, 0, None, |_| study::topography(&text, Path::new(""), handed))?;
+        work::run(py, 0, None, |looking| {
+            study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
+        })?;
     let made = PyDict::new(py);
     made.set_item("pitch", topography.grid().pitch)?;
     made.set_item("underside", origin.is_some_and(|origin| origin.is_underside))?;
@@ -111,6 +114,7 @@ pub(crate) fn quantity(
         let written = value.repr().map_or_else(|_| String::new(), |text| text.to_string());
         errors::bad_input(py, key, &format!("'{key}' is {written}, expected {expected}"), hint)
     };
+    let value = &tables::scalar(value)?;
     let number = match value.extract::<String>() {
         Ok(text) if text == "inf" => f64::INFINITY,
         Ok(text) if tables::is_bare(&text) => {

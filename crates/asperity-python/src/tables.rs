@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyString};
 use toml::{Table, Value};
 
 use crate::errors;
@@ -29,8 +29,18 @@ fn table(entries: &Bound<'_, PyDict>, path: &str) -> PyResult<Table> {
     Ok(table)
 }
 
+/// The number or text in an array without dimensions; any other value as it is.
+pub(crate) fn scalar<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let dimensions = value.getattr_opt("ndim")?.and_then(|ndim| ndim.extract::<usize>().ok());
+    match dimensions == Some(0) && value.hasattr("item")? {
+        true => value.call_method0("item"),
+        false => Ok(value.clone()),
+    }
+}
+
 /// A value: what is a number or a list in spirit, as NumPy's scalars and arrays are, is taken for one.
 fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
+    let value = &scalar(value)?;
     if let Ok(entries) = value.cast::<PyDict>() {
         return Ok(Value::Table(table(entries, path)?));
     }
@@ -58,7 +68,8 @@ fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
         let path: PathBuf = value.extract()?;
         return Ok(Value::String(path.to_string_lossy().into_owned()));
     }
-    if let Ok(items) = value.try_iter() {
+    let is_bytes = value.cast::<PyBytes>().is_ok() || value.cast::<PyByteArray>().is_ok();
+    if !is_bytes && let Ok(items) = value.try_iter() {
         let items = items.map(|item| entry(&item?, path)).collect::<PyResult<_>>()?;
         return Ok(Value::Array(items));
     }

@@ -11,6 +11,8 @@ use asperity::motion::{Progress, Watch};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use asperity_cli::MAX_THREADS;
+
 use crate::errors;
 
 /// How often the caller looks at signals and tells of progress.
@@ -127,6 +129,10 @@ static LAST: Mutex<Option<(u32, usize, Arc<ThreadPool>)>> = Mutex::new(None);
 /// So many threads, which belong to this process alone: those of a process that has forked are not there in its child, and
 /// whoever waits for them waits forever.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
+    if threads > MAX_THREADS {
+        let message = format!("'threads' is {threads}, expected a whole number from 1 to {MAX_THREADS}");
+        return Err(pyo3::exceptions::PyValueError::new_err(message));
+    }
     let process = std::process::id();
     // In a child the lock may have been held when it was forked.
     let mut last = LAST.try_lock().ok();

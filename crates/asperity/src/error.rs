@@ -265,6 +265,30 @@ pub enum Error {
         /// What is wrong there.
         source: Box<Error>,
     },
+    /// The answer of a pass has no meaning.
+    #[error("pass {pass}: {source}")]
+    AtPass {
+        /// The computed pass, from 1.
+        pass: usize,
+        /// What is wrong there.
+        source: Box<Error>,
+    },
+    /// The answer of an update of a contact that wears in place has no meaning.
+    #[error("update {update}: {source}")]
+    AtUpdate {
+        /// The update, from 1; 0 before the first.
+        update: usize,
+        /// What is wrong there.
+        source: Box<Error>,
+    },
+    /// An answer is NaN or infinite.
+    #[error("`{field}` is not a finite number{}", in_cell(cell))]
+    NotFinite {
+        /// The field, column or number.
+        field: String,
+        /// The index of the first such cell along each axis, from 0; empty for a single number.
+        cell: Vec<usize>,
+    },
     /// Plastic strain and stress did not come to agree.
     #[error(
         "plastic flow does not settle in {products} products: mismatch {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
@@ -340,6 +364,23 @@ pub enum Error {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// The file of a rank holds other rows than the index of the run says.
+    #[error(
+        "{path} holds rows {} to {} of a run on {ranks} ranks, expected rows {} to {} of one on {expected_ranks}",
+        rows[0], rows[1], expected[0], expected[1]
+    )]
+    OtherRows {
+        /// The file at fault.
+        path: PathBuf,
+        /// The first and the last row that it holds.
+        rows: [usize; 2],
+        /// Number of ranks of its run.
+        ranks: usize,
+        /// The first and the last row that it should hold.
+        expected: [usize; 2],
+        /// Number of ranks that the index has.
+        expected_ranks: usize,
+    },
     /// Another process writes its results to the directory.
     #[error("{path} is in use: another run is writing its results there")]
     InUse {
@@ -401,6 +442,14 @@ pub enum LoadLimit {
 }
 
 impl Error {
+    /// The same error, wrapped by `at` if an answer is NaN or infinite.
+    pub(crate) fn if_not_finite(self, at: impl FnOnce(Box<Self>) -> Self) -> Self {
+        match self {
+            Self::NotFinite { .. } => at(Box::new(self)),
+            other => other,
+        }
+    }
+
     /// What the user can do about it, where that is known: a sentence to print after the error.
     pub fn hint(&self) -> Option<String> {
         match self {
@@ -426,15 +475,28 @@ impl Error {
             Self::FlowNotConverged { .. } => {
                 Some("take more increments, so that each of them flows less".into())
             }
-            Self::AtIncrement { source, .. } => source.hint(),
+            Self::NotFinite { .. } => Some(
+                "a quantity of the input is far too large or too small, for example one whose unit is missing".into(),
+            ),
+            Self::AtIncrement { source, .. }
+            | Self::AtPass { source, .. }
+            | Self::AtUpdate { source, .. }
+            | Self::AtPoint { source, .. } => source.hint(),
             Self::TooManyRanks { .. } => Some("start fewer: each holds a row or more".into()),
             Self::RanksDiffer { .. } => {
                 Some("start the same program on every machine, where it finds the same files".into())
+            }
+            Self::OtherRows { .. } => {
+                Some("bring back the file that the rank has written, or compute the contact anew".into())
             }
             Self::Memory { .. } => Some("fewer cells take less, and so do fewer threads".into()),
             _ => None,
         }
     }
+}
+
+fn in_cell(cell: &[usize]) -> String {
+    if cell.is_empty() { String::new() } else { format!(" in cell {cell:?}") }
 }
 
 /// Two forces that can be told apart.

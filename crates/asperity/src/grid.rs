@@ -1,7 +1,9 @@
 //! Regular grids and the fields on them.
 
+mod finite; // the guard of what leaves the program
 mod seat;
 
+pub(crate) use finite::check_finite;
 pub use seat::Seat;
 
 use crate::error::{Error, Result};

@@ -13,6 +13,7 @@ use clap::error::Error;
 use clap::{Args, Parser, Subcommand};
 
 use crate::report::{Failure, Outcome, written};
+use values::threads;
 
 pub(crate) use drawing::Drawing;
 pub(crate) use generate::{Generate, Recipe};
@@ -103,8 +104,8 @@ pub(crate) struct Run {
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// Threads over the positions of a pass, at most 1024; by default the share of a scheduler or container, else all cores
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
     /// No progress and no table, only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use asperity::study::many::Task;
 use clap::Args;
 
+use super::values::threads;
+
 /// Compute a study: many cases made of one, over axes of values or the rows of a table
 ///
 /// Each case is a folder DIR/cases/0001 with its case.toml and its results; DIR/table.csv, table.h5 and study.html tell of all of
@@ -38,8 +40,8 @@ pub(crate) struct Study {
     #[arg(long)]
     pub(crate) yes: bool,
     /// Threads, at most 1024: so many cases at a time; by default the share of a scheduler or container, else all cores
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
     /// No progress, only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,

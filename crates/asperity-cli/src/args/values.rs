@@ -1,5 +1,6 @@
 //! Values of arguments: quantities with units, pairs of them, shapes, words.
 
+use crate::threads::MAX_THREADS;
 use asperity::Choice;
 use asperity::surface::Resample;
 use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS};
@@ -16,6 +17,12 @@ pub(crate) struct Shape(pub(crate) [usize; 2]);
 /// x0, y0, nx, ny.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Window(pub(crate) [usize; 4]);
+
+/// A number of threads.
+pub(super) fn threads(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MAX_THREADS).contains(count));
+    count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_THREADS}"))
+}
 
 fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
     units::parse(text, dimension).map_err(|error| match error.hint() {

@@ -219,11 +219,16 @@ fn pressures(
     sheet.add("pressure", "pressure on the lower body", of, || {
         Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure(title).range(range)).collect()))
     })?;
-    if names.contains(&temperature_name(middles[0].step)) {
+    let is_heated = |step: &StepRecord| names.contains(&temperature_name(step.step));
+    if middles.iter().any(|step| is_heated(step)) {
+        // Results of earlier versions have no temperature of a position at which nothing touches.
         let temperatures: Vec<Stored> = middles
             .iter()
-            .map(|step| Stored::read(fields, &temperature_name(step.step)))
-            .map(|stored| Ok(stored?.celsius().framed(lower)))
+            .zip(&shown)
+            .map(|(step, (_, pressure))| match is_heated(step) {
+                true => Ok(Stored::read(fields, &temperature_name(step.step))?.celsius().framed(lower)),
+                false => Ok(pressure.with(Field::from_elem(pressure.field.raw_dim(), f64::NAN))),
+            })
             .collect::<Outcome<_>>()?;
         sheet.add("temperature", "temperature of the contact", of, || {
             let maps = temperatures.iter().zip(&shown).map(|(stored, (title, _))| {

@@ -19,7 +19,10 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
         return None;
     }
     let pass = found.passes.last().map(|pass| pass.pass);
-    let there = if found.moves() { pass.is_some() } else { found.directory().join("subsurface.h5").exists() };
+    let there = match found.moves() {
+        true => pass.is_some(),
+        false => found.is_finished() || found.directory().join("subsurface.h5").exists(),
+    };
     if !there {
         return None;
     }

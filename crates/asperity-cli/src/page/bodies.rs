@@ -62,7 +62,7 @@ fn of_motion(found: &mut Found) -> Option<[Pair; 2]> {
 }
 
 fn of_rest(found: &mut Found) -> Option<Pair> {
-    if !has_rest(found.results) {
+    if !has_rest(found.results) && !found.is_finished() {
         return None;
     }
     let fields = found.fields(found.results.static_fields())?;

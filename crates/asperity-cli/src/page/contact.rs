@@ -217,7 +217,7 @@ fn read_pass(
         let contact = pressure.contact(own.as_ref().unwrap_or(&cap));
         let mut maps = vec![("pressure", pressure), ("contact", contact)];
         if names.contains(&temperature_name(step.step)) {
-            maps.push(("temperature", Stored::read(fields, &temperature_name(step.step))?.celsius()));
+            maps.extend(temperature(Stored::read(fields, &temperature_name(step.step))?));
         }
         Ok(Frame {
             group,
@@ -233,6 +233,11 @@ fn read_pass(
         .filter(|step| positions.contains(&step.step) && names.contains(&pressure_name(step.step)))
         .map(frame)
         .collect()
+}
+
+/// The map of a temperature; none where nothing touches.
+fn temperature(stored: Stored) -> Option<(&'static str, Stored)> {
+    stored.field.iter().any(|kelvin| kelvin.is_finite()).then(|| ("temperature", stored.celsius()))
 }
 
 fn of_step(step: &StepRecord) -> String {
@@ -336,7 +341,7 @@ fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, Stored)>> {
         maps.push(("plastic", plastic));
     }
     if has("temperature") {
-        maps.push(("temperature", read("temperature")?.celsius()));
+        maps.extend(temperature(read("temperature")?));
     }
     maps.insert(0, ("contact", contact));
     maps.insert(0, ("pressure", pressure));

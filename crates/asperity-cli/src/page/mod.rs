@@ -33,7 +33,7 @@ use serde_json::{Value, json};
 use crate::args::Report;
 use crate::draw::{Colours, Paper, palette};
 use crate::figures;
-use crate::report::{Outcome, print};
+use crate::report::{Outcome, note, print};
 use found::Found;
 pub(crate) use live::LivePage;
 pub(crate) use study::write_study;
@@ -43,7 +43,11 @@ const FILE: &str = "report.html";
 
 /// Writes the page of a results directory and prints its path.
 pub(crate) fn report(arguments: &Report) -> Outcome {
-    let path = make(&arguments.directory, arguments.out.as_deref())?;
+    let results = Results::open(&arguments.directory)?;
+    let path = arguments.out.clone().unwrap_or_else(|| of(&results));
+    for missing in write(&results, &path)? {
+        note(&format!("warning: {missing}; the page does without it"));
+    }
     print(&format!("{}\n", path.display()))
 }
 
@@ -63,19 +67,21 @@ pub(crate) fn of(results: &Results) -> PathBuf {
     results.directory().join(FILE)
 }
 
-/// Writes the page of `results` to `path`; where that fails the one that is there stays.
-pub(crate) fn write(results: &Results, path: &Path) -> asperity::Result<()> {
-    let page = page(results)?;
+/// Writes the page of `results` to `path`, and gives what could not be read and is not on it; where that fails the one that is there
+/// stays.
+pub(crate) fn write(results: &Results, path: &Path) -> asperity::Result<Vec<String>> {
+    let (page, missing) = page(results)?;
     // What killed processes have left beside it.
     io::sweep(path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new(".")));
-    io::replace(path, page.as_bytes())
+    io::replace(path, page.as_bytes())?;
+    Ok(missing)
 }
 
 /// A section: its anchor, its title, its HTML.
 type Section = (&'static str, &'static str, Option<String>);
 
-/// The page.
-fn page(results: &Results) -> asperity::Result<String> {
+/// The page, and what is missing on it.
+fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
     let mut found = Found::in_results(results)?;
     let mut data = json!({ "colours": {
         "heights": palette(Colours::Heights),
@@ -92,7 +98,7 @@ fn page(results: &Results) -> asperity::Result<String> {
         ("trust", "Trust", Some(trust::section(&mut found, &mut charts))),
     ];
     data["charts"] = charts.into();
-    Ok(document(&found, &sections, &data))
+    Ok((document(&found, &sections, &data), found.missing))
 }
 
 fn document(found: &Found, sections: &[Section], data: &Value) -> String {

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use asperity::study::dimension_of_column;
+use asperity::io;
+use asperity::study::{dimension_of_column, unit_of_column};
 use asperity::units::{CELSIUS, Dimension, Multiple, format, format_number};
 
 use super::html::escaped;
@@ -25,12 +26,15 @@ enum Kind {
     Of(Dimension),
     Celsius,
     Number,
+    /// In a unit that no case file asks for, such as that of a moment.
+    In(&'static str),
 }
 
 impl Table {
     /// The table of a file: its rows whose line has an end, as long as they are numbers.
     pub(super) fn read(path: &Path) -> std::io::Result<Self> {
-        let text = std::fs::read_to_string(path)?;
+        let text = io::read_regular(path, "a table of results", u64::MAX)?;
+        let text = String::from_utf8_lossy(&text);
         let ended = text.rfind('\n').map_or("", |end| &text[..end]);
         let mut lines = ended.lines();
         let columns = lines.next().unwrap_or_default().split(',').map(str::to_owned).collect();
@@ -113,6 +117,7 @@ impl Table {
         let multiple = match kind {
             Kind::Of(dimension) => dimension.multiple(largest),
             Kind::Celsius => Multiple { factor: 1.0, symbol: "°C".to_owned() },
+            Kind::In(unit) => Multiple { factor: 1.0, symbol: unit.to_owned() },
             Kind::Number => Multiple { factor: 1.0, symbol: String::new() },
         };
         (kind, multiple)
@@ -124,6 +129,7 @@ pub(super) fn text_of(key: &str, value: f64) -> String {
     match kind(key) {
         Kind::Of(dimension) => format(value, dimension),
         Kind::Celsius => format!("{} °C", format_number(value - CELSIUS)),
+        Kind::In(unit) => format!("{} {unit}", format_number(value)),
         Kind::Number => format_number(value),
     }
 }
@@ -141,7 +147,7 @@ fn shown_in(value: f64, kind: Kind, unit: &Multiple) -> String {
     match kind {
         _ if !value.is_finite() => "–".to_owned(),
         Kind::Celsius => format_number(value - CELSIUS),
-        Kind::Of(_) | Kind::Number => format_number(value / unit.factor),
+        Kind::Of(_) | Kind::Number | Kind::In(_) => format_number(value / unit.factor),
     }
     .replace('-', "−")
 }
@@ -156,7 +162,10 @@ fn kind(name: &str) -> Kind {
     match dimension_of_column(name) {
         Some(Dimension::Temperature) => Kind::Celsius,
         Some(dimension) => Kind::Of(dimension),
-        None => Kind::Number,
+        None => match unit_of_column(name) {
+            None | Some("" | "1") => Kind::Number,
+            Some(unit) => Kind::In(unit),
+        },
     }
 }
 
@@ -181,6 +190,7 @@ mod tests {
                 Kind::Of(dimension) => dimension.multiple(0.0).symbol,
                 Kind::Celsius => "K".to_owned(),
                 Kind::Number => String::new(),
+                Kind::In(unit) => unit.to_owned(),
             };
             assert!(
                 units.iter().any(|of| of.split(", ").any(|of| of == unit)),

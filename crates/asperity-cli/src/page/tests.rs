@@ -55,7 +55,7 @@ impl Computed {
     }
 
     fn page(&self) -> String {
-        page(&Results::open(&self.folder.path().join("results")).unwrap()).unwrap()
+        page(&Results::open(&self.folder.path().join("results")).unwrap()).unwrap().0
     }
 
     fn data(&self) -> Value {

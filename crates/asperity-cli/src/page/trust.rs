@@ -39,10 +39,7 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
     if let Some(asperity::study::RunningIn { computed, represented, error_bound, .. }) =
         found.summary.as_ref().and_then(|summary| summary.running_in.as_ref())
     {
-        let bound = format(*error_bound, Dimension::Length);
-        let text =
-            format!("{computed} of {represented} passes computed; heights off by less than {bound} of it");
-        rows.push(("passes".to_owned(), escaped(&text)));
+        rows.push(("passes".to_owned(), escaped(&computed_passes(*computed, *represented, *error_bound))));
     }
     if let Some(identity) = found.case["identity"].as_str() {
         rows.push(("identity".to_owned(), format!("<code>{}</code>", escaped(identity))));
@@ -52,6 +49,17 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
     html += &details("Files", &files(found.directory()));
     html += &details("How to cite", CITATION);
     html
+}
+
+/// How many passes were computed, and the error of the extrapolation over the others, if there are any.
+fn computed_passes(computed: usize, represented: usize, error: f64) -> String {
+    match computed == represented {
+        true => format!("all {computed} computed"),
+        false => format!(
+            "{computed} of {represented} computed; the extrapolation over the others changes heights by an estimated {} at most",
+            format(error, Dimension::Length)
+        ),
+    }
 }
 
 /// After `CITATION.cff`.
@@ -85,5 +93,18 @@ fn list(folder: &Path, root: &Path, all: &mut Vec<(String, f64)>) {
             let name = path.strip_prefix(root).unwrap_or(&path).to_string_lossy().into_owned();
             all.push((name, metadata.len() as f64));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_told_of_passes_that_were_extrapolated_alone() {
+        assert_eq!(computed_passes(3, 3, 0.0), "all 3 computed");
+        assert_eq!(computed_passes(3, 3, 1e-12), "all 3 computed");
+        let text = computed_passes(39, 1024, 2.5e-9);
+        assert!(text.starts_with("39 of 1024 computed; ") && text.contains("2.5 nm"), "{text}");
     }
 }

@@ -19,6 +19,7 @@ use crate::report::{self, Failure, clipped, note, print};
 use crate::signals::Stop;
 use crate::{example, figures, page};
 use display::Display;
+pub use record::text;
 
 /// Runs the case, prints a table of its outcome, draws its figures.
 pub(crate) fn run(arguments: &Run) -> report::Outcome {

@@ -8,8 +8,9 @@ use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
 
-/// A static contact, and the largest stress under the surface. The rows of passes and points have been told as they came.
-pub(super) fn text(case: &Case, summary: &Summary) -> String {
+/// Describes a static contact and the largest stress below the surface, a line for each number. The rows of passes and points are
+/// printed as they come.
+pub fn text(case: &Case, summary: &Summary) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(record, planes(case)),
         Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),

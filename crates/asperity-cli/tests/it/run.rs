@@ -1328,3 +1328,30 @@ fn assert_same_passes(found: &Path, expected: &Path) {
         assert!(found == expected, "fields/{name} differs");
     }
 }
+
+/// A position at which nothing touches is one of the others: its temperature is that of no cell, and all is drawn.
+#[test]
+fn a_heated_motion_with_positions_apart_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = |name: &str, seed: usize| {
+        format!(
+            "[{name}]\nyoung = \"210 GPa\"\npoisson = 0.3\nconductivity = 46\nheat_capacity = 460\ndensity = 7850\n\
+             topography = {{ generate = \"low-pass\", shape = [24, 8], pitch = \"1 um\", sq = \"100 nm\", cutoff = \"6 um\", seed = {seed} }}\n"
+        )
+    };
+    let text = format!(
+        "{}{}[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.1\n[motion]\nspeed = 1\n\
+         [temperature]\nbulk = \"100 °C\"\n[output]\npressure_every = 1\n",
+        body("lower", 1),
+        body("upper", 2)
+    );
+    std::fs::write(folder.path().join("case.toml"), text).unwrap();
+    ok(&asperity(&folder, "run case.toml --out results --quiet"));
+    let results = folder.path().join("results");
+    let steps = std::fs::read_to_string(results.join("steps.csv")).unwrap();
+    let loads = steps.lines().skip(1).map(|row| row.split(',').nth(5).unwrap().parse::<f64>().unwrap());
+    assert!(loads.into_iter().any(|load| load == 0.0), "all positions touch: {steps}");
+    for file in ["figures/temperature.png", "figures/pressure.png", "report.html"] {
+        assert!(results.join(file).is_file(), "{file}");
+    }
+}

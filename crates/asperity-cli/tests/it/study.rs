@@ -79,7 +79,7 @@ fn each_case_has_the_numbers_that_it_has_when_it_is_run_alone() {
     }
     let fields = Fields::open(&path("load/table.h5")).unwrap();
     for (name, unit) in
-        [("contact.load", "N"), ("contact_area", "m²"), ("lower.topography.seed", ""), ("done", "")]
+        [("contact.load", "N"), ("contact_area", "m²"), ("lower.topography.seed", "1"), ("done", "1")]
     {
         let column = fields.read(name).unwrap();
         assert_eq!((column.unit.as_str(), column.values.len()), (unit, 10), "{name}");
@@ -164,6 +164,138 @@ fn files_are_found_from_where_the_study_lies() {
     // The study may be moved as a whole, and a case computed where it lies.
     fs::rename(folder.path().join("there"), folder.path().join("here")).unwrap();
     ok(&asperity(&folder, "run here/files/cases/0002/case.toml --out alone"));
+}
+
+/// A surface of so many cells and this seed at `name`, and a map of the hardness beside it.
+fn measure(folder: &TempDir, name: &str, seed: usize) {
+    let made = "surface generate low-pass --shape 16x16 --pitch 1um --sq 20nm --cutoff 6um --overwrite";
+    ok(&asperity(folder, &format!("{made} --seed {seed} --out {name}")));
+}
+
+/// A case whose lower body is measured, in a file of a folder that others have too.
+fn measured() -> String {
+    CASE.replace(
+        "{ generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"20 nm\", cutoff = \"6 um\", seed = 1 }",
+        "{ file = \"a/disc.npy\", pitch = \"1 um\" }",
+    )
+}
+
+#[test]
+fn a_measured_file_that_changes_ends_the_study_and_is_named() {
+    let folder = folder_with("");
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir_all(path("a")).unwrap();
+    fs::create_dir_all(path("b")).unwrap();
+    let hardness = |gigapascal: f64| {
+        let row = format!("{:e} ", gigapascal * 1e9).repeat(16);
+        fs::write(path("b/hard.txt"), format!("{row}\n").repeat(16)).unwrap();
+    };
+    let restore = || {
+        measure(&folder, "a/disc.npy", 1);
+        measure(&folder, "b/disc.npy", 2);
+        hardness(4.0);
+    };
+    restore();
+    fs::write(
+        path("case.toml"),
+        measured().replace("hardness = \"4 GPa\"", "hardness = { file = \"b/hard.txt\" }"),
+    )
+    .unwrap();
+    let study = "base = \"case.toml\"\n[axes]\n\"contact.load\" = [1e-3, 2e-3]\n\
+                 \"upper.topography\" = [{ form = \"flat\" }, { file = \"b/disc.npy\", pitch = \"1 um\" }]\n";
+    fs::write(path("load.toml"), study).unwrap();
+    // The first of two processes makes the plan.
+    ok(&asperity(&folder, "study load.toml --task 1/4 --quiet"));
+    let kept: Value = serde_json::from_slice(&fs::read(path("load/files.json")).unwrap()).unwrap();
+    let names: Vec<&String> = kept.as_object().unwrap().keys().collect();
+    assert_eq!(names, ["lower.hardness.file", "lower.topography.file", "upper.topography.file = b/disc.npy"]);
+    for (change, file) in [
+        (&(|| measure(&folder, "a/disc.npy", 3)) as &dyn Fn(), "a/disc.npy"),
+        (&|| hardness(3.0), "b/hard.txt"),
+        (&|| measure(&folder, "b/disc.npy", 3), "b/disc.npy"),
+    ] {
+        change();
+        let error = refused(&asperity(&folder, "study load.toml --quiet"));
+        assert!(
+            error.contains(&format!("{file} has changed since the results in load were begun")),
+            "{error}"
+        );
+        assert!(error.contains("hint: bring the file back as it was"), "{error}");
+        restore();
+    }
+    ok(&asperity(&folder, "study load.toml --quiet"));
+    assert_eq!(table(&path("load/table.csv")).len(), 4);
+    assert!(files(&path("load/claims")).is_empty());
+    // From another folder it is the same study of the same files.
+    fs::create_dir(path("elsewhere")).unwrap();
+    let moved =
+        command(&folder, "study ../load.toml --quiet").current_dir(path("elsewhere")).output().unwrap();
+    ok(&moved);
+}
+
+#[test]
+fn a_study_of_an_earlier_version_is_known_by_what_its_cases_were_computed_from() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"contact.load\" = [1e-3, 2e-3]\n");
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir_all(path("a")).unwrap();
+    measure(&folder, "a/disc.npy", 1);
+    fs::write(path("case.toml"), measured()).unwrap();
+    ok(&asperity(&folder, "study load.toml --task 1/2 --quiet"));
+    fs::remove_file(path("load/files.json")).unwrap();
+    measure(&folder, "a/disc.npy", 2);
+    let error = refused(&asperity(&folder, "study load.toml --quiet"));
+    assert!(error.contains("a/disc.npy has changed since the results in load were begun"), "{error}");
+    assert!(!path("load/files.json").exists());
+    measure(&folder, "a/disc.npy", 1);
+    ok(&asperity(&folder, "study load.toml --quiet"));
+    assert!(path("load/files.json").exists());
+    assert_eq!(table(&path("load/table.csv")).len(), 2);
+}
+
+#[test]
+fn an_older_file_of_a_study_leaves_the_table_of_the_present_one() {
+    let study = |values: &str| format!("base = \"case.toml\"\n[axes]\n\"contact.load\" = [{values}]\n");
+    let folder = folder_with(&study("\"1 mN\", \"2 mN\", \"3 mN\""));
+    ok(&asperity(&folder, "study load.toml"));
+    let whole = contents(&folder, "load/table.csv");
+    fs::write(folder.path().join("load.toml"), study("\"1 mN\", \"2 mN\"")).unwrap();
+    let output = asperity(&folder, "study load.toml --quiet");
+    ok(&output);
+    assert!(stderr(&output).contains("the study has grown since this file was written"), "{output:?}");
+    let error = refused(&asperity(&folder, "study load.toml --collect"));
+    assert!(
+        error.contains("load has grown: its plan has cases that this study file does not have"),
+        "{error}"
+    );
+    assert!(contents(&folder, "load/table.csv") == whole);
+}
+
+#[test]
+fn a_text_of_a_table_is_no_formula() {
+    let folder = folder_with("");
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir_all(path("a")).unwrap();
+    measure(&folder, "=1+1.npy", 1);
+    measure(&folder, "@a.npy", 2);
+    fs::write(path("case.toml"), measured()).unwrap();
+    let files = "\"lower.topography.file\" = [\"=1+1.npy\", \"@a.npy\"]\n\"contact.load\" = [1e-3]\n";
+    fs::write(path("load.toml"), format!("base = \"case.toml\"\n[axes]\n{files}")).unwrap();
+    ok(&asperity(&folder, "study load.toml --quiet"));
+    for name in ["load/plan.csv", "load/table.csv"] {
+        let text = fs::read_to_string(path(name)).unwrap();
+        assert!(text.contains(",'=1+1.npy,0.001") || text.contains("'=1+1.npy,"), "{text}");
+        let formulas =
+            text.lines().flat_map(|line| line.split(',')).filter(|cell| cell.starts_with(['=', '@', '+']));
+        assert_eq!(formulas.count(), 0, "{text}");
+        // A number keeps its sign.
+        assert!(!text.contains("'-"), "{text}");
+    }
+    // A plan is a table for another study, and one that was written without apostrophes is the same plan.
+    fs::write(path("again.toml"), "base = \"case.toml\"\ntable = \"load/plan.csv\"\n").unwrap();
+    ok(&asperity(&folder, "study again.toml --quiet"));
+    assert_eq!(contents(&folder, "again/table.csv"), contents(&folder, "load/table.csv"));
+    change(&path("load/plan.csv"), "'", "");
+    ok(&asperity(&folder, "study load.toml --quiet"));
 }
 
 // ---- what goes wrong -------------------------------------------------------------------------------------
@@ -365,10 +497,13 @@ fn a_case_that_another_process_computes_is_left_to_it() {
     let path = |name: &str| folder.path().join("load").join(name);
     let mut first = spawn(&folder, "study load.toml --threads 1");
     wait_for(&mut first, &path("cases/0001/passes.csv"));
-    let output = asperity(&folder, "study load.toml --threads 1");
-    ok(&output);
-    let told = "1 of 2 cases are done, 0 have failed, 1 are under way elsewhere, 0 are left";
-    assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    // An incomplete result is told of whoever asks for quiet.
+    for quiet in ["", " --quiet"] {
+        let output = asperity(&folder, &format!("study load.toml --threads 1{quiet}"));
+        ok(&output);
+        let told = "1 of 2 cases are done, 0 have failed, 1 are under way elsewhere, 0 are left";
+        assert!(stderr(&output).contains(told), "{quiet}: {}", stderr(&output));
+    }
     let listed = ok(&asperity(&folder, "study load.toml --list"));
     assert!(listed.starts_with("0001  claimed  ") && !listed.contains("gone"), "{listed}");
     first.kill().unwrap();

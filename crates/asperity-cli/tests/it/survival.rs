@@ -254,7 +254,7 @@ fn threads_are_as_many_as_there_is_use_for_and_room() {
     let folder = folder_with(&ball(""));
     for count in ["0", "1025"] {
         let error = refused(&asperity(&folder, &format!("run case.toml --out out --threads {count}")));
-        assert!(error.contains("1..=1024"), "{error}");
+        assert!(error.contains("expected a whole number from 1 to 1024"), "{error}");
     }
     let output = asperity(&folder, "run case.toml --out out --threads 300");
     ok(&output);
@@ -363,7 +363,7 @@ fn an_error_is_some_lines_whatever_the_input() {
 // ---- kills -----------------------------------------------------------------------------------------------
 
 /// Every kind of computation, small.
-fn computations() -> [(&'static str, String); 9] {
+pub(crate) fn computations() -> [(&'static str, String); 9] {
     let runs_in = "conductivity = 46, heat_capacity = 460, density = 7850, wear = { coefficient = 1e-17, under_film = 1e-18 }, \
                    film = { law = \"arrhenius\", max_thickness = 1e-8, rate = 1e-5, at_temperature = 400, at_stress = 3e9, \
                    activation_energy = 1e-19, activation_volume = 4e-30, removal = 1e-9 }, topography";
@@ -589,7 +589,7 @@ fn assert_same(found: &BTreeMap<String, Vec<u8>>, expected: &BTreeMap<String, Ve
 // ---- helpers ---------------------------------------------------------------------------------------------
 
 /// Two rough steel surfaces of 16 × 16 cells that yield a little, with what follows.
-fn motion(passes: usize, tables: &str) -> String {
+pub(crate) fn motion(passes: usize, tables: &str) -> String {
     let body = |name: &str, seed: usize| {
         format!(
             "{name} = {{ young = \"210 GPa\", poisson = 0.3, hardness = \"4 GPa\", topography = {{ \
@@ -606,7 +606,7 @@ fn motion(passes: usize, tables: &str) -> String {
 }
 
 /// A ball on a plane, with what follows [contact].
-fn ball(tables: &str) -> String {
+pub(crate) fn ball(tables: &str) -> String {
     let steel = "young = \"210 GPa\"\npoisson = 0.3\ntopography = {";
     format!(
         "[lower]\n{steel} form = \"flat\", shape = [32, 32], pitch = \"1 um\" }}\n\
@@ -615,14 +615,14 @@ fn ball(tables: &str) -> String {
     )
 }
 
-fn folder_with(case: &str) -> TempDir {
+pub(crate) fn folder_with(case: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("case.toml"), case).unwrap();
     folder
 }
 
 /// Every file beneath, by its path relative to `folder`.
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let read = |name: String| {
         let bytes = fs::read(folder.join(&name)).unwrap();
         (name, bytes)

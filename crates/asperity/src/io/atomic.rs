@@ -123,6 +123,44 @@ impl Draft {
     }
 }
 
+/// A temporary file by which other processes tell that they see the same directory; it goes with this value.
+#[cfg(feature = "study")]
+pub(crate) struct Token {
+    _file: NamedTempFile,
+    number: u64,
+}
+
+#[cfg(feature = "study")]
+impl Token {
+    /// A file in `directory` with a number that no other has.
+    ///
+    /// # Errors
+    /// [`Error::File`] with `directory`.
+    pub(crate) fn new(directory: &Path) -> Result<Self> {
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+        let text = format!("{} {now:?} {}", std::process::id(), directory.display());
+        // As many digits as an `f64` holds exactly: ranks exchange those.
+        let number = u64::from_str_radix(&super::sha256(text.as_bytes())[..12], 16).expect("hexadecimal");
+        let file = tempfile::Builder::new().prefix(&Self::name(number)).rand_bytes(0).tempfile_in(directory);
+        let file = file.map_err(|source| Error::File { path: directory.to_owned(), source })?;
+        let _ = file.as_file().try_lock();
+        Ok(Self { _file: file, number })
+    }
+
+    pub(crate) fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// Whether the file of this number is in `directory`.
+    pub(crate) fn is_in(directory: &Path, number: u64) -> bool {
+        directory.join(Self::name(number)).exists()
+    }
+
+    fn name(number: u64) -> String {
+        format!("{PREFIX}token-{number}")
+    }
+}
+
 fn create_in(directory: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]

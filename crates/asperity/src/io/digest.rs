@@ -1,5 +1,10 @@
 //! Digests of contents.
 
+#[cfg(feature = "study")]
+use std::io::{self, Read};
+#[cfg(feature = "study")]
+use std::path::Path;
+
 use sha2::{Digest, Sha256};
 
 /// The SHA-256 of `bytes`, hexadecimal.
@@ -21,6 +26,20 @@ pub(crate) fn sha256_of(numbers: impl Iterator<Item = f64>) -> String {
     }
     digest.update(&buffer);
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The SHA-256 of the content of a regular file, hexadecimal.
+#[cfg(feature = "study")]
+pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
+    let mut file = super::regular::open(path, "a topography file")?;
+    let mut digest = Sha256::new();
+    let mut buffer = vec![0; 1 << 20];
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
+            count => digest.update(&buffer[..count]),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -22,9 +22,9 @@ use ndarray::{ArrayD, ArrayRef, Dimension, Ix2};
 use sha2::{Digest as _, Sha256};
 
 use super::atomic::Draft;
-use super::sha256;
+use super::{regular, sha256};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, check_finite};
 use crate::units::Metre;
 
 /// Fields that are written to one file. Arrays go to the disk while others are added: no more than some are held in memory.
@@ -34,6 +34,8 @@ pub struct FieldFile {
     arrays: BTreeMap<String, Digest>,
     /// The file on the disk, or why there is none.
     draft: Result<FieldDraft>,
+    /// Whether each value must be a finite number, unless its field may hold others.
+    finite: bool,
 }
 
 /// A fact about a file.
@@ -68,13 +70,15 @@ impl FieldFile {
     /// A file with nothing in it, which is to be at `path`, in a folder that is made if there is none. It is there once
     /// [`FieldFile::write`] has ended; errors until then come to light there.
     pub fn new(path: &Path) -> Self {
-        Self { attributes: BTreeMap::new(), arrays: BTreeMap::new(), draft: FieldDraft::new(path) }
+        let (attributes, arrays) = (BTreeMap::new(), BTreeMap::new());
+        Self { attributes, arrays, draft: FieldDraft::new(path), finite: false }
     }
 
-    /// A file at `path` of the run of this identity, which it says.
+    /// A file at `path` of the run of this identity, which it says. [`FieldFile::write`] refuses a value that is not finite by
+    /// [`Error::NotFinite`], unless its field may hold such values.
     #[cfg(feature = "study")]
     pub(crate) fn of_run(identity: &str, path: &Path) -> Self {
-        let mut file = Self::new(path);
+        let mut file = Self { finite: true, ..Self::new(path) };
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
         file
     }
@@ -168,12 +172,12 @@ impl FieldFile {
         let digest = array_digest([unit, axes], shape, [pitch, origin], values.iter());
         let other = self.arrays.insert(name.to_owned(), digest);
         assert!(other.is_none(), "two arrays named {name}");
-        let shape: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
+        let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
         let describe = |dataset: &mut DatasetBuilder| {
-            dataset.with_f64_data(values).with_shape(&shape);
+            dataset.with_f64_data(values).with_shape(&sizes);
             if values.len() >= MIN_COMPRESSED {
                 // Most of a pressure field is 0, and neighbouring heights share their exponents.
-                dataset.with_chunks(&chunk(&shape)).with_shuffle().with_deflate(DEFLATE_LEVEL);
+                dataset.with_chunks(&chunk(&sizes)).with_shuffle().with_deflate(DEFLATE_LEVEL);
             }
             dataset
                 .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
@@ -181,6 +185,12 @@ impl FieldFile {
                 .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
                 .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
         };
+        if self.finite
+            && self.draft.is_ok()
+            && let Err(error) = check_finite(name, shape, values)
+        {
+            self.draft = Err(error);
+        }
         if let Ok(draft) = &mut self.draft
             && let Err(error) = draft.add(name, size_of_val(values), describe)
         {
@@ -343,6 +353,8 @@ impl Fields {
     /// # Errors
     /// [`Error::File`].
     pub fn open(path: &Path) -> Result<Self> {
+        let failed = |source| Error::File { path: path.to_owned(), source };
+        regular::check(path, "a file of fields").map_err(failed)?;
         let access = without_lock().with_metadata_cache(MetadataCacheConfig::new(MAX_METADATA));
         let file =
             File::open_streaming_with_options(path, access).map_err(|error| file_error(path, error))?;
@@ -681,5 +693,22 @@ mod tests {
         assert!(missing.starts_with(path.to_str().unwrap()), "{missing}");
         std::fs::write(&path, b"not HDF5").unwrap();
         assert!(Fields::open(&path).err().unwrap().to_string().contains("HDF5"));
+    }
+
+    #[cfg(feature = "study")]
+    #[test]
+    fn a_run_leaves_no_file_with_a_value_that_is_no_number() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("pass-0001.h5");
+        let grid = Grid::new([2, 3], [1e-6; 2]).unwrap();
+        let mut values = grid.zeros();
+        values[[1, 2]] = f64::NAN;
+        let mut file = FieldFile::of_run("identity", &path);
+        file.add_field("temperature_00001", "K", &grid, [0.0; 2], &values);
+        file.add_field("upper", "m", &grid, [0.0; 2], &values);
+        file.add_field("lower", "m", &grid, [0.0; 2], &grid.zeros());
+        let error = file.write().unwrap_err();
+        assert_eq!(error.to_string(), "`upper` is not a finite number in cell [1, 2]");
+        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 0, "nothing is left");
     }
 }

@@ -3,10 +3,11 @@
 pub(crate) mod atomic; // a file is there in full or not at all
 mod digest; // SHA-256
 pub mod fields; // HDF5: named fields with unit, axes, pitch
-pub(crate) mod regular; // regular files, read as a whole
+pub(crate) mod regular; // regular files, to be read
 pub mod vti; // fields for ParaView
 
 pub use atomic::{replace, sweep};
 pub(crate) use digest::sha256;
 #[cfg(feature = "study")]
-pub(crate) use digest::sha256_of;
+pub(crate) use digest::{sha256_of, sha256_of_file};
+pub use regular::read as read_regular;

@@ -1,26 +1,46 @@
-//! Files that are read as a whole: regular ones only, and none larger than it may be.
+//! Files that are read: regular ones only, and none larger than it may be.
 
-use std::fs::{FileType, Metadata};
-use std::io::{self, ErrorKind};
+use std::fs::{File, FileType, Metadata};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// The content of the file at `path`, which is to be `expected`, "a case file", of at most so many bytes.
+/// Reads the file at `path`, which is to be `expected`, "a case file", of at most so many bytes.
 ///
 /// # Errors
 /// What the operating system says; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] with what it is instead
 /// of a regular file, the latter also with its size where that is more than `most`.
-pub(crate) fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
-    // A pipe or a device has no end, and opening one may wait for ever.
-    let about = std::fs::metadata(path)?;
-    if !about.is_file() {
-        let kind = if about.is_dir() { ErrorKind::IsADirectory } else { ErrorKind::InvalidInput };
-        return Err(io::Error::new(kind, format!("is {}, expected {expected}", noun(&about))));
-    }
-    if about.len() > most {
-        let message = format!("holds {} bytes, {expected} has {most} at most", about.len());
+pub fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
+    let mut file = open(path, expected)?;
+    let length = file.metadata()?.len();
+    if length > most {
+        let message = format!("holds {length} bytes, {expected} has {most} at most");
         return Err(io::Error::new(ErrorKind::InvalidInput, message));
     }
-    std::fs::read(path)
+    let mut content = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+    file.read_to_end(&mut content)?;
+    Ok(content)
+}
+
+/// Opens the file at `path`, which is to be `expected`, to be read.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn open(path: &Path, expected: &str) -> io::Result<File> {
+    check(path, expected)?;
+    File::open(path)
+}
+
+/// Returns an error unless `path` leads to a regular file: a pipe or a device has no end, and opening one may wait for ever.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn check(path: &Path, expected: &str) -> io::Result<()> {
+    let about = std::fs::metadata(path)?;
+    if about.is_file() {
+        return Ok(());
+    }
+    let kind = if about.is_dir() { ErrorKind::IsADirectory } else { ErrorKind::InvalidInput };
+    Err(io::Error::new(kind, format!("is {}, expected {expected}", noun(&about))))
 }
 
 fn noun(about: &Metadata) -> &'static str {

@@ -25,9 +25,9 @@ pub struct Contact {
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
-    /// Temperature of the surfaces on each cell in contact, in the order of the pressures, absolute; nothing where it is not
+    /// Temperature of the surfaces on each cell in contact, in the order of the pressures, absolute; none where it is not
     /// computed.
-    pub temperature: Vec<Kelvin>,
+    pub temperature: Option<Vec<Kelvin>>,
     /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
@@ -93,7 +93,7 @@ impl Contact {
             position,
             pressure,
             plastic: Vec::new(),
-            temperature: Vec::new(),
+            temperature: None,
             load,
             tangential_force: 0.0,
             approach,
@@ -121,7 +121,7 @@ impl Contact {
             tangential_force: solution.grid.cell_area() * sliding.map_or(0.0, shear),
             pressure,
             plastic,
-            temperature: Vec::new(),
+            temperature: None,
             load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,
@@ -139,14 +139,12 @@ impl Contact {
 
     /// The temperature of the cells in contact, K, NaN elsewhere, `width` across; none where it is not computed.
     pub fn temperature_field(&self, width: usize) -> Option<Field> {
-        let touching = !self.temperature.is_empty();
-        touching.then(|| {
-            let mut field = Field::from_elem([self.position.columns, width], f64::NAN);
-            let cells = field.as_slice_mut().expect("standard layout");
-            let of_cells = self.pressure.iter().zip(&self.temperature);
-            of_cells.for_each(|((cell, _), temperature)| cells[*cell as usize] = *temperature);
-            field
-        })
+        let temperature = self.temperature.as_ref()?;
+        let mut field = Field::from_elem([self.position.columns, width], f64::NAN);
+        let cells = field.as_slice_mut().expect("standard layout");
+        let of_cells = self.pressure.iter().zip(temperature);
+        of_cells.for_each(|((cell, _), temperature)| cells[*cell as usize] = *temperature);
+        Some(field)
     }
 
     /// Plastic interference w of each cell in contact, in the order of the pressures; 0 where a cell does not yield.

@@ -8,7 +8,7 @@ use crate::grid::{CellValues, Field};
 use crate::motion::body::{Body, State};
 use crate::motion::law::{Law, Touching};
 use crate::motion::pair::Pair;
-use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal};
+use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, Range};
 
 /// Boltzmann's constant, J/K.
 const BOLTZMANN: f64 = 1.380_649e-23;
@@ -19,6 +19,21 @@ const PLANCK: f64 = 6.626_070_15e-34;
 pub const FILM: &str = "film";
 /// Name of the state in which a body keeps what the mechano-chemical law has grown, m.
 const GROWN: &str = "film_grown";
+
+/// Accepted activation energies, besides 0: up to 60 eV, far above that of any bond. A number in eV without its unit is refused.
+pub(crate) const ACTIVATION_ENERGIES: Range = Range { least: 1e-24, most: 1e-17, unit: "J" };
+/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³ without its unit is refused.
+pub(crate) const ACTIVATION_VOLUMES: Range = Range { least: 1e-36, most: 1e-18, unit: "m³" };
+/// Accepted temperatures of a known growth rate. A number in °C without its unit, below 200, is refused.
+pub(crate) const GROWTH_TEMPERATURES: Range = Range { least: 200.0, most: 5000.0, unit: "K" };
+/// Accepted factors x of the mechano-chemical law.
+pub(crate) const GROWTH_FACTORS: Range = Range { least: 1e-45, most: 1.0, unit: "" };
+/// Accepted rates C₄ of the mechano-chemical law, besides 0.
+pub(crate) const REMOVAL_RATES: Range = Range { least: 1e-15, most: 1e15, unit: "1/s" };
+
+/// Largest exponent of Arrhenius' law. A film that grows at e⁵⁰⁰ of the known rate is at its thickest at once; sums of such rates
+/// over positions, passes and time stay finite.
+const MAX_EXPONENT: f64 = 500.0;
 
 /// The film of a body: a thickness in each cell, which grows and is removed while the cell is in contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,28 +54,29 @@ pub enum FilmLaw {
     Arrhenius {
         /// Growth of a film of no thickness at the next two, > 0.
         rate: MetrePerSecond,
-        /// Temperature of that rate.
+        /// Temperature of that rate, 200 … 5000 K.
         at_temperature: Kelvin,
         /// Stress of that rate.
         at_stress: Pascal,
-        /// Activation energy ΔU, ≥ 0.
+        /// Activation energy ΔU, 0 or 10⁻²⁴ … 10⁻¹⁷ J.
         activation_energy: Joule,
-        /// Activation volume ΔV, ≥ 0.
+        /// Activation volume ΔV, 0 or 10⁻³⁶ … 10⁻¹⁸ m³.
         activation_volume: CubicMetre,
         /// The stress that drives it.
         stress: FilmStress,
         /// Removal r per pressure and distance slid, ≥ 0, 1/(Pa m).
         removal: f64,
     },
-    /// f = g − l: dg/dt = (k_B T/h_P) x (f_max − g), dl/dt = C₄ (C₃ − l).
+    /// f = g − l ≥ 0: dg/dt = (k_B T/h_P) x (f_max − g), dl/dt = C₄ (C₃ − l). A bare cell, f = 0, loses what it grows while dl/dt would
+    /// be above dg/dt.
     ///
     /// A. Ghanbarzadeh et al., Tribol. Int. 93, 573 (2016).
     MechanoChemical {
-        /// The factor x, > 0: of order 10⁻¹⁶.
+        /// The factor x, 10⁻⁴⁵ … 1: of order 10⁻¹⁶.
         x: f64,
         /// The thickness C₃ that removal takes in the end, 0 to f_max.
         c3: Metre,
-        /// The rate C₄ at which it does, ≥ 0, 1/s.
+        /// The rate C₄ at which it does, 0 or 10⁻¹⁵ … 10¹⁵ 1/s.
         c4: f64,
     },
 }
@@ -101,13 +117,13 @@ impl Film {
                 ..
             } => {
                 check_in(Dimension::Speed, "rate", rate, positive(rate), "a rate above 0")?;
-                let warm = positive(at_temperature);
+                let warm = GROWTH_TEMPERATURES.holds(at_temperature);
                 check_in(
                     Dimension::Temperature,
                     "at_temperature",
                     at_temperature,
                     warm,
-                    "a temperature above 0 K",
+                    "a temperature of 200 to 5000 K",
                 )?;
                 check_in(
                     Dimension::Pressure,
@@ -116,19 +132,30 @@ impl Film {
                     at_least_0(at_stress),
                     "a stress from 0",
                 )?;
-                for (key, dimension, value) in [
-                    ("activation_energy", Dimension::Energy, activation_energy),
-                    ("activation_volume", Dimension::Volume, activation_volume),
-                    ("removal", Dimension::RemovalRate, removal),
-                ] {
-                    check_in(dimension, key, value, at_least_0(value), "a value from 0")?;
-                }
+                let energy = activation_energy == 0.0 || ACTIVATION_ENERGIES.holds(activation_energy);
+                check_in(
+                    Dimension::Energy,
+                    "activation_energy",
+                    activation_energy,
+                    energy,
+                    "0 or an energy of 1e-24 to 1e-17 J",
+                )?;
+                let volume = activation_volume == 0.0 || ACTIVATION_VOLUMES.holds(activation_volume);
+                check_in(
+                    Dimension::Volume,
+                    "activation_volume",
+                    activation_volume,
+                    volume,
+                    "0 or a volume of 1e-36 to 1e-18 m³",
+                )?;
+                check_in(Dimension::RemovalRate, "removal", removal, at_least_0(removal), "a value from 0")?;
             }
             FilmLaw::MechanoChemical { x, c3, c4 } => {
-                check("x", x, positive(x), "a number above 0")?;
+                check("x", x, GROWTH_FACTORS.holds(x), "a number of 1e-45 to 1")?;
                 let within = (0.0..=max_thickness).contains(&c3);
                 check_in(Dimension::Length, "c3", c3, within, "a thickness from 0 to max_thickness")?;
-                check("c4", c4, at_least_0(c4), "a rate from 0, 1/s")?;
+                let rate = c4 == 0.0 || REMOVAL_RATES.holds(c4);
+                check("c4", c4, rate, "0 or a rate of 1e-15 to 1e15 1/s")?;
             }
         }
         Ok(Self { law, max_thickness, hardness, bare: None })
@@ -162,7 +189,8 @@ impl Film {
                     let (stress, temperature) = (stress[index], temperature[index]);
                     let energy = activation_energy * (1.0 / temperature - 1.0 / at_temperature);
                     let work = activation_volume * (stress / temperature - at_stress / at_temperature);
-                    let growth = rate * ((work - energy) / BOLTZMANN).exp();
+                    let exponent = (work - energy) / BOLTZMANN;
+                    let growth = rate * if exponent > MAX_EXPONENT { MAX_EXPONENT } else { exponent }.exp();
                     growth * touching.time
                 });
                 touching.add(body, removed, |index| {
@@ -196,20 +224,15 @@ impl Film {
                 [steady + (thickness - steady) * (-decay * passes).exp(), 0.0]
             }
             FilmLaw::MechanoChemical { c3, .. } => {
-                let lost = grown - thickness;
-                let grown = self.max_thickness + (grown - self.max_thickness) * (-growth * passes).exp();
-                let lost = c3 + (lost - c3) * (-removal * passes).exp();
-                [grown - lost, grown]
+                let balance = Balance::new([self.max_thickness, c3], [growth, removal], [thickness, grown]);
+                let grown = balance.grown(passes);
+                [balance.thickness(passes), grown]
             }
         }
     }
 
     /// The mean thickness of a cell over so many passes; of none its thickness now.
     pub(super) fn mean_thickness(&self, states: [Metre; 2], rates: [f64; 2], passes: f64) -> Metre {
-        /// (1 − e⁻ᵃ)/a.
-        fn mean_decay(a: f64) -> f64 {
-            if a > 1e-8 { -(-a).exp_m1() / a } else { 1.0 - 0.5 * a }
-        }
         let ([thickness, grown], [growth, removal]) = (states, rates);
         match self.law {
             FilmLaw::Arrhenius { .. } => {
@@ -221,10 +244,8 @@ impl Film {
                 steady + (thickness - steady) * mean_decay(decay * passes)
             }
             FilmLaw::MechanoChemical { c3, .. } => {
-                let lost = grown - thickness;
-                let grown = self.max_thickness + (grown - self.max_thickness) * mean_decay(growth * passes);
-                let lost = c3 + (lost - c3) * mean_decay(removal * passes);
-                grown - lost
+                let balance = Balance::new([self.max_thickness, c3], [growth, removal], [thickness, grown]);
+                balance.mean_thickness(passes)
             }
         }
     }
@@ -254,6 +275,134 @@ impl Film {
             *value = hard - (hard - soft) * (*value / self.max_thickness).clamp(0.0, 1.0);
         }
         body.hardness = hardness.into();
+    }
+}
+
+/// (1 − e⁻ᵃ)/a.
+fn mean_decay(a: f64) -> f64 {
+    if a > 1e-8 { -(-a).exp_m1() / a } else { 1.0 - 0.5 * a }
+}
+
+/// Growth g and removal l of a mechano-chemical film in a cell at constant exponents G and R per pass, by the passes t since the
+/// beginning.
+///
+/// g = f_max + (g₀ − f_max) e^(−Gt),  l = C₃ + (l₀ − C₃) e^(−Rt),  f = g − l
+///
+/// Where f would fall below 0 the cell is bare, l = g, until R (C₃ − g) < G (f_max − g): from g* = (R C₃ − G f_max)/(R − G) on it
+/// grows again.
+struct Balance {
+    /// The largest thickness f_max, and the thickness C₃ that is removed in the end.
+    ends: [Metre; 2],
+    /// Exponents G and R.
+    rates: [f64; 2],
+    /// Growth and removal at the beginning.
+    begin: [Metre; 2],
+    /// The passes at which the film is used up and at which it grows again, if it is used up.
+    bare: Option<[f64; 2]>,
+}
+
+impl Balance {
+    /// The balance of a cell of this thickness and growth.
+    fn new(ends: [Metre; 2], rates: [f64; 2], [thickness, grown]: [Metre; 2]) -> Self {
+        let begin = [grown, grown - thickness];
+        let mut balance = Self { ends, rates, begin, bare: None };
+        balance.bare = balance.bare();
+        balance
+    }
+
+    /// The growth after so many passes.
+    fn grown(&self, passes: f64) -> Metre {
+        self.ends[0] + (self.begin[0] - self.ends[0]) * (-self.rates[0] * passes).exp()
+    }
+
+    /// The removal of a film that is not used up.
+    fn removed(&self, passes: f64) -> Metre {
+        self.ends[1] + (self.begin[1] - self.ends[1]) * (-self.rates[1] * passes).exp()
+    }
+
+    /// The thickness after so many passes.
+    fn thickness(&self, passes: f64) -> Metre {
+        match self.bare {
+            Some([begin, end]) if passes >= begin => {
+                if passes <= end {
+                    0.0
+                } else {
+                    self.regrown(end).thickness(passes - end)
+                }
+            }
+            _ => at_least_0(self.grown(passes) - self.removed(passes)),
+        }
+    }
+
+    /// The mean thickness over so many passes; of none the thickness at the beginning.
+    fn mean_thickness(&self, passes: f64) -> Metre {
+        match self.bare {
+            Some([begin, end]) if passes > begin => {
+                let before = begin * self.mean_unbounded(begin);
+                let after = match passes > end {
+                    true => (passes - end) * self.regrown(end).mean_thickness(passes - end),
+                    false => 0.0,
+                };
+                at_least_0((before + after) / passes)
+            }
+            _ => at_least_0(self.mean_unbounded(passes)),
+        }
+    }
+
+    /// The mean of g − l.
+    fn mean_unbounded(&self, passes: f64) -> Metre {
+        let mean = |which: usize| {
+            let end = self.ends[which];
+            end + (self.begin[which] - end) * mean_decay(self.rates[which] * passes)
+        };
+        mean(0) - mean(1)
+    }
+
+    /// The balance of a cell that has been bare until now, from its `end` on.
+    fn regrown(&self, end: f64) -> Self {
+        let grown = self.grown(end);
+        Self { begin: [grown; 2], bare: None, ..*self }
+    }
+
+    /// The passes between which the cell is bare: of a film that is used up, its removal is faster than its growth.
+    fn bare(&self) -> Option<[f64; 2]> {
+        let ([most, removed], [growth, removal]) = (self.ends, self.rates);
+        let (to_grow, to_remove) = (most - self.begin[0], removed - self.begin[1]);
+        if removal <= growth || removal * to_remove <= growth * to_grow {
+            return None;
+        }
+        let difference = |passes: f64| self.grown(passes) - self.removed(passes);
+        // The film is thinnest where growth and removal are equally fast.
+        let thinnest = ((removal * to_remove) / (growth * to_grow)).ln() / (removal - growth);
+        let thinnest = if thinnest.is_finite() { thinnest } else { f64::MAX.sqrt() / removal };
+        if difference(thinnest) >= 0.0 {
+            return None;
+        }
+        let begin = first_zero(difference, thinnest);
+        // f_max − g falls to f_max − g*.
+        let again = removal * (most - removed) / (removal - growth);
+        let end = (to_grow / again).ln() / growth;
+        Some([begin, if end.is_finite() { end.max(begin) } else { f64::INFINITY }])
+    }
+}
+
+/// The value, or 0 for one below it. A value that is no number stays as it is.
+fn at_least_0(value: f64) -> f64 {
+    if value < 0.0 { 0.0 } else { value }
+}
+
+/// The zero of a function that falls from a value of at least 0 at 0 to one below 0 at `end`.
+fn first_zero(value: impl Fn(f64) -> f64, end: f64) -> f64 {
+    if value(0.0) <= 0.0 {
+        return 0.0;
+    }
+    let (mut above, mut below) = (0.0, end);
+    loop {
+        let middle = 0.5 * (above + below);
+        if middle <= above || middle >= below {
+            return below;
+        }
+        if value(middle) > 0.0 { above = middle } else { below = middle }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, StaticR
 use crate::motion::watch::{AtRest, Progress, Watch};
 use crate::operator::Boundary;
 use crate::plasticity::{Facing, FlowParams, Interface, PlasticBody, PlasticContact};
-use crate::solver::{Control, Equilibrium, Friction, Loading, Params, Tangential};
+use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
 use crate::units::Joule;
 
 /// A static contact whose bodies have flowed below their surfaces.
@@ -129,7 +129,13 @@ pub fn press_flowing(
     let (residual, left) = match path.unloading {
         None => (Vec::new(), None),
         Some(increments) => {
-            let nothing = Loading { normal: Control::Load(0.0), tangential: Tangential::Force([0.0; 2]) };
+            // The force of bodies that slide is all that friction holds, and so it is under each smaller load.
+            let slides = solution.frictional().filter(|solution| solution.stick.sum() == 0.0);
+            let tangential = match slides.map(FrictionalSolution::force) {
+                Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
+                _ => Tangential::Force([0.0; 2]),
+            };
+            let nothing = Loading { normal: Control::Load(0.0), tangential };
             course.walk(&mut contact, &Stage { loading: nothing, increments }, path.stages.len() + 1)?;
             let residual = FlowedVolume::unloaded(&mut contact);
             let left = FlowRecord::of(&residual, &course.sums).into_residual();

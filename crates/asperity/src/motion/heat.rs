@@ -59,7 +59,8 @@ impl PassHeat {
             let [mut rise, mut weights] = [(); 2].map(|()| Field::zeros(shape));
             for contact in contacts {
                 let seat = pair.seats(&contact.position)[body];
-                for ((cell, _), temperature) in contact.pressure.iter().zip(&contact.temperature) {
+                let temperatures = contact.temperature.iter().flatten();
+                for ((cell, _), temperature) in contact.pressure.iter().zip(temperatures) {
                     for (cell, weight) in seat.parts(seat.cell(*cell as usize)) {
                         rise.as_slice_mut().expect("standard layout")[cell] += weight * (temperature - bulk);
                         weights.as_slice_mut().expect("standard layout")[cell] += weight;

@@ -200,17 +200,18 @@ impl LoadedContact {
         params: &Params,
         watch: &dyn solver::Watch,
     ) -> Result<Self> {
-        let area = pair.cell_area();
         let bounds = pair.bounds(&pair.at_rest(), None);
-        let RollingSolution { contact: solution, creepage } =
+        let rolled =
             solve_rolling_watched(operator, gap, &bounds, friction, control, rolling, params, watch)?;
+        let slip_work = rolled.slip_work();
+        let RollingSolution { contact: solution, creepage, dissipation } = rolled;
         let plastic = solution.normal.plastic_interference();
-        let work = |axis: usize| (&solution.shear[axis] * &solution.slip[axis]).sum();
         let shear = ShearRecord {
             creepage: Some(creepage),
             spin: Some(rolling.spin),
             moment: Some(solution.moment()),
-            ..shear_record(&solution, area * (work(0) + work(1)))
+            slip_work: Some(slip_work),
+            ..shear_record(&solution, dissipation)
         };
         let slip = Some(solution.slip.clone());
         let solution = Equilibrium::Frictional(Box::new(solution));
@@ -513,6 +514,7 @@ pub(super) fn shear_record(solution: &FrictionalSolution, dissipation: Joule) ->
         stick_area: solution.normal.grid.cell_area() * sticks,
         max_shear: solution.max_shear(),
         dissipation,
+        slip_work: None,
         creepage: None,
         spin: None,
         moment: None,

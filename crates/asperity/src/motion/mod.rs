@@ -31,6 +31,10 @@ mod wear;
 
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
+#[cfg(feature = "study")]
+pub(crate) use film::{
+    ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES,
+};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
 pub use flowed::FlowedVolume;
 pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};

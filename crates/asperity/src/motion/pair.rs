@@ -1,10 +1,10 @@
 //! Two bodies that face each other.
 
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid, Seat};
+use crate::grid::{CellValues, Field, Grid, Seat, check_finite};
 use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
-use crate::motion::body::Body;
+use crate::motion::body::{Body, State};
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Friction};
@@ -167,10 +167,18 @@ impl Pair {
     /// Bounds of the pressure on the cells that face each other: none above the hardness of the softer, nor above what the
     /// shear of bodies that slide under `friction` leaves of it.
     pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
+        self.bounds_of([&self.lower.hardness, &self.upper.hardness], position, friction)
+    }
+
+    /// The bounds of bodies on the same grids that have this hardness, lower one first.
+    pub(super) fn bounds_of(
+        &self,
+        hardness: [&CellValues; 2],
+        position: &Position,
+        friction: Option<&Friction>,
+    ) -> Bounds {
         let shapes = [self.lower_grid().shape, self.upper_grid().shape];
-        let hardness =
-            facing_values([&self.lower.hardness, &self.upper.hardness], shapes, position, f64::min);
-        let bounds = Bounds::up_to(hardness);
+        let bounds = Bounds::up_to(facing_values(hardness, shapes, position, f64::min));
         friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
     }
 
@@ -197,6 +205,20 @@ impl Pair {
     /// A grid of so many columns of this pair.
     pub fn grid(&self, columns: usize) -> Grid {
         Grid { shape: [columns, self.lower.width()], pitch: self.pitch }
+    }
+
+    /// Checks the heights of both bodies, and what laws keep of them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub(super) fn check_finite(&self) -> Result<()> {
+        for (name, body) in [("lower", &self.lower), ("upper", &self.upper)] {
+            check_finite(name, body.heights.shape(), &body.heights)?;
+            for (state, State { values, .. }) in &body.state {
+                check_finite(&format!("{state}_{name}"), values.shape(), values)?;
+            }
+        }
+        Ok(())
     }
 
     /// Undeformed gap h = z₂ − z₁ of the cells that face each other.

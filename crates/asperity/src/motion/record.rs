@@ -1,5 +1,7 @@
 //! The rows that a computation reports: one per static contact, per position, per pass.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::motion::regime::Regime;
@@ -177,8 +179,13 @@ pub struct ShearRecord {
     pub stick_area: SquareMetre,
     /// Largest shear traction.
     pub max_shear: Pascal,
-    /// Energy that friction took; in rolling, while the contact moves on by a cell.
+    /// Energy that friction took; in rolling, while the contact moves on by a cell, see
+    /// [`RollingSolution::dissipation`](crate::solver::RollingSolution::dissipation).
     pub dissipation: Joule,
+    /// Work of the shear on the slip of the cells while the contact moves on by a cell, see
+    /// [`RollingSolution::slip_work`](crate::solver::RollingSolution::slip_work); in rolling.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip_work: Option<Joule>,
     /// Velocity of the upper body against the lower one over the rolling velocity, along x and y.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub creepage: Option<[f64; 2]>,
@@ -200,7 +207,8 @@ pub struct IncrementRecord {
     pub stage: usize,
     /// Normal force.
     pub load: Newton,
-    /// Rigid-body approach δ.
+    /// Rigid-body approach δ; NaN of elasto-plastic bodies that are apart.
+    #[serde(deserialize_with = "number_or_none")]
     pub approach: Metre,
     /// Force of the upper body on the lower one along x.
     pub tangential_force_x: Newton,
@@ -340,8 +348,10 @@ pub struct SweepRecord {
     pub stick_area: SquareMetre,
     /// Largest shear traction.
     pub max_shear: Pascal,
-    /// Energy that friction took while the contact moved on by a cell.
+    /// Energy that friction took while the contact moved on by a cell, from the work of the force and the pressure.
     pub dissipation: Joule,
+    /// Work of the shear on the slip of the cells meanwhile: the dissipation without what the step from cell to cell takes by itself.
+    pub slip_work: Joule,
     /// Iterations of the solver.
     pub iterations: usize,
     /// Convolutions, with those of the stiffness.
@@ -494,9 +504,55 @@ pub struct RunningRecord {
     pub error_estimate: Metre,
 }
 
-/// A number, of which JSON has none where it is not known.
+/// Reads a number that may be unknown: NaN then.
 fn number_or_none<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    Ok(Known::deserialize(deserializer)?.0.unwrap_or(f64::NAN))
+}
+
+/// A number of a table or of JSON; none where the cell is empty, or JSON has `null`.
+struct Known(Option<f64>);
+
+impl<'de> Deserialize<'de> for Known {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Number;
+
+        impl serde::de::Visitor<'_> for Number {
+            type Value = Known;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+                formatter.write_str("a number, or nothing")
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Known, E> {
+                Ok(Known(Some(value)))
+            }
+
+            fn visit_u64<E>(self, value: u64) -> Result<Known, E> {
+                Ok(Known(Some(value as f64)))
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Known, E> {
+                Ok(Known(Some(value as f64)))
+            }
+
+            fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Known, E> {
+                match value {
+                    "" => Ok(Known(None)),
+                    text => Err(E::invalid_value(serde::de::Unexpected::Str(text), &self)),
+                }
+            }
+
+            fn visit_unit<E>(self) -> Result<Known, E> {
+                Ok(Known(None))
+            }
+
+            fn visit_none<E>(self) -> Result<Known, E> {
+                Ok(Known(None))
+            }
+        }
+
+        deserializer.deserialize_any(Number)
+    }
 }
 
 /// The volumes that a law took from the bodies.
@@ -547,7 +603,7 @@ mod lost_volumes {
     use serde::de::{Deserializer, Error, MapAccess, Visitor};
     use serde::ser::Serializer;
 
-    use super::{CubicMetre, LostVolume};
+    use super::{CubicMetre, Known, LostVolume};
 
     /// Endings of the columns of a law, after its name.
     const COLUMNS: [&str; 4] =
@@ -600,8 +656,8 @@ mod lost_volumes {
 
         fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
             let mut columns = Vec::new();
-            while let Some(column) = map.next_entry()? {
-                columns.push(column);
+            while let Some((column, Known(value))) = map.next_entry()? {
+                columns.push((column, value));
             }
             Ok(columns)
         }

@@ -1,7 +1,7 @@
 //! What a motion hands out, pass after pass.
 
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
 use crate::motion::contact::Contact;
 use crate::motion::flowed::FlowedVolume;
@@ -9,6 +9,8 @@ use crate::motion::pair::Pair;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
 use crate::plasticity::PlasticState;
+use crate::solver::Bounds;
+use crate::units::Pascal;
 
 /// A finished pass.
 #[non_exhaustive]
@@ -21,6 +23,9 @@ pub struct PassReport<'a> {
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
+    /// Most pressure that the cells of the lower and of the upper body bore at the beginning of the pass, Pa. A film that grows or is
+    /// removed gives the bodies after the pass another hardness.
+    pub hardness: [&'a CellValues; 2],
     /// How they move.
     pub motion: &'a Motion,
     /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
@@ -33,6 +38,16 @@ pub struct PassReport<'a> {
 }
 
 impl PassReport<'_> {
+    /// The least pressure that two cells bore where they faced each other.
+    pub fn min_hardness(&self) -> Pascal {
+        self.hardness[0].min().min(self.hardness[1].min())
+    }
+
+    /// The bounds of the pressure of a contact of the pass.
+    pub fn bounds(&self, contact: &Contact) -> Bounds {
+        self.pair.bounds_of(self.hardness, &contact.position, self.motion.friction.as_ref())
+    }
+
     /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));

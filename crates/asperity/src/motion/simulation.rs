@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use web_time::Instant;
 
 use crate::error::{Error, LoadLimit, Result, check, check_in};
-use crate::grid::Field;
+use crate::grid::{CellValues, Field};
 use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
@@ -79,6 +79,8 @@ type Counter = Box<dyn Fn(usize) -> Result<Body> + Send + Sync>;
 /// A pass that is solved, and not yet [finished](Simulation::finish).
 pub struct SolvedPass {
     outcome: Pass,
+    /// The hardness of the bodies in the pass, lower one first.
+    hardness: [CellValues; 2],
     steps: Vec<StepRecord>,
     guess: Option<Guess>,
     trials: usize,
@@ -421,7 +423,10 @@ impl Simulation {
                 "bodies that flow below their surfaces neither wear nor grow films",
             ));
         }
-        let (mut outcome, guess, trials) = self.solve_pass(&*self.next_pair()?, watch)?;
+        let before = self.next_pair()?;
+        let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
+        let hardness = [&before.lower, &before.upper].map(|body| body.hardness.clone());
+        drop(before);
         self.come_back(&mut outcome.contacts);
         let wear = self.solve_with_wear(&mut outcome, watch)?;
         let displaced = self.motion.offset_y != OffsetY::NONE;
@@ -441,7 +446,18 @@ impl Simulation {
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
-        Ok(SolvedPass { outcome, steps, guess, trials, wall_time, interiors, running, jump, represented })
+        Ok(SolvedPass {
+            outcome,
+            hardness,
+            steps,
+            guess,
+            trials,
+            wall_time,
+            interiors,
+            running,
+            jump,
+            represented,
+        })
     }
 
     /// Adds the contacts of the way back to those that are solved, if they are the same.
@@ -496,7 +512,7 @@ impl Simulation {
             steps.iter_mut().zip(&mut pass.contacts).zip(warm)
         {
             step.heat = Some(record);
-            contact.temperature = temperature;
+            contact.temperature = Some(temperature);
         }
         if let Some(heat) = &self.heat {
             heat.remember(self.passes_done, &mut pass.pair, &pass.contacts, passage.bulk);
@@ -606,7 +622,7 @@ impl Simulation {
         outputs: &mut [&mut dyn Output],
     ) -> Result<()> {
         let record = pass.record();
-        let SolvedPass { outcome, steps, guess, jump, represented, .. } = pass;
+        let SolvedPass { outcome, hardness, steps, guess, jump, represented, .. } = pass;
         let Pass { contacts, pair, flowed, .. } = outcome;
         // Bodies that meet elsewhere begin anew.
         let (guess, again) = match self.repeats() {
@@ -616,12 +632,17 @@ impl Simulation {
             false => (None, &[][..]),
         };
         let warm = WarmStart::new(guess, again, jump, represented, &self.warm);
+        let at = |source| Error::AtPass { pass: record.pass, source };
+        pair.check_finite().map_err(|error| error.if_not_finite(at))?;
         for output in outputs.iter_mut() {
             let motion = &self.motion;
             let (record, steps, contacts, pair, warm) = (&record, &steps, &contacts, &pair, &warm);
             let looked_at = flowed.as_ref().map_or(&[][..], |flowed| &flowed.looked_at);
             let flowed = flowed.as_ref().map_or(&[][..], |flowed| &flowed.volumes);
-            output.pass(&PassReport { record, steps, contacts, pair, motion, warm, flowed, looked_at })?;
+            let hardness = [&hardness[0], &hardness[1]];
+            let report =
+                PassReport { record, steps, contacts, pair, hardness, motion, warm, flowed, looked_at };
+            output.pass(&report).map_err(|error| error.if_not_finite(at))?;
         }
         if let (Some(volumes), Some(flowed)) = (&mut self.volumes, flowed) {
             volumes.take(flowed.volumes);

@@ -285,16 +285,20 @@ impl InPlace {
         let (solution, contact) =
             self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
         let flash = self.flash(&contact)?;
-        let contact =
-            Contact { temperature: flash.map_or_else(Vec::new, |flash| flash.temperature), ..contact };
+        // Where nothing touches no cell has one.
+        let heated = self.heat.is_some();
+        let temperature = heated.then(|| flash.map_or_else(Vec::new, |flash| flash.temperature));
+        let contact = Contact { temperature, ..contact };
         let temperature = contact.temperature_field(solution.pressure.ncols());
         Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
     }
 
     /// Hands an update on.
     fn finish(&self, state: &SlidingState, watch: &dyn Watch, output: &mut dyn SlidingOutput) -> Result<()> {
-        output.update(state)?;
         let update = state.updates.last().expect("the update just done");
+        let at = |source| Error::AtUpdate { update: update.update, source };
+        let written = state.pair.check_finite().and_then(|()| output.update(state));
+        written.map_err(|error| error.if_not_finite(at))?;
         let (solved, positions, load) = (update.update, self.slide.ends.len(), update.load);
         watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
         watch.update(update);

@@ -103,7 +103,8 @@ pub fn sweep(
         })?;
         let (solved, positions, load) = (index, points.len(), record.load);
         records.push(record);
-        output.point(&records, &contact)?;
+        let at = |source| Error::AtPoint { point: index, points: points.len(), source };
+        output.point(&records, &contact).map_err(|error| error.if_not_finite(at))?;
         watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
         watch.point(&records[index - 1]);
         last = Some(contact);
@@ -148,6 +149,7 @@ fn record(
         stick_area: of_shear(|shear| shear.stick_area),
         max_shear: of_shear(|shear| shear.max_shear),
         dissipation: of_shear(|shear| shear.dissipation),
+        slip_work: of_shear(|shear| shear.slip_work.unwrap_or_default()),
         iterations: contact.record.iterations,
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,

@@ -7,7 +7,7 @@ use crate::grid::{Field, Grid, Seat};
 use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
     Bounds, Control, Equilibrium, Friction, FrictionalSolution, History, Loading, Params, Sliding, Solution,
-    Start, Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
+    Start, Stats, Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
 };
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
@@ -377,6 +377,7 @@ impl Pressing<'_> {
                     start,
                     params,
                     watch,
+                    &mut Stats::default(),
                 )?;
                 let shear = Some(solution.shear.clone());
                 solution.normal.stats.convolutions += spent;

@@ -139,7 +139,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     estimate.warnings = warnings(case, bodies, &estimate);
     contacts(case, bodies, &positions, &mut estimate);
-    let yields = rolls_plastically(case, &estimate);
+    let yields = rolls_plastically(case, bodies, &estimate);
     estimate.foreseen.extend(yields);
     Ok(estimate)
 }
@@ -312,7 +312,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         ));
     }
     if let Some(friction) = &case.friction {
-        frictional(case, &friction.law, estimate, &mut warnings);
+        frictional(case, bodies, &friction.law, estimate, &mut warnings);
     }
     warnings
 }
@@ -405,7 +405,13 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
 }
 
 /// Friction whose answer is not the one that is looked for.
-fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &mut Vec<String>) {
+fn frictional(
+    case: &Case,
+    bodies: &Bodies,
+    friction: &Friction,
+    estimate: &Estimate,
+    warnings: &mut Vec<String>,
+) {
     /// Shear under pressure alone is some β p: below this it is not seen.
     const ALIKE: f64 = 0.01;
     /// Dundurs' β from which on the coupling changes pressures and stick by more than some per cent.
@@ -419,7 +425,7 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
     let stages = match &estimate.loading_path {
         Some(LoadingPath::Stages(stages)) => stages,
         Some(LoadingPath::Rolling(_) | LoadingPath::Sweep(_)) => {
-            if ![&case.lower, &case.upper].into_iter().all(rolls_alike) {
+            if !roll_alike(case, bodies) {
                 warnings.push(
                     "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
                      creepage and force are those of a track that is the same everywhere"
@@ -465,9 +471,10 @@ fn frictional(case: &Case, friction: &Friction, estimate: &Estimate, warnings: &
 }
 
 /// Steady rolling over what yields.
-fn rolls_plastically(case: &Case, estimate: &Estimate) -> Option<String> {
+fn rolls_plastically(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Option<String> {
     estimate.loading_path.as_ref()?.rolling().next()?;
-    let pressure = rolling_pressure(case, estimate).filter(|pressure| *pressure > estimate.hardness)?;
+    let pressure =
+        rolling_pressure(case, bodies, estimate).filter(|pressure| *pressure > estimate.hardness)?;
     let [pressure, hardness] = [pressure, estimate.hardness].map(|p| units::format(p, Dimension::Pressure));
     Some(format!(
         "pressures of about {pressure} are beyond the hardness, {hardness}: cells yield {NOT_FLATTENED}"
@@ -480,9 +487,9 @@ pub(super) const NOT_FLATTENED: &str = "in steady rolling, over a track that was
 
 /// About the largest pressure of a contact without a hardness, where it is known beforehand: Hertz' of a ball, or E* h'/2
 /// of what is rough.
-fn rolling_pressure(case: &Case, estimate: &Estimate) -> Option<Pascal> {
+fn rolling_pressure(case: &Case, prepared: &Bodies, estimate: &Estimate) -> Option<Pascal> {
     let bodies = [&case.lower, &case.upper];
-    if !bodies.into_iter().all(rolls_alike) {
+    if !roll_alike(case, prepared) {
         return Some(0.5 * estimate.modulus * estimate.gap_slope);
     }
     let curvature = |body: &Body| match body.topography.source {
@@ -500,8 +507,26 @@ fn rolling_pressure(case: &Case, estimate: &Estimate) -> Option<Pascal> {
     (plain && radius.is_finite()).then(|| hertz.peak_pressure())
 }
 
-/// Whether a body is the same wherever it is rolled over, but for what its form changes slowly.
-fn rolls_alike(body: &Body) -> bool {
+/// Whether both bodies are the same wherever they are rolled over, but for what their form changes slowly.
+fn roll_alike(case: &Case, bodies: &Bodies) -> bool {
+    let both = [(&case.lower, &bodies.lower), (&case.upper, &bodies.upper)];
+    both.into_iter().all(|(body, prepared)| has_smooth_form(body) || is_smooth(prepared))
+}
+
+/// Whether the heights of a body are those of a ball or of a cylinder, but for a fiftieth: a surface from a file may be one.
+fn is_smooth(body: &Prepared) -> bool {
+    /// Share of the rms height about a plane.
+    const ROUGH: f64 = 0.02;
+    let rms = |level| body.topography.clone().level(level).map(|left| left.heights().std(0.0));
+    match (rms(Level::Plane), rms(Level::Quadratic)) {
+        (Ok(form), Ok(rough)) => rough <= ROUGH * form,
+        // Too few cells for a form.
+        _ => false,
+    }
+}
+
+/// Whether a body is made of forms that change slowly.
+fn has_smooth_form(body: &Body) -> bool {
     let smooth = |form: &Form| {
         matches!(
             form,

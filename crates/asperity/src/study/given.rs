@@ -1,6 +1,7 @@
 //! What a caller hands over to a case, in place of files.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -15,9 +16,31 @@ pub struct Given {
     pub topographies: BTreeMap<String, Topography>,
     /// Hardness, Pa, of the cells of a body as it is prepared, by name.
     pub hardness: BTreeMap<String, Field>,
+    /// What the files of the case must hold; nothing where any content will do.
+    pub(super) pinned: Option<Pinned>,
+}
+
+/// What files must hold to be those that results were begun with.
+#[derive(Debug, Clone)]
+pub(super) struct Pinned {
+    /// The directory of the results.
+    pub(super) directory: PathBuf,
+    /// By the dotted key that names a file: its path, and its digest, hexadecimal.
+    pub(super) digests: BTreeMap<String, (PathBuf, String)>,
 }
 
 impl Given {
+    /// An error unless the file that is named at a dotted key may have this digest.
+    pub(super) fn admit(&self, key: &str, sha256: &str) -> Result<()> {
+        let Some(pinned) = &self.pinned else { return Ok(()) };
+        match pinned.digests.get(key) {
+            Some((file, digest)) if digest != sha256 => {
+                Err(Error::SurfaceChanged { path: pinned.directory.clone(), file: file.clone() })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The topography of that name, to be looked at.
     pub(super) fn topography(&self, name: &str) -> Result<&Topography> {
         self.topographies.get(name).ok_or(NOT_GIVEN)

@@ -11,7 +11,8 @@ use crate::grid::Grid;
 use crate::io::sha256;
 
 /// What may name a file in a case, the surfaces first.
-const FILES: [&str; 4] = ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
+pub(super) const FILES: [&str; 4] =
+    ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
 
 /// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each file beside its name, and under
 /// `identity` the digest of all that decides the numbers.

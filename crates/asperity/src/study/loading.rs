@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::results::Results;
+use super::results::{ALTERED, ROWS, Results};
 use super::tables;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
@@ -65,6 +65,7 @@ impl LoadingWriter {
             return Err(Error::NotResumable { path, reason: "is of another loading" });
         }
         increments.truncate(count);
+        stored.has_rows(&tables::digest("", &increments), &self.results.increments_path())?;
         self.state(&stored, increments).map(Some)
     }
 
@@ -79,9 +80,13 @@ impl LoadingWriter {
 
 impl LoadingOutput for LoadingWriter {
     fn increment(&mut self, state: &LoadingState) -> Result<()> {
-        tables::write_increments(&self.results.increments_path(), &state.increments)?;
-        // After the last one the contact itself is written.
-        if state.increments.len() < self.increments { self.write(state) } else { Ok(()) }
+        let written =
+            tables::write_increments(&self.results.increments_path(), &state.increments).and_then(|()| {
+                // After the last one the contact itself is written.
+                if state.increments.len() < self.increments { self.write(state) } else { Ok(()) }
+            });
+        let at = |source| Error::AtIncrement { increment: state.increments.len(), source };
+        written.map_err(|error| error.if_not_finite(at))
     }
 }
 
@@ -120,6 +125,7 @@ impl LoadingWriter {
         }
         let Origin { load, approach, force, displacement } = state.origin;
         file.set("increments", state.increments.len())
+            .set(ROWS, tables::digest("", &state.increments).as_str())
             .set("approach", normal.approach)
             .set("residual", normal.residual)
             .set("iterations", normal.stats.iterations)
@@ -225,6 +231,16 @@ impl Stored {
                 numbers.as_slice().try_into().map_err(|_| self.damaged(name))
             }
             _ => Err(self.damaged(name)),
+        }
+    }
+
+    /// An error if the state was written with rows of another digest, which are those of `table`.
+    pub(super) fn has_rows(&self, digest: &str, table: &Path) -> Result<()> {
+        match self.attributes.get(ROWS) {
+            Some(written) if *written != Attribute::from(digest) => {
+                Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED })
+            }
+            _ => Ok(()),
         }
     }
 

@@ -12,11 +12,12 @@ use crate::study::estimate::{Estimate, estimate};
 use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::identity;
-use crate::study::prepare::{bodies, fresh_heights};
+use crate::study::prepare::{bodies_until, fresh_heights};
 use crate::study::results::{Existing, PassWriter, Writer};
 use crate::study::review;
 use crate::study::run::{Computed, conclude, pair, params};
 use crate::study::summary::{Outcome, Summary};
+use crate::surface::{NEVER, Stop};
 
 /// A motion under way. [`Passes::solve`] and [`Passes::finish`] take turns until there is no pass left, and
 /// [`Passes::end`] writes the summary; between the two calls the pass can be looked at, and changed.
@@ -41,8 +42,22 @@ impl Passes {
     /// # Errors
     /// Everything that can be wrong with a case, its surfaces or the directory; [`Error::Unsupported`] for a contact at rest.
     pub fn enter(case: &Case, given: Given, directory: &Path, existing: Existing) -> Result<Self> {
+        Self::enter_until(case, given, directory, existing, NEVER)
+    }
+
+    /// As [`enter`](Self::enter), unless `stop` says so before the bodies are prepared.
+    ///
+    /// # Errors
+    /// As [`enter`](Self::enter); [`Error::Interrupted`].
+    pub fn enter_until(
+        case: &Case,
+        given: Given,
+        directory: &Path,
+        existing: Existing,
+        stop: Stop<'_>,
+    ) -> Result<Self> {
         let began = Instant::now();
-        let bodies = bodies(case, given)?;
+        let bodies = bodies_until(case, given, stop)?;
         let Estimate { apparent_area, subsurface, warnings, .. } = estimate(case, &bodies)?;
         let motion =
             case.motion(apparent_area).ok_or(Error::Unsupported("a contact at rest has no passes"))?;

@@ -14,9 +14,11 @@ use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::io::{sha256, sha256_of};
 use crate::motion::Strategy;
-use crate::surface::{self, Findings, LengthUnit, Preparation, ReadOptions, Resample, Scan, Topography};
+use crate::surface::{
+    self, Findings, LengthUnit, NEVER, Preparation, ReadOptions, Resample, Scan, Stop, Topography,
+};
 use crate::units::{self, Dimension, Metre};
-pub(super) use slab::{SlabBodies, slab_bodies};
+pub(super) use slab::{SlabBodies, made_by_slabs, slab_bodies};
 
 /// Relative difference up to which two pitches are one.
 const SAME_PITCH: f64 = 1e-9;
@@ -92,13 +94,21 @@ pub struct Made {
 ///
 /// # Errors
 /// [`Error::Case`] at the key that is to blame, as of [`bodies`].
-pub fn topography(text: &str, folder: &Path, mut given: Given) -> Result<Made> {
+pub fn topography(text: &str, folder: &Path, given: Given) -> Result<Made> {
+    topography_until(text, folder, given, NEVER)
+}
+
+/// As [`topography()`], unless `stop` says so first.
+///
+/// # Errors
+/// As [`topography()`]; [`Error::Interrupted`].
+pub fn topography_until(text: &str, folder: &Path, mut given: Given, stop: Stop<'_>) -> Result<Made> {
     let (spec, document) = topography_alone(text, folder)?;
     if let Some(key) = spec.lacks().next() {
         let message = format!("missing key '{key}': what is made alone has no other body to take it from");
         return Err(document.error_at(&format!("topography.{key}"), message, None));
     }
-    made(Place { document: &document, table: "topography", spec: &spec }, None, &mut given)
+    made(Place { document: &document, table: "topography", spec: &spec }, None, &mut given, stop)
 }
 
 /// The topography that a table `[topography]` in `text` describes, checked as far as the text alone can tell.
@@ -115,10 +125,18 @@ pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
 /// [`Error::Case`] at the key that is to blame: a file that cannot be read, a parameter without meaning on this grid,
 /// missing heights that nothing fills, and surfaces that do not fit together. They must have one pitch and one number
 /// of cells along y; where nothing moves, and where both are shifted, also along x.
-pub fn bodies(case: &Case, mut given: Given) -> Result<Bodies> {
+pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
+    bodies_until(case, given, NEVER)
+}
+
+/// As [`bodies`], unless `stop` says so first.
+///
+/// # Errors
+/// As [`bodies`]; [`Error::Interrupted`].
+pub fn bodies_until(case: &Case, mut given: Given, stop: Stop<'_>) -> Result<Bodies> {
     let grid_of = |body: &Prepared| *body.topography.grid();
     let [lower, mut upper] =
-        in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other, &mut given))?;
+        in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other, &mut given, stop))?;
     let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
     let axes: &[usize] = if overlap { &[1] } else { &[1, 0] };
     let both = [&lower, &upper];
@@ -140,7 +158,7 @@ pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Fie
         *seed = seed_of_pass(*seed, pass);
     }
     let given = &mut Given::default();
-    let topography = turned(case, "upper", &body, Some(lower), given)?.0.topography;
+    let topography = turned(case, "upper", &body, Some(lower), given, NEVER)?.0.topography;
     Ok(topography.into_heights())
 }
 
@@ -208,8 +226,9 @@ fn prepared(
     body: &Body,
     other: Option<Grid>,
     given: &mut Given,
+    stop: Stop<'_>,
 ) -> Result<Prepared> {
-    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, given)?;
+    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, given, stop)?;
     let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
     Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
 }
@@ -221,10 +240,11 @@ fn turned(
     body: &Body,
     other: Option<Grid>,
     given: &mut Given,
+    stop: Stop<'_>,
 ) -> Result<(Made, Mount)> {
     let table = topography_of(name);
     let at = Place { document: case.document(), table: &table, spec: &body.topography };
-    let Made { topography, origin, findings } = made(at, other, given)?;
+    let Made { topography, origin, findings } = made(at, other, given, stop)?;
     if topography.undefined() > 0 {
         let shape = origin.as_ref().map_or(topography.grid().shape, |origin| origin.shape);
         return Err(at.missing(&findings, shape));
@@ -243,12 +263,13 @@ fn turned(
 }
 
 /// What is described at a place, after all its steps, on what it lacks from the `other` body.
-fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given) -> Result<Made> {
+fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -> Result<Made> {
     let spec = at.spec;
     let grid = || spec.made_on(other);
     let (topography, origin, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
             let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+            given.admit(&format!("{}.file", at.table), &sha256)?;
             let (topography, origin, preparation) = measured(at, path, scan, sha256)?;
             (Ok(topography), Some(origin), preparation)
         }
@@ -264,7 +285,8 @@ fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given) -> Result<Made> {
         Source::Form { form, .. } => (grid().and_then(|grid| form.on(&grid)), None, spec.preparation),
     };
     let topography = topography.map_err(|error| at.parameter(error))?;
-    let (mut topography, findings) = preparation.apply(topography).map_err(|error| at.preparing(error))?;
+    let (mut topography, findings) =
+        preparation.apply_until(topography, stop).map_err(|error| at.preparing(error))?;
     for (n, layer) in spec.plus.iter().enumerate() {
         let added =
             layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
@@ -291,6 +313,7 @@ fn hardness(
             let (scan, sha256) = read(&map.path, map.channel.as_deref(), None).map_err(|source| {
                 error(if map.channel.is_some() { "channel" } else { "file" }, source.to_string(), None)
             })?;
+            given.admit(&format!("{name}.hardness.file"), &sha256)?;
             let file = map.path.display().to_string();
             if scan.unit == LengthUnit::Known {
                 let hint = "give a file of numbers alone, such as npy or csv".to_owned();
@@ -469,6 +492,7 @@ impl Place<'_> {
     /// A step of the preparation that failed, at its key.
     fn preparing(&self, error: Error) -> Error {
         match error {
+            Error::Interrupted => error,
             Error::WindowOutside { .. } => self.error("window", error.to_string(), None),
             Error::NothingDefined { .. } => {
                 self.error(self.source(), format!("{}: {error}", self.file()), error.hint())

@@ -1,10 +1,11 @@
 //! A static contact of a case: solved in memory, or kept increment by increment and point by point in a results directory.
 
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid};
+use crate::grid::{CellValues, Field, Grid, check_finite};
 use crate::motion::{
-    FILM, Flowed, FlowedContact, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState, State,
-    StaticContact, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, press_flowing, roll, sweep,
+    FILM, Flowed, FlowedContact, FlowedVolume, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState,
+    State, StaticContact, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, press_flowing, roll,
+    sweep,
 };
 use crate::solver::{Equilibrium, Friction, Params, Solution};
 use crate::study::case::{Case, LoadingPath};
@@ -12,12 +13,13 @@ use crate::study::estimate::estimate;
 use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::loading::LoadingWriter;
-use crate::study::prepare::bodies;
+use crate::study::prepare::bodies_until;
 use crate::study::results::Writer;
 use crate::study::review;
 use crate::study::run::{pair, params};
 use crate::study::sliding::SlidingWriter;
 use crate::study::summary::Outcome;
+use crate::study::tables;
 use crate::subsurface::Tractions;
 use crate::units::{Metre, Pascal, SquareMetre};
 
@@ -75,20 +77,41 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     if case.motion.is_some() {
         return Err(Error::Unsupported("what moves is no contact at rest"));
     }
-    let bodies = bodies(case, given)?;
+    let bodies = bodies_until(case, given, &|| watch.stop())?;
     let estimate = estimate(case, &bodies)?;
     let pair = pair(case, bodies)?;
     let (mut solved, warnings) = solve(case, &pair, estimate.apparent_area, None, watch)?;
     let increments = solved.increments().to_vec();
     let flowed = solved.take_flowed();
-    Ok(Rest {
+    let rest = Rest {
         outcome: solved.outcome(),
         increments,
         updates: solved.updates().to_vec(),
         fields: solved.into_fields(displaced(pair, flowed.as_ref())),
         flowed,
         warnings: [estimate.warnings, warnings].concat(),
-    })
+    };
+    rest.checked()
+}
+
+impl Rest {
+    /// The same contact, if each number of it is one, as the files of a run must be.
+    fn checked(self) -> Result<Self> {
+        self.outcome.check()?;
+        tables::checked(&self.increments)?;
+        tables::checked(&self.updates)?;
+        for NamedField { name, values, .. } in &self.fields.fields {
+            check_finite(name, values.shape(), values)?;
+        }
+        for volume in self.flowed.iter().flat_map(|flowed| [&flowed.volumes, &flowed.residual]).flatten() {
+            let FlowedVolume { state, residual_stress, displacement, .. } = volume;
+            check_finite("strain", state.strain.shape(), &state.strain)?;
+            check_finite("accumulated", state.accumulated.shape(), &state.accumulated)?;
+            check_finite("residual_stress", residual_stress.shape(), residual_stress)?;
+            check_finite("displacement", displacement.shape(), displacement)?;
+        }
+        Ok(self)
+    }
 }
 
 /// The `pair` with its surfaces where plastic strain below them has brought them.
@@ -268,7 +291,7 @@ impl Solved {
     pub(super) fn into_fields(self, pair: Pair) -> RestFields {
         let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
         let (solution, plastic, slip) = match self {
-            Self::Slid(contact, friction, _) => return worn_fields(*contact, friction, hardness),
+            Self::Slid(contact, friction, _) => return worn_fields(*contact, friction),
             Self::Pressed(contact) => {
                 let StaticContact { solution, .. } = *contact;
                 let plastic = solution.plastic_interference();
@@ -330,9 +353,10 @@ const STATES: [(&str, [&str; 2]); 3] = [
 ];
 
 /// The fields of a contact that was worn in place, with its bodies as they are then.
-fn worn_fields(contact: WornContact, friction: Option<Friction>, hardness: Pascal) -> RestFields {
+fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
     let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
-    let (grid, approach) = (pair.lower_grid(), solution.approach);
+    // Films have given the bodies another hardness.
+    let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
     let (gap, plastic) = (solution.gap(), solution.plastic_interference());
     let mut fields = Vec::new();
     let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });

@@ -168,7 +168,8 @@ pub(super) fn rolled(
     let stride = case.motion.map_or(1, |motion| motion.stride) as f64;
     if stride > STRIDE * widest {
         warnings.push(format!(
-            "a step of {stride} cells is {:.0} % of the widest contact spot, {widest} cells: the path of flow is followed to some 4 %              at a tenth, 17 % at a quarter: give a smaller `stride`, or finer grids",
+            "a step of {stride} cells is {:.0} % of the widest contact spot, {widest} cells: the path of flow is followed to some 4 % \
+             at a tenth, 17 % at a quarter: give a smaller `stride`, or finer grids",
             100.0 * stride / widest
         ));
     }

@@ -12,7 +12,7 @@ use crate::study::estimate::{Estimate, estimate};
 use crate::study::given::Given;
 use crate::study::identity;
 use crate::study::passes::Passes;
-use crate::study::prepare::{Bodies, bodies};
+use crate::study::prepare::{Bodies, bodies_until};
 use crate::study::rest;
 use crate::study::results::{Existing, Writer};
 use crate::study::subsurface::SubsurfaceRecord;
@@ -35,7 +35,7 @@ pub fn run(
     watch: &dyn Watch,
 ) -> Result<(Summary, Writer)> {
     if case.motion.is_some() {
-        let mut passes = Passes::enter(case, given, directory, existing)?;
+        let mut passes = Passes::enter_until(case, given, directory, existing, &|| watch.stop())?;
         passes.done()?.iter().for_each(|pass| watch.pass(pass));
         while let Some(pass) = passes.solve(watch)? {
             passes.finish(pass, watch)?;
@@ -43,7 +43,7 @@ pub fn run(
         return passes.end();
     }
     let began = Instant::now();
-    let bodies = bodies(case, given)?;
+    let bodies = bodies_until(case, given, &|| watch.stop())?;
     let Estimate { apparent_area, subsurface, mut warnings, .. } = estimate(case, &bodies)?;
     let resolved = identity::resolved(case, &bodies);
     let pair = pair(case, bodies)?;
@@ -68,6 +68,7 @@ pub fn run(
     let computed = Computed { outcome, subsurface: stress.into_iter().collect(), sliding, flow: None };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     under_way.map_or(Ok(()), |under_way| under_way.done())?;
+    writer.results().forget_sweep()?;
     Ok((summary, writer))
 }
 
@@ -90,6 +91,7 @@ pub(super) fn conclude(
     Computed { outcome, subsurface, sliding, flow }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
+    outcome.check()?;
     warnings.extend(writer.warning().map(str::to_owned));
     if case.output.paraview {
         writer.write_for_paraview()?;

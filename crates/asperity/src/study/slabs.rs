@@ -7,31 +7,90 @@
 //!     fields.h5                all rows, once they are collected
 //! ```
 
-use std::fs;
+mod index; // which rows of the fields are in which file
+
 use std::path::Path;
 use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
 
-use ndarray::s;
-use serde::{Deserialize, Serialize};
 use web_time::Instant;
 
 use super::case::Case;
-use super::estimate::{cut_off, spot, too_few_cells};
+use super::estimate::{Demand, cut_off, demand, spot, too_few_cells};
+use super::given::Given;
 use super::identity::{self, Known};
-use super::prepare::{SlabBodies, slab_bodies};
-use super::rest::{NamedField, RestFields, Solved};
+use super::prepare::{SlabBodies, grids, made_by_slabs, slab_bodies};
+use super::rest::Solved;
 use super::results::{Existing, Results, Writer};
 use super::run::{Computed, conclude, params};
 use super::summary::{self, Outcome, Summary};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid};
-use crate::io::atomic;
-use crate::io::fields::{Attribute, FieldFile, Fields};
+use crate::grid::Grid;
+use crate::io::atomic::Token;
+use crate::io::fields::FieldFile;
 use crate::motion::{Pair, press_slab};
 use crate::operator::{Boundary, Edge};
-use crate::ranks::{Largest, Ranks, Slab};
+use crate::ranks::{Largest, Ranks};
 use crate::solver::Method;
-use crate::units::{Metre, Pascal};
+use index::{Index, Named};
+
+/// The memory that a rank needs for a contact, bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct DemandOfRank {
+    /// The most at any time, without what is only needed to make the surfaces.
+    pub steady: f64,
+    /// The most while the surfaces are made or read, by one rank of a machine at a time.
+    pub making: f64,
+    /// The memory that the first rank needs to collect the fields of all.
+    pub collecting: f64,
+}
+
+/// Estimates the memory that each of so many `ranks` needs for `case`. Only the size of files is read; nothing is made.
+///
+/// # Errors
+/// [`Error::Case`] if a file cannot be read, or if `case` is not computed on ranks; [`Error::TooManyRanks`].
+pub fn demand_on_ranks(case: &Case, ranks: usize) -> Result<DemandOfRank> {
+    check(case)?;
+    let given = Given::default();
+    let Demand { surfaces, solver, results, .. } = demand(case, &given, 1)?;
+    let cells = |grid: &Grid| grid.shape[0] as f64 * grid.shape[1] as f64;
+    let grids = grids(case, &given)?;
+    let [rows, columns] = grids[1].shape;
+    if ranks > rows {
+        return Err(Error::TooManyRanks { ranks, rows });
+    }
+    let share = rows.div_ceil(ranks) as f64 / rows as f64;
+    let kept = NUMBER * grids.iter().map(cells).sum::<f64>();
+    let exchanged = if ranks > 1 { EXCHANGED } else { 1.0 };
+    let steady = PROGRAM + share * exchanged * (kept + solver.max(results));
+    let by_slabs = [&case.lower, &case.upper].into_iter().all(|body| made_by_slabs(&body.topography));
+    let making = PROGRAM + if by_slabs { share * surfaces } else { surfaces };
+    Ok(DemandOfRank { steady, making, collecting: collecting([rows, columns]) })
+}
+
+/// Estimates the memory that [`collect`] needs for the results in `directory`, bytes.
+///
+/// # Errors
+/// As those of [`collect`], as far as its first file tells.
+pub fn demand_of_collecting(directory: &Path) -> Result<f64> {
+    let index = Index::read(directory, &Results::open(directory)?.case()?)?;
+    Ok(collecting(index.grid().shape))
+}
+
+fn collecting([rows, columns]: [usize; 2]) -> f64 {
+    /// Fields that are held at a time.
+    const FIELDS: f64 = 5.0;
+    PROGRAM + FIELDS * NUMBER * rows as f64 * columns as f64
+}
+
+/// The memory of ranks over that of one process: transforms are held twice while they are exchanged.
+const EXCHANGED: f64 = 1.2;
+/// The program, MPI and their libraries.
+const PROGRAM: f64 = 24e6;
+/// Bytes of a number.
+const NUMBER: f64 = 8.0;
 
 /// Computes the contact at rest of `case` on these `ranks`, which call it together, and writes its results to `directory`, which all
 /// of them see: each the fields on its rows, rank 0 all else. The summary is given to rank 0.
@@ -41,7 +100,8 @@ use crate::units::{Metre, Pascal};
 ///
 /// # Errors
 /// Everything that can be wrong with a case, its surfaces, the contact or the directory; [`Error::Case`] for what is not computed on
-/// ranks, [`Error::RanksDiffer`], [`Error::TooManyRanks`]. The other ranks wait for one that has an error.
+/// ranks, [`Error::RanksDiffer`] also where a rank sees another directory than rank 0, [`Error::TooManyRanks`]. The other ranks wait
+/// for one that has an error.
 pub fn run_on_ranks(
     case: &Case,
     ranks: &Arc<dyn Ranks>,
@@ -68,6 +128,7 @@ pub fn run_on_ranks(
         .with_hardness([lower.hardness, upper.hardness])?;
     let first = ranks.rank() == 0;
     let writer = first.then(|| Writer::enter(directory, &resolved, existing)).transpose()?;
+    check_same_directory(&**ranks, directory)?;
     let control = case.contact.prescribed.control(slab.whole_grid().area());
     let contact = press_slab(&pair, &slab, case.contact.boundary, control, &params(case))?;
     if let Some(writer) = &writer {
@@ -90,25 +151,28 @@ pub fn run_on_ranks(
 /// and adds to its summary what the whole contact gives to be wary of. It takes the memory of all fields.
 ///
 /// # Errors
-/// [`Error::NoResults`] where no run on ranks has ended, [`Error::File`] for files that are missing, damaged or of another run.
+/// [`Error::NoResults`] where no run on ranks has ended, [`Error::File`] for files that are missing or damaged,
+/// [`Error::OtherRows`] for files that hold the rows of another rank, [`Error::NotResumable`] for those of another run. What was
+/// collected before then stays as it is.
 pub fn collect(directory: &Path) -> Result<()> {
     let results = Results::open(directory)?;
-    let index = Index::read(directory)?;
+    let index = Index::read(directory, &results.case()?)?;
     let mut summary = results.summary()?;
-    let grid = Grid::new(index.shape, index.pitch)?;
+    let grid = index.grid();
     let mut file = FieldFile::of_run(&index.identity, &results.static_path());
     file.set("approach", index.approach).set("hardness", index.hardness.unwrap_or(f64::INFINITY));
     let parts = index.open_parts(directory)?;
     let mut needed = Vec::new();
-    for Named { name, unit } in &index.fields {
-        let values = index.whole(&parts, name)?;
+    for field in &index.fields {
+        let values = index.whole(&parts, field)?;
+        let Named { name, unit } = field;
         file.add_field(name, unit, &grid, [0.0, 0.0], &values);
         if ["pressure", "lower", "upper"].contains(&name.as_str()) {
             needed.push(values);
         }
     }
     file.write()?;
-    let [pressure, lower, upper] = needed.as_slice() else { unreachable!("every contact has these fields") };
+    let [pressure, lower, upper] = needed.as_slice() else { unreachable!("an index that is read has these") };
     let boundary = Boundary(index.periodic.map(|wraps| if wraps { Edge::Periodic } else { Edge::Free }));
     let rim = cut_off(pressure, || upper - lower, grid.pitch, boundary);
     for warning in rim.into_iter().chain(too_few_cells(spot(pressure, boundary))) {
@@ -165,119 +229,40 @@ fn check_same(ranks: &dyn Ranks, what: &'static str, text: &str) -> Result<()> {
     }
 }
 
+/// Refuses ranks that do not see the `directory` of rank 0, which keeps a file there until all have looked.
+fn check_same_directory(ranks: &dyn Ranks, directory: &Path) -> Result<()> {
+    /// How often a rank looks, and how long it waits in between: a network's file system may take a moment.
+    const TRIALS: (usize, Duration) = (10, Duration::from_millis(100));
+    let token = match ranks.rank() {
+        0 => Some(Token::new(directory)?),
+        _ => None,
+    };
+    let number = token.as_ref().map_or(0, Token::number) as f64;
+    let number = ranks.gather(&[number], &vec![1; ranks.count()])[0] as u64;
+    let sees = || Token::is_in(directory, number);
+    let seen = sees()
+        || (1..TRIALS.0).any(|_| {
+            thread::sleep(TRIALS.1);
+            sees()
+        });
+    let all = ranks.gather(&[f64::from(seen)], &vec![1; ranks.count()]);
+    match all.iter().position(|seen| *seen == 0.0) {
+        None => Ok(()),
+        Some(rank) => Err(Error::RanksDiffer { rank, what: "results directory" }),
+    }
+}
+
 /// Returns once all ranks have come here.
 fn wait_for_all(ranks: &dyn Ranks) {
     ranks.gather(&[0.0], &vec![1; ranks.count()]);
 }
 
-/// `fields/ranks.json`: which rows of the fields are where.
-#[derive(Debug, Serialize, Deserialize)]
-struct Index {
-    version: String,
-    identity: String,
-    shape: [usize; 2],
-    pitch: [Metre; 2],
-    periodic: [bool; 2],
-    approach: Metre,
-    /// None where it is infinite.
-    hardness: Option<Pascal>,
-    fields: Vec<Named>,
-    parts: Vec<Part>,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-struct Named {
-    name: String,
-    unit: String,
-}
-
-/// The rows of one rank.
-#[derive(Debug, Serialize, Deserialize)]
-struct Part {
-    file: String,
-    first_row: usize,
-    rows: usize,
-}
-
-/// The name of the index in the folder of the fields.
-const INDEX: &str = "ranks.json";
-
-impl Index {
-    fn new(slab: &Slab, boundary: Boundary, fields: &RestFields, hardness: Pascal, identity: &str) -> Self {
-        let Grid { shape, pitch } = slab.whole_grid();
-        let named = |field: &NamedField| Named { name: field.name.to_owned(), unit: field.unit.to_owned() };
-        let part = |(rank, rows): (usize, std::ops::Range<usize>)| Part {
-            file: format!("rank-{rank:04}.h5"),
-            first_row: rows.start,
-            rows: rows.len(),
-        };
-        Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            identity: identity.to_owned(),
-            shape,
-            pitch,
-            periodic: boundary.wraps(),
-            approach: fields.approach,
-            hardness: Some(hardness).filter(|hardness| hardness.is_finite()),
-            fields: fields.fields.iter().map(named).collect(),
-            parts: slab.parts().all().enumerate().map(part).collect(),
-        }
-    }
-
-    fn read(directory: &Path) -> Result<Self> {
-        let path = directory.join("fields").join(INDEX);
-        let failed = |source| Error::File { path: path.clone(), source };
-        let text = fs::read(&path).map_err(failed)?;
-        serde_json::from_slice(&text).map_err(|error| failed(error.into()))
-    }
-
-    fn write(&self, directory: &Path) -> Result<()> {
-        let text = serde_json::to_vec_pretty(self).expect("an index can be written as JSON");
-        atomic::replace(&directory.join("fields").join(INDEX), &text)
-    }
-
-    /// Writes the fields on the rows of this rank.
-    fn write_part(&self, directory: &Path, slab: &Slab, fields: RestFields) -> Result<()> {
-        let Part { file: name, first_row, .. } = &self.parts[slab.ranks().rank()];
-        let mut file = FieldFile::of_run(&self.identity, &directory.join("fields").join(name));
-        file.set("first_row", *first_row);
-        let origin = [*first_row as f64 * self.pitch[0], 0.0];
-        for NamedField { name, unit, values } in fields.fields {
-            file.add_field(name, unit, &slab.grid(), origin, &values);
-        }
-        file.write()
-    }
-
-    /// The files of the parts, undamaged and of this run.
-    fn open_parts(&self, directory: &Path) -> Result<Vec<Fields>> {
-        let open = |part: &Part| {
-            let path = directory.join("fields").join(&part.file);
-            let fields = Fields::open(&path)?;
-            fields.verify()?;
-            let ours = Some(&Attribute::from(self.identity.as_str()));
-            if fields.attributes()?.get("identity") == ours {
-                Ok(fields)
-            } else {
-                Err(Error::NotResumable { path, reason: "is of another run" })
-            }
-        };
-        self.parts.iter().map(open).collect()
-    }
-
-    /// All rows of a field, of which `parts` have theirs.
-    fn whole(&self, parts: &[Fields], name: &str) -> Result<Field> {
-        let mut whole = Field::zeros(self.shape);
-        for (Part { first_row, rows, .. }, fields) in self.parts.iter().zip(parts) {
-            let values = fields.read(name)?.into_field().expect("a field");
-            whole.slice_mut(s![*first_row..first_row + rows, ..]).assign(&values);
-        }
-        Ok(whole)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::grid::Field;
     use crate::ranks::threads::on_ranks;
     use crate::study::{Given, run};
 
@@ -392,6 +377,155 @@ mod tests {
             run_on_ranks(&case("", &load), &ranks, folder.path(), Existing::Keep).unwrap_err().to_string()
         });
         assert_eq!(errors, ["rank 1 has another case than rank 0"; 2]);
+    }
+
+    /// The results of a case on so many ranks, in a directory of its own.
+    fn computed(case: &Case, count: usize) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        on_ranks(count, |ranks| run_on_ranks(case, &ranks, folder.path(), Existing::Keep).map(drop))
+            .into_iter()
+            .for_each(Result::unwrap);
+        folder
+    }
+
+    fn file_of(folder: &tempfile::TempDir, rank: usize) -> std::path::PathBuf {
+        folder.path().join("fields").join(format!("rank-{rank:04}.h5"))
+    }
+
+    #[test]
+    fn a_file_of_other_rows_or_of_another_run_is_refused_by_its_name() {
+        let load = |load: &str| case("", &format!("load = \"{load}\""));
+        let two = computed(&load("0.1 N"), 2);
+        let three = computed(&load("0.1 N"), 3);
+        let other = computed(&load("0.2 N"), 2);
+        let own = [0, 1].map(|rank| fs::read(file_of(&two, rank)).unwrap());
+        let of = |folder: &tempfile::TempDir, rank| fs::read(file_of(folder, rank)).unwrap();
+        for (rank, content, said) in [
+            (0, own[1].clone(), "holds rows 33 to 65 of a run on 2 ranks, expected rows 0 to 32 of one on 2"),
+            (1, own[0].clone(), "holds rows 0 to 32 of a run on 2 ranks, expected rows 33 to 65 of one on 2"),
+            (0, of(&three, 0), "holds rows 0 to 21 of a run on 3 ranks, expected rows 0 to 32 of one on 2"),
+            (1, of(&three, 2), "holds rows 44 to 65 of a run on 3 ranks, expected rows 33 to 65 of one on 2"),
+            (1, of(&other, 1), "is of another run"),
+        ] {
+            fs::write(file_of(&two, rank), content).unwrap();
+            let message = collect(two.path()).unwrap_err().to_string();
+            assert_eq!(message, format!("{} {said}", file_of(&two, rank).display()));
+            fs::write(file_of(&two, rank), &own[rank]).unwrap();
+        }
+        // Both at once, and the index of another run.
+        fs::write(file_of(&two, 0), &own[1]).unwrap();
+        fs::write(file_of(&two, 1), &own[0]).unwrap();
+        assert!(matches!(collect(two.path()), Err(Error::OtherRows { rows: [33, 65], .. })));
+        [0, 1].iter().for_each(|rank| fs::write(file_of(&two, *rank), &own[*rank]).unwrap());
+        let index = |folder: &tempfile::TempDir| folder.path().join("fields/ranks.json");
+        let own_index = fs::read(index(&two)).unwrap();
+        fs::copy(index(&other), index(&two)).unwrap();
+        let message = collect(two.path()).unwrap_err().to_string();
+        assert_eq!(message, format!("{} is of another run", index(&two).display()));
+        assert!(!two.path().join("fields.h5").exists(), "a field was collected from the wrong rows");
+        fs::write(index(&two), own_index).unwrap();
+        collect(two.path()).unwrap();
+    }
+
+    #[test]
+    fn a_damaged_file_of_a_run_gives_an_error_that_names_it() {
+        let folder = computed(&case("", "load = \"0.1 N\""), 2);
+        collect(folder.path()).unwrap();
+        let fields = || {
+            let fields = Results::open(folder.path()).unwrap().static_fields().unwrap();
+            let read = |name: &String| fields.read(name).unwrap().into_field().unwrap();
+            fields.names().unwrap().iter().map(read).collect::<Vec<Field>>()
+        };
+        let expected = fields();
+        let (mut refused, mut unharmed) = (0, 0);
+        for name in ["rank-0000.h5", "rank-0001.h5", "ranks.json"] {
+            let path = folder.path().join("fields").join(name);
+            let whole = fs::read(&path).unwrap();
+            let flipped = (0..whole.len()).step_by(whole.len() / 60).map(|at| {
+                let mut bytes = whole.clone();
+                bytes[at] ^= 0x55;
+                bytes
+            });
+            let cut = [0, 1, 7, 8, 100, whole.len() / 2, whole.len() - 1].map(|n| whole[..n].to_vec());
+            for bytes in flipped.chain(cut) {
+                fs::write(&path, bytes).unwrap();
+                match collect(folder.path()) {
+                    // A byte that nothing depends on, such as a name of a version, an unused one or a space.
+                    Ok(()) => {
+                        assert_eq!(fields(), expected, "{name} was damaged without a word");
+                        unharmed += 1;
+                    }
+                    Err(error) => {
+                        assert!(error.to_string().contains(name), "{error}");
+                        refused += 1;
+                    }
+                }
+            }
+            fs::write(&path, whole).unwrap();
+        }
+        assert!(refused > 2 * unharmed, "{refused} of {} refused", refused + unharmed);
+    }
+
+    #[test]
+    fn an_index_that_does_not_hold_each_row_once_is_refused() {
+        let folder = computed(&case("", "load = \"0.1 N\""), 2);
+        let path = folder.path().join("fields/ranks.json");
+        let index: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        for (pointer, value, said) in [
+            ("/parts/1/first_row", serde_json::json!(0), "do not hold each row once"),
+            ("/parts/1/rows", serde_json::json!(34), "do not hold each row once"),
+            ("/parts/0/rows", serde_json::json!(0), "do not hold each row once"),
+            ("/parts/1/rows", serde_json::json!(u64::MAX), "do not hold each row once"),
+            ("/parts", serde_json::json!([]), "do not hold each row once"),
+            ("/parts/1/file", serde_json::json!("../fields/rank-0000.h5"), "not numbered in the order"),
+            ("/shape", serde_json::json!([0, 48]), "no meaning"),
+            ("/shape", serde_json::json!([66, 49]), "another shape"),
+            ("/pitch/1", serde_json::json!(2e-6), "another shape, pitch or unit"),
+            ("/fields/0/name", serde_json::json!("displacement"), "ranks.json"),
+            ("/fields", serde_json::json!([]), "lists no pressure"),
+            ("/identity", serde_json::json!("0"), "is of another run"),
+        ] {
+            let mut changed = index.clone();
+            *changed.pointer_mut(pointer).unwrap() = value;
+            index::sign(&mut changed);
+            fs::write(&path, changed.to_string()).unwrap();
+            let message = collect(folder.path()).unwrap_err().to_string();
+            assert!(message.contains(said), "{pointer}: {message}");
+        }
+        assert!(!folder.path().join("fields.h5").exists());
+    }
+
+    #[test]
+    fn ranks_that_write_to_different_directories_are_refused_by_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let case = case("", "load = \"0.1 N\"");
+        let errors = on_ranks(2, |ranks| {
+            let own = folder.path().join(format!("of-{}", ranks.rank()));
+            std::fs::create_dir(&own).unwrap();
+            run_on_ranks(&case, &ranks, &own, Existing::Keep).unwrap_err().to_string()
+        });
+        assert_eq!(errors, ["rank 1 has another results directory than rank 0"; 2]);
+        for rank in 0..2 {
+            let left = fs::read_dir(folder.path().join(format!("of-{rank}"))).unwrap();
+            let left: Vec<_> =
+                left.map(|entry| entry.unwrap().file_name()).filter(|n| n != ".lock").collect();
+            assert!(left.is_empty(), "rank {rank} has written {left:?}");
+        }
+    }
+
+    #[test]
+    fn the_memory_of_a_rank_falls_with_their_number_where_surfaces_are_made_by_slabs() {
+        let demands = |upper: &str| [1, 2, 4].map(|n| demand_on_ranks(&case(upper, "load = 1"), n).unwrap());
+        let [one, two, four] = demands("");
+        let own = |demand: DemandOfRank| demand.steady - PROGRAM;
+        assert!(own(one) > 1.6 * own(two) && own(two) > 1.8 * own(four), "{one:?} {two:?} {four:?}");
+        assert!(one.making > two.making && two.making > four.making);
+        assert_eq!(one.collecting, four.collecting);
+        // A surface that is levelled is made as a whole.
+        let [one, _, four] = demands("level = \"mean\"");
+        assert_eq!(one.making, four.making);
+        let error = demand_on_ranks(&case("", "load = 1"), 67).unwrap_err();
+        assert_eq!(error.to_string(), "67 ranks are too many for a grid of 66 rows along x");
     }
 
     #[test]

@@ -9,8 +9,8 @@
 //! are those of an update whose state was not written any more.
 
 use super::loading::Stored;
-use super::results::{Results, add_bodies};
-use super::tables::GrowingTable;
+use super::results::{ROWS, Results, add_bodies};
+use super::tables::{self, GrowingTable};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::fields::FieldFile;
@@ -57,6 +57,7 @@ impl SlidingWriter {
             return Err(Error::NotResumable { path, reason: "does not have every finished update" });
         }
         updates.truncate(count);
+        stored.has_rows(&tables::digest("", &updates), &self.results.updates_path())?;
         let mut pair = pair.clone();
         (pair.lower.heights, pair.upper.heights) = (stored.field("lower")?, stored.field("upper")?);
         [pair.lower.state, pair.upper.state] = Results::states_of(&stored.fields)?;
@@ -85,7 +86,7 @@ impl SlidingOutput for SlidingWriter {
             return Ok(());
         }
         let mut file = FieldFile::of_run(&self.identity, &self.results.update_state_path());
-        file.set("updates", done);
+        file.set("updates", done).set(ROWS, tables::digest("", &state.updates).as_str());
         add_bodies(&mut file, &state.pair);
         file.add_field("pressure", "Pa", &state.pair.lower_grid(), [0.0, 0.0], &state.pressure);
         file.write()

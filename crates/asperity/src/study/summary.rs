@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
-use crate::io::atomic;
+use crate::io::{atomic, regular};
 use crate::motion::{FlowRecord, PassRecord, StaticRecord, SweepRecord, UpdateRecord};
+use crate::study::{json, tables};
 use crate::units::{CubicMetre, Metre, Second};
 
 /// The content of `summary.json`.
@@ -91,6 +92,20 @@ pub enum Outcome {
     Passes(Vec<PassRecord>),
 }
 
+impl Outcome {
+    /// Checks the numbers of static contacts; those of passes are checked as they are done.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub(super) fn check(&self) -> Result<()> {
+        match self {
+            Self::Static(record) => tables::checked(std::slice::from_ref(&**record)).map(|_| ()),
+            Self::Sweep(points) => tables::checked(points).map(|_| ()),
+            Self::Passes(_) => Ok(()),
+        }
+    }
+}
+
 /// A static contact with the word that readers of the file look for: what did not converge leaves no summary.
 fn with_converged<S: Serializer>(
     record: &StaticRecord,
@@ -111,7 +126,7 @@ fn with_converged<S: Serializer>(
 /// [`Error::File`].
 pub(super) fn write(path: &Path, summary: &Summary) -> Result<()> {
     atomic::write_with(path, |file| {
-        serde_json::to_writer_pretty(&mut *file, summary)?;
+        json::write_pretty(&mut *file, summary)?;
         file.write_all(b"\n")
     })
 }
@@ -122,7 +137,7 @@ pub(super) fn write(path: &Path, summary: &Summary) -> Result<()> {
 /// [`Error::File`] if the file cannot be read or is not a summary; the message then has line and column.
 pub(super) fn read(path: &Path) -> Result<Summary> {
     let failed = |source| Error::File { path: path.to_owned(), source };
-    let text = std::fs::read(path).map_err(failed)?;
+    let text = regular::read(path, "a summary", u64::MAX).map_err(failed)?;
     serde_json::from_slice(&text).map_err(|error| failed(error.into()))
 }
 

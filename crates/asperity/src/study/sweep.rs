@@ -3,14 +3,16 @@
 //! ```text
 //! DIR/sweep.csv            a row for each point done, written last
 //!     fields/point-0001.h5 pressure and gap of the points kept
+//!     fields/sweep-state.json  digests of these rows, written before each; gone once all is done
 //! ```
 //!
 //! Points do not depend on each other: an interrupted sweep goes on after the last row.
 
 use super::results::Results;
 use super::tables;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
+use crate::io::atomic;
 use crate::io::fields::FieldFile;
 use crate::motion::{LoadedContact, Pair, SweepOutput, SweepRecord};
 
@@ -52,6 +54,13 @@ impl SweepOutput for SweepWriter {
             }
             file.write()?;
         }
+        let digests: Vec<_> =
+            points.iter().map(|point| tables::digest("", std::slice::from_ref(point))).collect();
+        let text = serde_json::to_vec(&digests).expect("texts can be written");
+        let state = self.results.sweep_state_path();
+        let failed = |source| Error::File { path: state.clone(), source };
+        std::fs::create_dir_all(self.results.fields_folder()).map_err(failed)?;
+        atomic::replace(&state, &text)?;
         tables::write_sweep(&self.results.sweep_path(), points)
     }
 }

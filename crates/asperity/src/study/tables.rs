@@ -6,17 +6,18 @@
 //! back to the same bits.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use serde::de::{DeserializeOwned, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::columns::is_volume_of_law;
 use crate::error::{Error, Result};
-use crate::io::atomic;
-use crate::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
-use crate::units::Dimension;
+use crate::io::{atomic, regular, sha256};
+use crate::motion::{IncrementRecord, PassRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord};
+use crate::study::json;
 
 /// Columns of `steps.csv`.
 pub const STEP_COLUMNS: [&str; 17] = [
@@ -89,7 +90,7 @@ pub const INCREMENT_COLUMNS: [&str; 18] = [
 ];
 
 /// Columns of `sweep.csv`.
-pub const SWEEP_COLUMNS: [&str; 23] = [
+pub const SWEEP_COLUMNS: [&str; 24] = [
     "point",
     "load",
     "mean_pressure",
@@ -110,57 +111,87 @@ pub const SWEEP_COLUMNS: [&str; 23] = [
     "stick_area",
     "max_shear",
     "dissipation",
+    "slip_work",
     "iterations",
     "convolutions",
     "residual",
 ];
 
-/// What a column of a table or a number of a summary measures, by its name; none of pure numbers.
-pub fn dimension(column: &str) -> Option<Dimension> {
-    // The first word that a name has; `max_pressure`, `plastic_volume_lower_interior`.
-    const WORDS: [(&str, Option<Dimension>); 27] = [
-        ("friction_coefficient", None),
-        ("fraction", None),
-        ("ratio", None),
-        ("cells", None),
-        ("columns", None),
-        ("temperature", Some(Dimension::Temperature)),
-        ("friction_power", Some(Dimension::Power)),
-        ("work", Some(Dimension::Energy)),
-        ("volume", Some(Dimension::Volume)),
-        ("area", Some(Dimension::Area)),
-        ("pressure", Some(Dimension::Pressure)),
-        ("shear", Some(Dimension::Pressure)),
-        ("tension", Some(Dimension::Pressure)),
-        ("strain_position", Some(Dimension::Length)),
-        ("strain", None),
-        ("von_mises", Some(Dimension::Pressure)),
-        ("stiffness", Some(Dimension::Stiffness)),
-        ("energy", Some(Dimension::Energy)),
-        ("dissipation", Some(Dimension::Energy)),
-        ("force", Some(Dimension::Force)),
-        ("load", Some(Dimension::Force)),
-        ("time", Some(Dimension::Time)),
-        ("displacement", Some(Dimension::Length)),
-        ("distance", Some(Dimension::Length)),
-        ("approach", Some(Dimension::Length)),
-        ("offset", Some(Dimension::Length)),
-        ("gap", Some(Dimension::Length)),
-    ];
-    /// How names of other lengths begin.
-    const LENGTHS: [&str; 4] = ["sq_", "max_wear", "mean_film", "error_"];
-    if LENGTHS.iter().any(|begin| column.starts_with(begin)) {
-        return Some(Dimension::Length);
+/// A record that is a row of a table, or of the summary.
+pub(super) trait Record: Serialize {
+    /// Numbers that may be unknown: their cells are empty.
+    const UNKNOWN: &'static [&'static str];
+
+    /// The error of the computation at which the record was made.
+    fn at(&self, error: Error) -> Error {
+        error
     }
-    WORDS.iter().find(|(word, _)| column.contains(word)).and_then(|(_, dimension)| *dimension)
+}
+
+impl Record for StepRecord {
+    const UNKNOWN: &'static [&'static str] = &[];
+
+    fn at(&self, error: Error) -> Error {
+        error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
+    }
+}
+
+impl Record for PassRecord {
+    const UNKNOWN: &'static [&'static str] = &["friction_coefficient", "time", "max_flash_temperature"];
+
+    fn at(&self, error: Error) -> Error {
+        error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
+    }
+}
+
+impl Record for IncrementRecord {
+    const UNKNOWN: &'static [&'static str] = &["approach"];
+
+    fn at(&self, error: Error) -> Error {
+        error.if_not_finite(|source| Error::AtIncrement { increment: self.increment, source })
+    }
+}
+
+impl Record for UpdateRecord {
+    const UNKNOWN: &'static [&'static str] = &["time", "friction_power", "max_temperature"];
+
+    fn at(&self, error: Error) -> Error {
+        error.if_not_finite(|source| Error::AtUpdate { update: self.update, source })
+    }
+}
+
+impl Record for SweepRecord {
+    const UNKNOWN: &'static [&'static str] = &["stiffness"];
+}
+
+impl Record for StaticRecord {
+    const UNKNOWN: &'static [&'static str] = &["friction_coefficient"];
+}
+
+/// The rows of some records.
+///
+/// # Errors
+/// [`Error::NotFinite`] for a number that is NaN or infinite, unless it may be unknown.
+pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
+    let row = |record: &T| {
+        let row = Row::of(record);
+        let wrong = |(column, value): &&(String, String)| {
+            (value.is_empty() || value.contains("null")) && !T::UNKNOWN.contains(&column.as_str())
+        };
+        match row.0.iter().find(wrong) {
+            None => Ok(row),
+            Some((column, _)) => Err(record.at(Error::NotFinite { field: column.clone(), cell: Vec::new() })),
+        }
+    };
+    records.iter().map(row).collect()
 }
 
 /// Writes `sweep.csv`. A stiffness that there is not is an empty cell.
 ///
 /// # Errors
-/// [`Error::File`].
+/// [`Error::File`], [`Error::NotFinite`].
 pub(super) fn write_sweep(path: &Path, points: &[SweepRecord]) -> Result<()> {
-    write(path, &SWEEP_COLUMNS, points)
+    write_rows(path, &SWEEP_COLUMNS.map(str::to_owned), &checked(points)?)
 }
 
 /// Reads `sweep.csv`.
@@ -174,9 +205,9 @@ pub(super) fn read_sweep(path: &Path) -> Result<Vec<SweepRecord>> {
 /// Writes `increments.csv`.
 ///
 /// # Errors
-/// [`Error::File`].
+/// [`Error::File`], [`Error::NotFinite`].
 pub(super) fn write_increments(path: &Path, increments: &[IncrementRecord]) -> Result<()> {
-    let rows: Vec<Row> = increments.iter().map(Row::of).collect();
+    let rows = checked(increments)?;
     let columns = match rows.first() {
         Some(row) => row.columns(),
         None => INCREMENT_COLUMNS.map(str::to_owned).to_vec(),
@@ -237,9 +268,9 @@ impl GrowingTable {
     /// Adds the rows of some `records`.
     ///
     /// # Errors
-    /// [`Error::File`]; the table is then as it was.
-    pub(super) fn add<T: Serialize>(&mut self, records: &[T]) -> Result<()> {
-        let rows: Vec<Row> = records.iter().map(Row::of).collect();
+    /// [`Error::File`], [`Error::NotFinite`]; the table is then as it was.
+    pub(super) fn add<T: Record>(&mut self, records: &[T]) -> Result<()> {
+        let rows = checked(records)?;
         let mut columns = rows.first().map_or(Vec::new(), Row::columns);
         if columns.iter().all(|column| self.columns.contains(column)) {
             return append(&self.path, &lines(&self.columns, &rows)).map_err(failed(&self.path));
@@ -275,7 +306,7 @@ fn lines(columns: &[String], rows: &[Row]) -> String {
 
 /// Cuts a table off after its header and so many rows; its columns.
 fn keep(path: &Path, rows: usize) -> io::Result<Vec<String>> {
-    let mut reader = BufReader::new(File::open(path)?);
+    let mut reader = BufReader::new(regular::open(path, TABLE)?);
     let mut header = String::new();
     let mut length = reader.read_line(&mut header)? as u64;
     let mut line = Vec::new();
@@ -304,7 +335,7 @@ fn append(path: &Path, text: &str) -> io::Result<()> {
 
 /// The rows of a table as text.
 fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
-    let mut table = csv::Reader::from_reader(File::open(path)?);
+    let mut table = csv::Reader::from_reader(regular::open(path, TABLE)?);
     let columns: Vec<String> = table.headers()?.iter().map(str::to_owned).collect();
     let row = |record: csv::Result<csv::StringRecord>| {
         Ok(Row(columns.iter().cloned().zip(record?.iter().map(str::to_owned)).collect()))
@@ -314,9 +345,39 @@ fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
 
 /// The rows of a table that may be growing: those whose line has an end.
 fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
-    let text = std::fs::read(path).map_err(failed(path))?;
+    let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
     let ended = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
     rows(path, &text[..ended])
+}
+
+/// What the files of this module are expected to be.
+const TABLE: &str = "a table of results";
+
+/// Digests rows after those of the digest `before`, which is empty where there are none: the same for the records and for what is
+/// read back from a table of them.
+pub(super) fn digest<T: Serialize>(before: &str, records: &[T]) -> String {
+    records.iter().fold(before.to_owned(), |digest, record| {
+        let mut text = digest;
+        for (column, value) in Row::of(record).cells() {
+            // A law that has taken nothing yet may have no columns, and times are another's in a run that was resumed.
+            let is_nothing = is_volume_of_law(column) && value.parse() == Ok(0.0_f64);
+            if !is_nothing && column != "wall_time_s" {
+                text += &format!(",{column}={value}");
+            }
+        }
+        sha256(text.as_bytes())
+    })
+}
+
+/// Digests finished passes, each after its positions.
+pub(super) fn digest_of_passes(passes: &[PassRecord], steps: &[StepRecord]) -> String {
+    let mut steps = steps;
+    passes.iter().fold(String::new(), |before, pass| {
+        let count = steps.iter().take_while(|step| step.pass == pass.pass).count();
+        let (of_pass, others) = steps.split_at(count);
+        steps = others;
+        digest(&digest(&before, of_pass), std::slice::from_ref(pass))
+    })
 }
 
 /// A record whose columns depend on what is recorded, as text.
@@ -324,15 +385,14 @@ pub(super) struct Row(Vec<(String, String)>);
 
 impl Row {
     pub(super) fn of(record: &impl Serialize) -> Self {
-        let text = serde_json::to_string(record).expect("a record of numbers is JSON");
-        serde_json::from_str(&text).expect("a record is an object")
+        serde_json::from_str(&json::to_string(record)).expect("a record is an object")
     }
 
     fn columns(&self) -> Vec<String> {
         self.0.iter().map(|(column, _)| column.clone()).collect()
     }
 
-    /// Columns with their values.
+    /// Columns with their values, empty where there is none.
     pub(super) fn cells(&self) -> &[(String, String)] {
         &self.0
     }
@@ -360,8 +420,7 @@ impl<'de> Deserialize<'de> for Row {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Row, A::Error> {
                 let mut row = Vec::new();
                 while let Some((column, value)) = map.next_entry::<String, serde_json::Value>()? {
-                    // JSON has no numbers that are none.
-                    row.push((column, if value.is_null() { "NaN".to_owned() } else { value.to_string() }));
+                    row.push((column, if value.is_null() { String::new() } else { value.to_string() }));
                 }
                 Ok(Row(row))
             }
@@ -371,20 +430,14 @@ impl<'de> Deserialize<'de> for Row {
     }
 }
 
-fn write<T: Serialize>(path: &Path, columns: &[&str], rows: &[T]) -> Result<()> {
-    atomic::write_with(path, |file| {
-        // The header is written by hand, so that a table without rows has one too.
-        let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(file);
-        table.write_record(columns)?;
-        for row in rows {
-            table.serialize(row)?;
-        }
-        table.flush()
-    })
-}
-
+/// Reads a table that is written as a whole.
 fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
-    rows(path, File::open(path).map_err(failed(path))?)
+    let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
+    if text.last() != Some(&b'\n') {
+        let damaged = io::Error::new(ErrorKind::InvalidData, "it is damaged: its last row is not whole");
+        return Err(failed(path)(damaged));
+    }
+    rows(path, &text[..])
 }
 
 fn rows<T: DeserializeOwned>(path: &Path, table: impl io::Read) -> Result<Vec<T>> {
@@ -424,7 +477,7 @@ mod tests {
             plastic_volume_interior: 0.0,
             iterations: 12,
             convolutions: 13.25,
-            residual: f64::NAN,
+            residual: 1.0 / 3.0 * 1e-7,
         }
     }
 
@@ -481,13 +534,14 @@ mod tests {
             stick_area: 1e-11,
             max_shear: 1e9,
             dissipation: 1e-12,
+            slip_work: 4e-13,
             iterations: 12,
             convolutions: 21.25,
             residual: 1e-7,
         }
     }
 
-    fn write_new<T: Serialize>(path: &Path, records: &[T]) {
+    fn write_new<T: Record>(path: &Path, records: &[T]) {
         GrowingTable::open(path.to_owned(), 0).unwrap().add(records).unwrap();
     }
 
@@ -512,7 +566,7 @@ mod tests {
         let path = directory.path().join("table.csv");
         write_new(&path, &[step(1), step(2)]);
         let steps = read_steps(&path).unwrap();
-        assert_eq!(format!("{steps:?}"), format!("{:?}", [step(1), step(2)]), "NaN included");
+        assert_eq!(format!("{steps:?}"), format!("{:?}", [step(1), step(2)]), "to the last digit");
         assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
         write_new(&path, &[pass()]);
         assert_eq!(read_passes(&path).unwrap(), [pass()]);
@@ -581,6 +635,77 @@ mod tests {
         let read = read_passes(&path).unwrap();
         assert_eq!(read.iter().map(|pass| pass.lost("wear")[1]).collect::<Vec<_>>(), [0.0, 2.0, 2.0]);
         assert_eq!(read.iter().map(|pass| pass.lost("plastic")[1]).collect::<Vec<_>>(), [2e-18, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_number_that_must_be_known_and_is_none_is_refused_and_the_table_stays() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("table.csv");
+        let mut table = GrowingTable::open(path.clone(), 0).unwrap();
+        table.add(&[pass()]).unwrap();
+        let before = std::fs::read(&path).unwrap();
+        for value in [f64::NAN, f64::INFINITY] {
+            let spoilt = LostVolume { law: "wear".to_owned(), whole: [0.0, value], interior: [0.0; 2] };
+            for wrong in [
+                PassRecord { pass: 2, approach: value, ..pass() },
+                PassRecord { pass: 2, lost: vec![spoilt], ..pass() },
+            ] {
+                let message = table.add(&[wrong]).unwrap_err().to_string();
+                let column = if message.contains("approach") { "approach" } else { "wear_volume_upper" };
+                assert_eq!(message, format!("pass 2: `{column}` is not a finite number"));
+            }
+            let apart = IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
+            write_increments(&directory.path().join("increments.csv"), std::slice::from_ref(&apart)).unwrap();
+            assert!(read_increments(&directory.path().join("increments.csv")).unwrap()[0].approach.is_nan());
+            let wrong = IncrementRecord { increment: 7, load: value, ..apart };
+            let error = write_increments(&directory.path().join("increments.csv"), &[wrong]).unwrap_err();
+            assert_eq!(error.to_string(), "increment 7: `load` is not a finite number");
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), before);
+    }
+
+    #[test]
+    fn a_digest_is_that_of_the_rows_however_often_they_are_read_and_whatever_columns_they_gain() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = |name: &str| directory.path().join(name);
+        let passes =
+            [1, 2].map(|number| PassRecord { pass: number, friction_coefficient: f64::NAN, ..pass() });
+        let steps = [1, 2].map(|number| StepRecord { pass: number, ..step(1) });
+        let before = digest_of_passes(&passes, &steps);
+        let wear = LostVolume { law: "wear".to_owned(), whole: [1.0, 2.0], interior: [0.5, 0.25] };
+        let mut table = GrowingTable::open(path("passes.csv"), 0).unwrap();
+        table.add(&passes).unwrap();
+        table.add(&[PassRecord { pass: 3, lost: vec![wear], wall_time_s: 9.0, ..pass() }]).unwrap();
+        write_new(&path("steps.csv"), &steps);
+        let (read, of_steps) =
+            (read_passes(&path("passes.csv")).unwrap(), read_steps(&path("steps.csv")).unwrap());
+        assert_eq!(digest_of_passes(&read[..2], &of_steps), before);
+        let again = digest(&digest(&digest("", &steps[..1]), &passes[..1]), &steps[1..]);
+        assert_eq!(digest(&again, &passes[1..]), before, "pass after pass");
+        for changed in [0, 1] {
+            let mut steps = steps.clone();
+            steps[changed].load += 1e-12;
+            assert_ne!(digest_of_passes(&passes, &steps), before);
+            let mut passes = passes.clone();
+            passes[changed].sq_lower *= 1.0 + 1e-15;
+            assert_ne!(digest_of_passes(&passes, &of_steps), before);
+        }
+        let timed = passes.clone().map(|pass| PassRecord { wall_time_s: 7.0, ..pass });
+        assert_eq!(digest_of_passes(&timed, &of_steps), before, "a time is no result");
+    }
+
+    #[test]
+    fn a_table_that_is_cut_off_anywhere_is_damaged() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("sweep.csv");
+        write_sweep(&path, &[point(None), point(Some(1e7))]).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        let header = whole.iter().position(|byte| *byte == b'\n').unwrap();
+        for length in (0..whole.len()).filter(|length| whole[..*length].last() != Some(&b'\n')) {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            let message = read_sweep(&path).unwrap_err().to_string();
+            assert!(message.contains("sweep.csv"), "{length} of {header}: {message}");
+        }
     }
 
     #[test]

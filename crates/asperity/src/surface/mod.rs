@@ -15,6 +15,7 @@ mod process;
 mod profile;
 mod segmentation;
 mod spectrum;
+mod stop;
 mod summits;
 mod topography;
 
@@ -37,5 +38,7 @@ pub use process::{Fill, Filter, Findings, Interpolation, Level, LevelError, Prep
 pub use profile::{Profile, ProfileParameters};
 pub use segmentation::{Motif, Segmentation, WOLF_PRUNING};
 pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};
+pub use stop::Stop;
+pub(crate) use stop::{NEVER, go_on, go_on_at};
 pub use summits::{GreenwoodWilliamson, Summit, Summits};
 pub use topography::Topography;

@@ -154,7 +154,7 @@ pub fn format_within(value: f64, dimension: Dimension, within: f64) -> String {
 /// [`format()`] with another number of significant digits.
 pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String {
     if dimension == Dimension::Angle {
-        return format!("{}°", decimal(value.to_degrees(), digits));
+        return format!("{}°", legible(value.to_degrees(), digits));
     }
     if dimension == Dimension::WearCoefficient {
         return format!("{:e} {MM3_PER_NM}", round(value * 1e9, digits));
@@ -171,8 +171,11 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     let rounded = round(value, digits);
     match dimension.prefix(rounded) {
         Some((prefix, exponent)) => {
-            let number = decimal(rounded / 10f64.powi(power * exponent), digits);
-            format!("{number} {prefix}{}{suffix}", base.symbol())
+            let number = rounded / 10f64.powi(power * exponent);
+            if number.abs() < MAX_FIXED {
+                return format!("{} {prefix}{}{suffix}", decimal(number, digits), base.symbol());
+            }
+            format!("{rounded:e} {}{suffix}", base.symbol())
         }
         None => format!("{rounded:e} {}{suffix}", base.symbol()),
     }
@@ -563,6 +566,16 @@ fn round(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
 }
 
+/// From here on numbers are written with a power of ten: no prefix has more to say.
+const MAX_FIXED: f64 = 1e12;
+
+/// Fixed notation, or with a power of ten where that would have too many digits.
+fn legible(value: f64, digits: usize) -> String {
+    let size = value.abs();
+    let is_fixed = size == 0.0 || !size.is_finite() || (1.0 / MAX_FIXED..MAX_FIXED).contains(&size);
+    if is_fixed { decimal(value, digits) } else { format!("{:e}", round(value, digits)) }
+}
+
 /// Fixed notation with at most `digits` significant digits and no trailing zeros.
 fn decimal(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -581,6 +594,21 @@ mod tests {
         Speed, Temperature, Time, Volume, WearCoefficient,
     };
     use super::*;
+
+    #[test]
+    fn no_magnitude_takes_more_than_some_digits() {
+        assert_eq!(format(1e300, Length), "1e300 m");
+        assert_eq!(format(-1e300, Area), "-1e300 m²");
+        for dimension in Dimension::ALL {
+            for exponent in -320..=308 {
+                let value = 1.2345678 * 10f64.powi(exponent);
+                let text = format(value, dimension);
+                assert!(text.chars().count() < 32, "{dimension:?}: {text}");
+                assert!(format_number(value).len() < 12, "{}", format_number(value));
+            }
+        }
+        assert_eq!(format(1.2e9, Length), "1200000 km");
+    }
 
     #[test]
     fn as_many_digits_are_written_as_it_takes() {

@@ -36,6 +36,9 @@ fn carter() -> Result<Vec<Check>> {
         ("shear, rms", first(1e-2)),
         ("stick width", Expected::Counted(1.0)),
         ("force across", first(1e-2)),
+        ("dissipation", first(1e-2)),
+        ("dissipation across", first(1e-2)),
+        ("slip work", first(1e-1)),
     ];
     study("a/Δx", &[4, 8, 16, 32], checks, |n| {
         let (grid, gap) = smooth::line_gap(n)?;
@@ -48,9 +51,13 @@ fn carter() -> Result<Vec<Check>> {
                 (Friction::coulomb(FRICTION)?, Control::Load(contact.load_per_length * width));
             solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, load, rolling, &PARAMS)
         };
-        let RollingSolution { contact: driven, creepage: found } = roll(Creep::Force([force, 0.0]))?;
-        let across = Creep::Creepage([0.0, creepage * (1.0 + pair.lateral / pair.normal)]);
-        let steered = roll(across)?.contact;
+        let rolled = roll(Creep::Force([force, 0.0]))?;
+        let slip_work = rolled.slip_work();
+        let RollingSolution { contact: driven, creepage: found, dissipation } = rolled;
+        let energy = force * creepage * grid.pitch[0];
+        let creepage_across = creepage * (1.0 + pair.lateral / pair.normal);
+        let steered = roll(Creep::Creepage([0.0, creepage_across]))?;
+        let energy_across = force * creepage_across * grid.pitch[0];
         let exact = Field::from_shape_fn(grid.shape, |(i, _)| {
             let x = grid.centre(0, i) - 0.5 * grid.extent()[0];
             FRICTION * (contact.pressure(x) - stick.pressure(x - d))
@@ -59,7 +66,10 @@ fn carter() -> Result<Vec<Check>> {
             relative(found[0], creepage),
             relative_rms(&driven.shear[0], &exact),
             relative(driven.stick.sum() * grid.pitch[0], 2.0 * stick.half_width()),
-            relative(steered.force()[1], force),
+            relative(steered.contact.force()[1], force),
+            relative(dissipation, energy),
+            relative(steered.dissipation, energy_across),
+            relative(slip_work, energy),
         ])
     })
 }
@@ -69,6 +79,12 @@ fn carter() -> Result<Vec<Check>> {
 ///
 /// ```text
 /// Q_x = c² G C11 ξx      Q_y = c² G (C22 ξy + c C23 φ)      M = c³ G (−C23 ξy + c C33 φ)
+/// ```
+///
+/// Their work per length of rolling is the energy that friction takes, all of it at the trailing edge. The work of C23 cancels:
+///
+/// ```text
+/// ξ·Q + φM = c² G (C11 ξx² + C22 ξy² + c² C33 φ²)
 /// ```
 ///
 /// Kalker's table has three digits, and the shear at the trailing edge is infinite: order 1.
@@ -91,16 +107,25 @@ fn kalker() -> Result<Vec<Check>> {
         ("C23", first(3e-2)),
         ("C33", first(5e-2)),
         ("C32 = −C23", first(3e-2)),
+        ("dissipation", first(2e-2)),
     ];
     study("a/Δx", &[4, 8, 16], checks, |n| {
         let found = creep_coefficients(ratio, 0.25, n)?;
-        let exact = [c11, c22, c23, c33, c23];
+        let exact = [c11, c22, c23, c33, c23, energy([c11, c22, c33])];
         Ok(std::array::from_fn(|k| relative(found[k], exact[k])))
     })
 }
 
-/// C11, C22, C23, C33 and −C32 of an ellipse of semi-axes as a/b = `ratio`, `n` cells along each.
-fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 5]> {
+/// Creepage along x and y, and spin times c, of which the energy is looked at.
+const CREEPS: [f64; 3] = [1.0, 0.5, 0.7];
+
+/// The energy per length over c²G under [`CREEPS`], of C11, C22 and C33.
+fn energy(coefficients: [f64; 3]) -> f64 {
+    coefficients.iter().zip(CREEPS).map(|(c, creep)| c * creep * creep).sum()
+}
+
+/// C11, C22, C23, C33, −C32 and [`energy`] of an ellipse of semi-axes as a/b = `ratio`, `n` cells along each.
+fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
     let semi_axes = [ratio.sqrt(), 1.0 / ratio.sqrt()];
     let body = Material::elastic(2.0 * (1.0 + poisson), poisson)?;
     // A column ahead of the contact, where the bodies are not strained yet.
@@ -114,20 +139,27 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 5]> {
         Operators::new(grid, Compliances::new(&body, &body)?, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(f64::INFINITY)?;
     let params = Params { tolerance: 1e-6, ..PARAMS };
-    let mut roll = |creepage, spin| -> Result<([f64; 2], f64)> {
+    let mut roll = |creepage, spin| -> Result<RollingSolution> {
         let rolling = Rolling { creep: Creep::Creepage(creepage), spin };
         let control = Control::Approach(1.0);
-        let solution =
-            solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, control, rolling, &params)?;
-        Ok((solution.contact.force(), solution.contact.moment()))
+        solve_rolling(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, control, rolling, &params)
     };
-    let ([c11, _], _) = roll([1.0, 0.0], 0.0)?;
-    let ([_, c22], across) = roll([0.0, 1.0], 0.0)?;
-    let ([_, c23], c33) = roll([0.0, 0.0], 1.0)?;
+    let [c11, _] = roll([1.0, 0.0], 0.0)?.contact.force();
+    let across = roll([0.0, 1.0], 0.0)?.contact;
+    let spun = roll([0.0, 0.0], 1.0)?.contact;
     // Over those of an ellipse of the area that the cells have.
     let cells = gap.iter().filter(|h| **h == 0.0).count() as f64;
     let c = (cells * grid.cell_area() / PI).sqrt();
-    Ok([c11 / c.powi(2), c22 / c.powi(2), c23 / c.powi(3), c33 / c.powi(4), -across / c.powi(3)])
+    let [xi_x, xi_y, turned] = CREEPS;
+    let dissipation = roll([xi_x, xi_y], turned / c)?.dissipation / grid.pitch[0];
+    Ok([
+        c11 / c.powi(2),
+        across.force()[1] / c.powi(2),
+        spun.force()[1] / c.powi(3),
+        spun.moment() / c.powi(4),
+        -across.moment() / c.powi(3),
+        dissipation / c.powi(2),
+    ])
 }
 
 #[cfg(test)]
@@ -146,7 +178,7 @@ mod tests {
         ];
         for ((ratio, [c11, c22, c23, c33]), poisson) in table {
             let [coarse, fine] = [6, 12].map(|n| creep_coefficients(ratio, poisson, n).unwrap());
-            for (k, exact) in [c11, c22, c23, c33, c23].into_iter().enumerate() {
+            for (k, exact) in [c11, c22, c23, c33, c23, energy([c11, c22, c33])].into_iter().enumerate() {
                 let found = 2.0 * fine[k] - coarse[k];
                 assert!(
                     (found / exact - 1.0).abs() < 0.02,

@@ -103,6 +103,21 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
 
 /// A stage goes in its own equal steps from where the one before has ended, in load or approach; without any in those of the volume.
 #[test]
+fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
+    let slides = format!("[friction]\ncoefficient = 0.2\nsliding = [3, 4]\n{VOLUME}");
+    let slid = study::rest(&case("20 N", FLOWS, &slides), Given::default(), &()).unwrap();
+    let loads: Vec<f64> = slid.increments.iter().map(|increment| increment.load).collect();
+    assert_eq!((loads.len(), loads[loads.len() - 1]), (8, 0.0));
+    for increment in &slid.increments {
+        let force = [increment.tangential_force_x, increment.tangential_force_y];
+        for (force, part) in force.into_iter().zip([0.12, 0.16]) {
+            assert!((force - part * increment.load).abs() <= 1e-9, "{increment:?}");
+        }
+    }
+    assert!(record(&slid.outcome).flow.as_ref().unwrap().residual.is_some());
+}
+
+#[test]
 fn stages_go_in_their_own_steps() {
     let stages = "[[history]]\nload = \"8 N\"\nincrements = 2\n[[history]]\napproach = \"1.2 um\"\n";
     let staged = study::rest(

@@ -14,7 +14,7 @@ use asperity::solver::{Control, Coupling, Equilibrium, Friction, Loading, Method
 use asperity::study;
 use asperity::study::Existing;
 use asperity::study::case;
-use asperity::surface::Topography;
+use asperity::surface::{Form, Topography};
 use asperity::{Error, Field, Grid};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -631,6 +631,32 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
         for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
             assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
         }
+    }
+}
+
+/// A surface from a file is rough by its heights, not because it comes from a file.
+#[test]
+fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\nhardness = \"20 GPa\"\ntopography = { form = \"flat\" }\n\
+                [upper]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { file = \"ball.npy\", pitch = \"1 um\" }\n\
+                [contact]\nload = \"5 mN\"\n[friction]\ncoefficient = 0.3\ncreepage = 1e-3\n";
+    let ball = Form::Sphere { radius: 1e-3 }.on(&Grid::new([24, 24], [1e-6; 2]).unwrap()).unwrap();
+    let rough = |amplitude: f64| {
+        let mut heights = ball.heights().clone();
+        heights.indexed_iter_mut().for_each(|((i, j), z)| *z += amplitude * ((i * 7 + j * 5) % 3) as f64);
+        Topography::new(*ball.grid(), heights).unwrap()
+    };
+    for (surface, is_rough) in [(ball.clone(), false), (rough(1e-11), false), (rough(2e-8), true)] {
+        surface.write(folder.path().join("ball.npy")).unwrap();
+        let path = folder.path().join("case.toml");
+        let case = case::Case::parse(text, &path, folder.path()).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
+        let estimate = asperity::study::estimate(&case, &bodies).unwrap();
+        let warnings = [estimate.warnings, estimate.foreseen].concat();
+        let said = |part: &str| warnings.iter().any(|warning| warning.contains(part));
+        assert_eq!(said("steady rolling of a rough surface"), is_rough, "{warnings:?}");
+        assert!(!said("not flattened before"), "{warnings:?}");
     }
 }
 

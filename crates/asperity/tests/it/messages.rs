@@ -52,6 +52,66 @@ fn no_message_of_the_library_speaks_of_keys_or_arguments() {
     assert!(found.is_empty(), "\n{}", found.join("\n"));
 }
 
+/// A literal that goes on in the next line without a backslash keeps the blanks that the line begins with.
+#[test]
+fn no_message_has_two_blanks_in_a_row() {
+    let mut found = Vec::new();
+    let mut lines_seen = 0;
+    for program in ["asperity", "asperity-cli", "asperity-python", "asperity-mpi"] {
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(program).join("src");
+        if !source.is_dir() {
+            continue;
+        }
+        for file in files(&source) {
+            // Headers of files have columns.
+            if file.components().any(|part| part.as_os_str() == "formats") {
+                continue;
+            }
+            let text = fs::read_to_string(&file).unwrap();
+            for literal in literals(before_tests(&text)) {
+                let lines = joined(&literal);
+                lines_seen += lines.len();
+                let wrong = lines.iter().filter(|line| has_gap(line));
+                found.extend(wrong.map(|line| format!("{}: {line}", file.display())));
+            }
+        }
+    }
+    assert!(lines_seen > 1000, "only {lines_seen} lines: are they still read rightly?");
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+/// The lines of a literal as they are printed.
+fn joined(literal: &str) -> Vec<String> {
+    let mut parts = literal.split("\\\n");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let text = parts.fold(first, |text, part| text + part.trim_start());
+    text.replace("\\n", "\n").lines().map(|line| line.trim().to_owned()).collect()
+}
+
+/// Whether a line of prose has two blanks in a row. Columns of a table may: a word or two, or a number, before the next one.
+fn has_gap(line: &str) -> bool {
+    let Some(at) = line.find("  ") else { return false };
+    let (before, after) = (&line[..at], line[at..].trim_start());
+    let of_table = before.ends_with(|c: char| c.is_ascii_digit() || c == '}');
+    let begins_a_word = after.starts_with(char::is_alphanumeric);
+    before.split_whitespace().count() > 2 || (begins_a_word && !of_table)
+}
+
+#[test]
+fn a_gap_in_prose_is_told_from_a_column() {
+    for line in ["some 4 %      at a tenth", "a load  below", "give it one  {unit}", "it has {n}  cells"] {
+        assert!(has_gap(line), "{line}");
+    }
+    for line in
+        ["load          {}", "0    done", "{sizes}   order", "one blank only", "contact area  {:.4} %"]
+    {
+        assert!(!has_gap(line), "{line}");
+    }
+    let broken = "some 4 % \\\n             at a tenth\\n  in a table";
+    assert_eq!(joined(broken), ["some 4 % at a tenth", "in a table"]);
+    assert_eq!(joined("some 4 %\n             at a tenth").len(), 2);
+}
+
 fn speaks_of_a_case(literal: &str) -> bool {
     let assigned = |key: &&str| {
         literal

@@ -232,3 +232,111 @@ fn a_sphere_rolls_at_the_price_of_some_increments() {
         }
     }
 }
+
+/// The energy that leaves is what force, moment and pressure give; what the cells' slip takes comes to it as the cells become small.
+#[test]
+fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
+    let radius = 0.3;
+    let scale = 0.3 * radius;
+    let creepage = |x, y| Creep::Creepage([x * scale, y * scale]);
+    let free = Creep::Force([0.0, 0.0]);
+    #[rustfmt::skip]
+    let cases = [
+        ([1.82, 1.82], 0.3, creepage(1.0, 0.0), 0.0),
+        ([1.82, 1.82], 0.3, creepage(0.0, -0.8), 0.0),
+        ([1.82, 1.82], 0.3, creepage(0.3, 0.4), 0.6),
+        ([1.0, 30.0], 0.3, creepage(0.5, -0.6), -0.4),
+        ([1.0, 30.0], 0.02, free, 0.0),
+    ];
+    for (young, coefficient, creep, spin) in cases {
+        let pair = pair(young);
+        let what = format!("{young:?} {creep:?} {spin}");
+        let [coarse, fine] = [16, 32].map(|n| {
+            let (grid, gap) = sphere(n, 1.0);
+            let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
+            let mut contact = Contact {
+                operator: operator.as_mut(),
+                gap: &gap,
+                bounds: Bounds::ELASTIC,
+                friction: Friction::coulomb(coefficient).unwrap(),
+                normal: Control::Load(hertz(radius) * pair.modulus()),
+            };
+            let rolled = contact.steady(Rolling { creep, spin }, &Params::default().with_tolerance(1e-8));
+            let RollingSolution { contact, creepage, dissipation, .. } = &rolled;
+            let given: f64 = creepage.iter().zip(contact.force()).map(|(xi, force)| xi * force).sum();
+            // Pressure works on the gap that moves on with the contact.
+            let u = &contact.normal.displacement;
+            let gradient = Field::from_shape_fn(grid.shape, |(i, j)| {
+                0.5 * (u[[(i + 1).min(n - 1), j]] - u[[i.max(1) - 1, j]])
+            });
+            let resisted = -grid.cell_area() * (&contact.normal.pressure * &gradient).sum();
+            let given = (given + spin * contact.moment()) * grid.pitch[0];
+            [*dissipation, rolled.slip_work(), given, resisted].map(|energy| n as f64 * energy)
+        });
+        let missing = [coarse, fine].map(|[dissipation, slip_work, ..]| 1.0 - slip_work / dissipation);
+        assert!(coarse[0] > 0.0 && (fine[0] / coarse[0] - 1.0).abs() < 0.1, "{what}: {coarse:?} {fine:?}");
+        assert!(missing[1].abs() < 0.65 * missing[0].abs() && missing[1].abs() < 0.1, "{what}: {missing:?}");
+        for [dissipation, _, given, resisted] in [coarse, fine] {
+            let error = (given + resisted - dissipation).abs() / dissipation;
+            assert!(error < 1e-6, "{what}: {dissipation:e} {given:e} {resisted:e}");
+            let share = (resisted / dissipation).abs();
+            assert!(if young[0] == young[1] { share < 1e-6 } else { share > 0.03 }, "{what}: {share:e}");
+        }
+    }
+}
+
+/// What slips without end gives all that friction takes, up to the step from cell to cell of a shear that no longer changes.
+#[test]
+fn in_gross_sliding_all_energy_goes_into_slip() {
+    let (grid, gap) = sphere(12, 1.0);
+    let pair = pair([1.82, 1.82]);
+    let load = hertz(0.3);
+    let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
+    let mut contact = Contact {
+        operator: operator.as_mut(),
+        gap: &gap,
+        bounds: Bounds::ELASTIC,
+        friction: Friction::coulomb(0.3).unwrap(),
+        normal: Control::Load(load),
+    };
+    let creepage = 3e3;
+    let rolling = Rolling { creep: Creep::Creepage([0.6 * creepage, -0.8 * creepage]), spin: 0.0 };
+    let rolled = contact.steady(rolling, &Params::default());
+    let taken = 0.3 * load * creepage * grid.pitch[0];
+    assert!((rolled.dissipation / taken - 1.0).abs() < 1e-6, "{:e} {taken:e}", rolled.dissipation);
+    assert!((rolled.slip_work() / taken - 1.0).abs() < 1e-3, "{:e} {taken:e}", rolled.slip_work());
+}
+
+/// On a grid of one column nothing strains along the rolling: all cells slip as the creepage says.
+#[test]
+fn a_single_column_slides_whatever_the_creepage() {
+    let pair = pair([1.0, 30.0]);
+    for boundary in [Boundary::PERIODIC, Boundary::FREE] {
+        let grid = Grid::new([1, 8], [1.0, 1.0]).unwrap();
+        let gap = Field::from_shape_fn(grid.shape, |(_, j)| 1e-3 * (0.7 * j as f64).sin());
+        let load = 8e-4;
+        for creepage in [[1e-4, 1e-4], [1e-9, -3e-9], [-2.0, 0.0]] {
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let mut contact = Contact {
+                operator: operator.as_mut(),
+                gap: &gap,
+                bounds: Bounds::ELASTIC,
+                friction: Friction::coulomb(0.3).unwrap().with_coupling(Coupling::Goodman),
+                normal: Control::Load(load),
+            };
+            let creep = Creep::Creepage(creepage);
+            let rolled = contact.steady(Rolling { creep, spin: 0.0 }, &Params::default());
+            let size = creepage[0].hypot(creepage[1]);
+            for (force, xi) in rolled.contact.force().into_iter().zip(creepage) {
+                assert!(
+                    (force / (0.3 * load) - xi / size).abs() < 1e-9,
+                    "{boundary:?} {creepage:?}: {force}"
+                );
+            }
+            for energy in [rolled.dissipation, rolled.slip_work()] {
+                assert!((energy / (0.3 * load * size) - 1.0).abs() < 1e-9, "{boundary:?} {creepage:?}");
+            }
+            assert!(rolled.contact.normal.stats.convolutions < 30.0);
+        }
+    }
+}

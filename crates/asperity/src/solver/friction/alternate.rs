@@ -59,7 +59,8 @@ impl Start {
     }
 }
 
-/// Solves one increment. The bounds `unsheared` are those of cells without shear, in sliding those that the shear leaves.
+/// Solves one increment. The bounds `unsheared` are those of cells without shear, in sliding those that the shear leaves. Where it finds
+/// no answer it adds its cost to that of what has `failed`.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
@@ -70,8 +71,8 @@ pub(super) fn alternate(
     start: Start,
     params: &Params,
     watch: &dyn Watch,
+    failed: &mut Stats,
 ) -> Result<FrictionalSolution> {
-    let shape = initial_gap.raw_dim();
     let slides = matches!(loading.tangential, Tangential::Sliding(_));
     let grows_junctions = friction.grows_junctions(unsheared.upper().min()) && !slides;
     let mut increment = Increment {
@@ -82,74 +83,17 @@ pub(super) fn alternate(
         loading,
         history: start.history,
         params,
-        watch: &Within(watch),
+        watch,
+        within: &Within(watch),
         unsheared: &unsheared,
         shear_method: None,
         stats: Stats::default(),
     };
-    let mut pressure = start.pressure;
-    let mut bounds = start.bounds.unwrap_or_else(|| unsheared.clone());
-    let mut shear_displacement =
-        start.shear.as_ref().and_then(|shear| increment.bodies.normal_displacement(shear));
-    let mut shear = start.shear.unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
-    let mut combined = pressure.as_ref().and_then(|pressure| increment.combined_bounds(pressure, &shear));
-    let alternates = increment.bodies.shear_displaces_normally() || grows_junctions;
-    let mut tolerance = if alternates {
-        FIRST_TOLERANCE.max(MIN_TOLERANCE_SHARE * params.tolerance)
-    } else {
-        params.tolerance
-    };
-    let (mut last, mut relaxation, mut tightening) = (f64::INFINITY, 1.0, 1.0);
-    for _ in 0..MAX_ROUNDS {
-        let mut normal = increment.solve_normal_problem(
-            shear_displacement.as_ref(),
-            pressure.as_ref(),
-            combined,
-            &mut bounds,
-            tolerance,
-        )?;
-        let start_met_tolerance = normal.stats.iterations == 0;
-        let limit = shear_limits(&friction, unsheared.upper(), grows_junctions, &normal.pressure);
-        let answer = increment.solve_tangential_problem(&normal, &limit, &shear, tolerance)?;
-        shear = answer.shear;
-        let assumed = shear_displacement;
-        shear_displacement = increment.bodies.normal_displacement(&shear);
-        if let Some(u) = &shear_displacement {
-            normal.displacement += u;
-        }
-        combined = increment.combined_bounds(&normal.pressure, &shear);
-        if alternates {
-            let state = increment.residual(&normal, combined.as_ref().unwrap_or(&bounds));
-            (normal.residual, normal.approach) = (state.eta, state.approach);
-        }
-        normal.residual = normal.residual.max(answer.residual);
-        watch.iteration(normal.residual, params.tolerance);
-        if normal.residual <= params.tolerance {
-            return Ok(increment.finish(normal, bounds, limit, shear, answer.rigid));
-        }
-        let reached = normal.residual;
-        relaxation = if reached < last {
-            f64::min(RELAXATION_GROWTH * relaxation, 1.0)
-        } else {
-            f64::max(RELAXATION_REDUCTION * relaxation, MIN_RELAXATION)
-        };
-        if start_met_tolerance && (reached > SLOW_CONTRACTION * last || !grows_junctions) {
-            // The normal problem has accepted its start, by a share of its own displacement, which may be much more than what
-            // the shear leaves of it.
-            tightening *= TOLERANCE_REDUCTION;
-        }
-        last = reached;
-        if let (Some(u), Some(assumed)) = (&mut shear_displacement, assumed) {
-            *u = &assumed + relaxation * (&*u - &assumed);
-        }
-        tolerance = tightening
-            * (TOLERANCE_REDUCTION * reached)
-                .min(FIRST_TOLERANCE)
-                .max(MIN_TOLERANCE_SHARE * params.tolerance);
-        pressure = Some(normal.pressure);
+    let solution = increment.alternate(start.pressure, start.bounds, start.shear);
+    if solution.is_err() {
+        *failed = failed.and(&increment.cost());
     }
-    let (iterations, tolerance) = (increment.stats.iterations, params.tolerance);
-    Err(Error::NotConverged { iterations, residual: last, tolerance })
+    solution
 }
 
 /// An increment of the loading: what stays the same from round to round, and what the rounds have cost.
@@ -165,11 +109,96 @@ struct Increment<'a> {
     history: History,
     params: &'a Params,
     watch: &'a dyn Watch,
+    /// The same watch within a round.
+    within: &'a dyn Watch,
     shear_method: Option<Box<dyn Method>>,
     stats: Stats,
 }
 
 impl Increment<'_> {
+    /// Solves the two problems in turn, from a pressure within these bounds and a shear, if they are known.
+    fn alternate(
+        &mut self,
+        mut pressure: Option<Field>,
+        bounds: Option<Bounds>,
+        shear: Option<[Field; 2]>,
+    ) -> Result<FrictionalSolution> {
+        let (params, unsheared) = (self.params, self.unsheared);
+        let mut bounds = bounds.unwrap_or_else(|| unsheared.clone());
+        let mut shear_displacement = shear.as_ref().and_then(|shear| self.bodies.normal_displacement(shear));
+        let shape = self.initial_gap.raw_dim();
+        let mut shear = shear.unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
+        let mut combined = pressure.as_ref().and_then(|pressure| self.combined_bounds(pressure, &shear));
+        let alternates = self.bodies.shear_displaces_normally() || self.grows_junctions;
+        let mut tolerance = if alternates {
+            FIRST_TOLERANCE.max(MIN_TOLERANCE_SHARE * params.tolerance)
+        } else {
+            params.tolerance
+        };
+        let (mut last, mut relaxation, mut tightening) = (f64::INFINITY, 1.0, 1.0);
+        for _ in 0..MAX_ROUNDS {
+            let mut normal = self.solve_normal_problem(
+                shear_displacement.as_ref(),
+                pressure.as_ref(),
+                combined,
+                &mut bounds,
+                tolerance,
+            )?;
+            let start_met_tolerance = normal.stats.iterations == 0;
+            let limit =
+                shear_limits(&self.friction, unsheared.upper(), self.grows_junctions, &normal.pressure);
+            let answer = self.solve_tangential_problem(&normal, &limit, &shear, tolerance)?;
+            shear = answer.shear;
+            let assumed = shear_displacement;
+            shear_displacement = self.bodies.normal_displacement(&shear);
+            if let Some(u) = &shear_displacement {
+                normal.displacement += u;
+            }
+            combined = self.combined_bounds(&normal.pressure, &shear);
+            if alternates {
+                let state = self.residual(&normal, combined.as_ref().unwrap_or(&bounds));
+                (normal.residual, normal.approach) = (state.eta, state.approach);
+            }
+            normal.residual = normal.residual.max(answer.residual);
+            self.watch.iteration(normal.residual, params.tolerance);
+            if normal.residual <= params.tolerance {
+                return Ok(self.finish(normal, bounds, limit, shear, answer.rigid));
+            }
+            let reached = normal.residual;
+            relaxation = if reached < last {
+                f64::min(RELAXATION_GROWTH * relaxation, 1.0)
+            } else {
+                f64::max(RELAXATION_REDUCTION * relaxation, MIN_RELAXATION)
+            };
+            if start_met_tolerance && (reached > SLOW_CONTRACTION * last || !self.grows_junctions) {
+                // The normal problem has accepted its start, by a share of its own displacement, which may be much more than what
+                // the shear leaves of it.
+                tightening *= TOLERANCE_REDUCTION;
+            }
+            last = reached;
+            if let (Some(u), Some(assumed)) = (&mut shear_displacement, assumed) {
+                *u = &assumed + relaxation * (&*u - &assumed);
+            }
+            tolerance = tightening
+                * (TOLERANCE_REDUCTION * reached)
+                    .min(FIRST_TOLERANCE)
+                    .max(MIN_TOLERANCE_SHARE * params.tolerance);
+            pressure = Some(normal.pressure);
+        }
+        let (iterations, tolerance) = (self.stats.iterations, params.tolerance);
+        Err(Error::NotConverged { iterations, residual: last, tolerance })
+    }
+
+    /// The cost so far.
+    fn cost(&self) -> Stats {
+        let mut stats = self.stats;
+        stats.convolutions += self.bodies.convolutions;
+        match &self.shear_method {
+            Some(method) => stats.and(method.stats()),
+            None => stats,
+        }
+    }
+
     /// The bounds of a `pressure` beside a `shear`, where junctions grow.
     fn combined_bounds(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Bounds> {
         self.grows_junctions.then(|| bounds_under_shear(&self.friction, self.unsheared, pressure, shear))
@@ -207,7 +236,7 @@ impl Increment<'_> {
             self.loading.normal,
             start.as_deref(),
             &params,
-            self.watch,
+            self.within,
         )?;
         self.stats = self.stats.and(&solution.stats);
         Ok(solution)
@@ -233,7 +262,7 @@ impl Increment<'_> {
         let scale = shear_scale(normal, limit, self.bodies.operator);
         let solver = self.shear_method.get_or_insert_with(|| method(&self.history, self.bodies.operator));
         let task = Task { limit, free_slip: &free_slip, control, scale, tolerance };
-        solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.watch)
+        solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.within)
     }
 
     /// How far the pressure is from equilibrium beside the shear that it has led to.
@@ -254,7 +283,7 @@ impl Increment<'_> {
     }
 
     fn finish(
-        mut self,
+        &mut self,
         mut normal: Solution,
         bounds: Bounds,
         shear_limit: Field,
@@ -264,11 +293,7 @@ impl Increment<'_> {
         let displacement = self.bodies.displacement(&shear, &normal.pressure);
         normal.initial_gap.assign(self.initial_gap);
         normal.bounds = bounds;
-        normal.stats = self.stats;
-        normal.stats.convolutions += self.bodies.convolutions;
-        if let Some(method) = &self.shear_method {
-            normal.stats = normal.stats.and(method.stats());
-        }
+        normal.stats = self.cost();
         let (slip, stick) = match self.loading.tangential {
             Tangential::Sliding(_) => {
                 let none = || Field::zeros(shear_limit.raw_dim());

@@ -20,7 +20,7 @@ impl Bodies<'_> {
     }
 
     /// Whether pressure displaces the surface tangentially.
-    fn pressure_displaces_tangentially(&self) -> bool {
+    pub(super) fn pressure_displaces_tangentially(&self) -> bool {
         self.coupling.pressure_displaces_tangentially(self.operator.couples())
     }
 

@@ -16,7 +16,7 @@ pub use rolling::{Creep, Rolling, RollingSolution, solve_rolling};
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
-use crate::solver::{Bounds, Control, Params, Solution, Watch};
+use crate::solver::{Bounds, Control, Params, Solution, Stats, Watch};
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
 
 pub(crate) use alternate::Start;
@@ -185,10 +185,12 @@ pub(crate) fn solve_frictional_watched(
     watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
     let start = before.map_or_else(Start::default, Start::after);
-    solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, params, watch)
+    let failed = &mut Stats::default();
+    solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
 }
 
-/// As [`solve_frictional`], from what is known of the contact before it, while somebody looks on.
+/// As [`solve_frictional`], from what is known of the contact before it, while somebody looks on. Where it finds no answer it adds its
+/// cost to that of what has `failed`.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(crate) fn solve_frictional_from(
     operator: &mut dyn CoupledOperator,
@@ -199,6 +201,7 @@ pub(crate) fn solve_frictional_from(
     start: Start,
     params: &Params,
     watch: &dyn Watch,
+    failed: &mut Stats,
 ) -> Result<FrictionalSolution> {
     let friction = friction.checked()?;
     validate(&loading.tangential)?;
@@ -206,7 +209,7 @@ pub(crate) fn solve_frictional_from(
         Tangential::Sliding(_) => friction.sliding_bounds(bounds),
         _ => bounds.clone(),
     };
-    alternate(operator, initial_gap, bounds, friction, loading, start, params, watch)
+    alternate(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
 }
 
 /// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
@@ -224,7 +227,8 @@ pub(crate) fn solve_sliding(
 ) -> Result<FrictionalSolution> {
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
-    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch)
+    let failed = &mut Stats::default();
+    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch, failed)
 }
 
 /// Whether what is prescribed in the plane has a meaning.
@@ -243,8 +247,10 @@ fn validate(tangential: &Tangential) -> Result<()> {
     }
 }
 
-/// The displacement c of a cell per unit shear on itself, in the mean of the directions.
+/// The displacement c of a cell per unit shear on itself, in the mean of the directions, m/Pa.
 fn self_compliance(operator: &dyn CoupledOperator) -> f64 {
     let influence = operator.self_influence();
-    0.5 * (influence.xx + influence.yy)
+    let compliance = 0.5 * (influence.xx + influence.yy);
+    // A periodic contact of one cell does not deform: any number will do by which a slip exceeds all shear.
+    if compliance > 0.0 { compliance } else { 1e-40 }
 }

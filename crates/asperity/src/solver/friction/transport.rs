@@ -23,6 +23,17 @@ pub(crate) struct Passage {
     pub(super) ahead: Ahead,
     /// What the spin turns the upper body by meanwhile, m.
     pub(super) turn: [Field; 2],
+    /// The method by which the steady state is found.
+    pub(super) method: SteadyMethod,
+}
+
+/// A method by which the steady state of rolling bodies is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SteadyMethod {
+    /// Newton's iteration.
+    Newton,
+    /// The proximal point method: slower, but it converges where Newton's iteration does not.
+    ProximalPoint,
 }
 
 impl Passage {

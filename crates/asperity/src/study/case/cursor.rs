@@ -224,10 +224,12 @@ impl<'a> Entry<'a> {
         self.number_or_infinite(|value| value.is_finite() && good(value), expected)
     }
 
-    /// A number without a unit, of any magnitude: a constant whose unit has no name.
-    pub(super) fn number_of_any_size(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
-        let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?;
-        if value.is_finite() && good(value) { Ok(value) } else { Err(self.unexpected(expected, None)) }
+    /// A number of a magnitude within `range`, of a constant whose unit has no name; 0 only if `zero`.
+    pub(super) fn number_within(&self, range: units::Range, zero: bool) -> Result<f64> {
+        let expected = format!("{}a magnitude of {range}", if zero { "0, or " } else { "" });
+        let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(&expected)))?;
+        let good = range.holds(value) || (zero && value == 0.0);
+        if good { Ok(value) } else { Err(self.unexpected(&expected, None)) }
     }
 
     /// A number without a unit, or infinity.
@@ -274,6 +276,27 @@ impl<'a> Entry<'a> {
             return Err(self.unexpected(&expectation(dimension, " above 0"), None));
         }
         if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
+    }
+
+    /// A finite quantity of a magnitude within `range`; 0 only if `zero`. The hint has the `example`.
+    pub(super) fn within(
+        &self,
+        dimension: Dimension,
+        range: units::Range,
+        zero: bool,
+        example: &str,
+    ) -> Result<f64> {
+        let value = if zero { self.quantity(dimension)? } else { self.positive(dimension)? };
+        if range.holds(value) || (zero && value == 0.0) {
+            return Ok(value);
+        }
+        let without_unit = matches!(self.value, DeValue::Integer(_) | DeValue::Float(_));
+        let (key, unit) = (self.key(), range.unit);
+        let hint = without_unit.then(|| {
+            format!("a number without a unit is in {unit}; with one it is for example `{key} = {example}`")
+        });
+        let expected = format!("{}a magnitude of {range}", if zero { "0, or " } else { "" });
+        Err(self.unexpected(&expected, hint))
     }
 
     /// What a 1 stands for: a unit by its name, or a quantity above 0.

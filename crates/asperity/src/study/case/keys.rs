@@ -4,6 +4,26 @@ use super::cursor::Table;
 use super::document::join;
 use crate::error::Result;
 
+/// The tables and keys of the root of a case file.
+pub(in crate::study) const ROOT: [&str; 13] = [
+    "title",
+    "lower",
+    "upper",
+    "contact",
+    "friction",
+    "history",
+    "motion",
+    "sliding",
+    "acceleration",
+    "temperature",
+    "plasticity",
+    "subsurface",
+    "output",
+];
+
+/// The keys of a study file that a case file has not.
+const OF_A_STUDY: [&str; 5] = ["base", "axes", "table", "exclude", "stale_after"];
+
 /// The keys of each table, to tell where a misplaced one belongs.
 const TABLES: [(&str, &[&str]); 19] = [
     (
@@ -172,7 +192,7 @@ pub(super) fn known_in(table: &Table<'_>) -> Result<()> {
 }
 
 /// A key that is known in another table.
-pub(super) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
+pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
     let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
     let topography = || {
         let known = PREPARATION.contains(&key) || SOURCES.iter().any(|(_, keys)| keys.contains(&key));
@@ -181,8 +201,18 @@ pub(super) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)
         (known && !table.ends_with("topography")).then(|| join(body, "topography"))
     };
     let owners = TABLES.iter().filter(|(name, keys)| *name != table && keys.contains(&key));
-    let owner = owners.map(|(name, _)| (*name).to_owned()).next().or_else(topography)?;
-    Some((format!("unknown key '{key}' {here}"), Some(format!("`{key}` belongs in [{owner}]"))))
+    let owner = owners.map(|(name, _)| (*name).to_owned()).next().or_else(topography);
+    let hint = match owner {
+        Some(owner) => format!("`{key}` belongs in [{owner}]"),
+        None if key == "title" => "`title` stands above all tables".to_owned(),
+        None if key == "history" => "stages stand by themselves: [[history]]".to_owned(),
+        None if ROOT.contains(&key) => format!("the table stands by itself: [{key}]"),
+        None if table.is_empty() && OF_A_STUDY.contains(&key) => {
+            "this is a study: `asperity study` computes it".to_owned()
+        }
+        None => return None,
+    };
+    Some((format!("unknown key '{key}' {here}"), Some(hint)))
 }
 
 /// An error if a key belongs to another kind of topography.

@@ -7,7 +7,7 @@ pub(in crate::study) mod cursor;
 pub(in crate::study) mod document;
 mod friction;
 mod hardness;
-mod keys;
+pub(in crate::study) mod keys;
 mod parse;
 mod plasticity;
 mod prescribed;

@@ -6,7 +6,7 @@ use super::cursor::{Entry, Table};
 use super::document::Document;
 use super::friction::friction;
 use super::hardness::hardness;
-use super::keys::{belongs, known_in, known_of_topographies, suits};
+use super::keys::{ROOT, belongs, known_in, known_of_topographies, suits};
 use super::plasticity::{self, PlasticitySpec};
 use super::prescribed::prescribed;
 use super::running;
@@ -49,22 +49,6 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    /// The tables and keys of the root of a case file.
-    const ROOT: [&str; 13] = [
-        "title",
-        "lower",
-        "upper",
-        "contact",
-        "friction",
-        "history",
-        "motion",
-        "sliding",
-        "acceleration",
-        "temperature",
-        "plasticity",
-        "subsurface",
-        "output",
-    ];
     root.known(&ROOT, |key| belongs(key, ""))?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),

@@ -8,7 +8,8 @@ use super::{Body, Boundary, Case, CounterBody, Hardness, MotionSpec, SlidingSpec
 use crate::choice::{Choice, choice};
 use crate::error::Result;
 use crate::motion::{
-    Acceleration, Film, FilmLaw, FilmStress, Films, InPlace, Pair, PlasticUpdate, Simulation, Strategy, Wear,
+    ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, Acceleration, Film, FilmLaw, FilmStress, Films, GROWTH_FACTORS,
+    GROWTH_TEMPERATURES, InPlace, Pair, PlasticUpdate, REMOVAL_RATES, Simulation, Strategy, Wear,
     WearCoefficient,
 };
 use crate::temperature::Thermal;
@@ -137,19 +138,36 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
         let value = entry.quantity(dimension)?;
         if value >= 0.0 { Ok(value) } else { Err(entry.unexpected("a value of at least 0", None)) }
     };
-    let number = |key: &str, example: &str, least: bool| {
-        let good = move |value: f64| if least { value >= 0.0 } else { value > 0.0 };
-        table
-            .required(key, example)?
-            .number_of_any_size(good, if least { "a number of at least 0" } else { "a number above 0" })
+    let within = |key: &str, example: &str, dimension, range, zero| {
+        table.required(key, example)?.within(dimension, range, zero, example)
     };
+    let number =
+        |key: &str, example: &str, range, zero| table.required(key, example)?.number_within(range, zero);
     let law = match law {
         LawKind::Arrhenius => FilmLaw::Arrhenius {
             rate: positive("rate", "\"20 nm/s\"", Dimension::Speed)?,
-            at_temperature: positive("at_temperature", "\"100 °C\"", Dimension::Temperature)?,
+            at_temperature: within(
+                "at_temperature",
+                "\"100 °C\"",
+                Dimension::Temperature,
+                GROWTH_TEMPERATURES,
+                false,
+            )?,
             at_stress: from_0("at_stress", "\"3 GPa\"", Dimension::Pressure)?,
-            activation_energy: from_0("activation_energy", "\"0.8 eV\"", Dimension::Energy)?,
-            activation_volume: from_0("activation_volume", "\"3.8e-3 nm3\"", Dimension::Volume)?,
+            activation_energy: within(
+                "activation_energy",
+                "\"0.8 eV\"",
+                Dimension::Energy,
+                ACTIVATION_ENERGIES,
+                true,
+            )?,
+            activation_volume: within(
+                "activation_volume",
+                "\"3.8e-3 nm3\"",
+                Dimension::Volume,
+                ACTIVATION_VOLUMES,
+                true,
+            )?,
             stress: table.choice_or("stress", FilmStress::Pressure)?,
             removal: table
                 .get("removal")
@@ -160,7 +178,11 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
             if c3 > max_thickness {
                 return Err(table.required("c3", "")?.unexpected("no more than 'max_thickness'", None));
             }
-            FilmLaw::MechanoChemical { x: number("x", "1e-16", false)?, c3, c4: number("c4", "0.01", true)? }
+            FilmLaw::MechanoChemical {
+                x: number("x", "1e-16", GROWTH_FACTORS, false)?,
+                c3,
+                c4: number("c4", "0.01", REMOVAL_RATES, true)?,
+            }
         }
     };
     let hardness = match table.get("hardness") {

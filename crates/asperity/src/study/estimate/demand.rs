@@ -5,7 +5,7 @@ use web_time::Instant;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::material::Compliances;
-use crate::motion::{PlasticUpdate, Point, memory_together};
+use crate::motion::{PlasticUpdate, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Control, Coupling, Friction, Method, Sliding};
 use crate::study::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source};
@@ -28,8 +28,16 @@ pub struct Demand {
     pub results: f64,
     /// The most at any time.
     pub memory: f64,
-    /// The work, in the time that an iteration takes for a cell and a binary digit of their number: about a nanosecond.
+    /// Passes that are computed, the others extrapolated; 1 of a contact at rest.
+    pub passes: f64,
+    /// Convolutions of all contacts together, those on coarser grids by their share of cells; none of bodies that flow below their
+    /// surfaces.
+    pub convolutions: f64,
+    /// The work of solving and writing, in the time that an iteration takes for a cell and a binary digit of their number: about a
+    /// nanosecond.
     pub effort: f64,
+    /// The work of the figures and the page, in the same unit.
+    pub drawing: f64,
 }
 
 /// What `case` takes on so many `threads`. Of files only the size is looked at; nothing is made.
@@ -41,7 +49,7 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
     let surfaces = sizes.surfaces();
-    let Memory { solver, together, results } = sizes.memory();
+    let Memory { solver, together, results, volumes } = sizes.memory();
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
     let memory = PROGRAM
         + match case.motion {
@@ -51,19 +59,28 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
                 surfaces.making.max(surfaces.kept + solvers.max(results)).max(drawn)
             }
             Some(_) => {
-                let working = (solvers + results).max(together + solver);
-                PICTURES + ANIMATION + surfaces.making.max(surfaces.kept + working)
+                let working = (solvers + results - volumes).max(together + solver);
+                let drawing = PICTURES + ANIMATION + surfaces.making.max(surfaces.kept + working);
+                // What bodies flow in is large, and is gone before something is drawn.
+                drawing.max(surfaces.kept + working + volumes)
             }
         };
-    let effort = sizes.effort(threads);
-    Ok(Demand { surfaces: surfaces.making.max(surfaces.kept), solver, together, results, memory, effort })
+    let (convolutions, solving) = sizes.solving(threads);
+    let effort = solving + sizes.writing();
+    let drawing = sizes.drawing(threads);
+    let surfaces = surfaces.making.max(surfaces.kept);
+    let passes = case.motion.map_or(1.0, |motion| sizes.computed_passes(motion.passes));
+    Ok(Demand { surfaces, solver, together, results, memory, passes, convolutions, effort, drawing })
 }
 
 impl Demand {
-    /// The time of the whole run without figures on this machine as it is now, which some convolutions tell in a few
-    /// milliseconds: right within a factor of three where the contact is an ordinary one.
-    pub fn time(&self) -> Second {
-        self.effort * unit_of_effort()
+    /// Estimates the time of solving and writing, and that of figures and page, on this machine as it is now.
+    ///
+    /// The time of some convolutions is measured, in a few milliseconds. The sum is right within a factor of 1.5 for the examples, and
+    /// of three where the contact is an ordinary one.
+    pub fn times(&self) -> [Second; 2] {
+        let unit = unit_of_effort();
+        [self.effort * unit, self.drawing * unit]
     }
 
     /// An error if it takes more memory than there is, in bytes.
@@ -106,6 +123,8 @@ struct Memory {
     together: f64,
     /// Memory of the results until they are written.
     results: f64,
+    /// What of it are the volumes of bodies that flow below their surfaces.
+    volumes: f64,
 }
 
 impl Sizes<'_> {
@@ -192,7 +211,7 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        Memory { solver, together, results: NUMBER * results + volumes }
+        Memory { solver, together, results: NUMBER * results + volumes, volumes }
     }
 
     /// Columns that face each other at the positions that are solved.
@@ -253,7 +272,6 @@ impl Sizes<'_> {
         })
     }
 
-    /// The work, in units of a cell times the binary logarithm of the cells of its contact.
     /// How many of so many passes are computed, about: as many as stability and the deepest wear of a jump want.
     fn computed_passes(&self, passes: usize) -> f64 {
         /// Depth that the cell which wears the most loses, over the mean.
@@ -280,65 +298,75 @@ impl Sizes<'_> {
         passes.min(passes / jump + jump.log2())
     }
 
-    fn effort(&self, threads: usize) -> f64 {
+    /// Convolutions of all contacts, and the work of solving them with all that is computed beside, in units of a cell times the
+    /// binary logarithm of the cells of its contact.
+    fn solving(&self, threads: usize) -> (f64, f64) {
         let case = self.case;
-        let ny = self.lower.shape[1] as f64;
+        let [nx, ny] = self.facing();
         let work = |columns: f64| columns * ny * (columns * ny).max(2.0).log2();
         let boundary: f64 =
             case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
+        let digits = (0.3 - 0.7 * case.contact.tolerance.log10() / 6.0).max(0.4);
+        // A larger grid takes some more.
+        let size = (nx * ny / LARGE).max(1.0).powf(GROWTH);
+        let together = |works: usize| (threads.clamp(1, works.max(1)) as f64).powf(EFFICIENCY);
         let method = match case.contact.method {
             Method::PolonskyKeer => 10.0,
             _ => 1.0,
         };
-        let digits = (-case.contact.tolerance.log10() / 6.0).max(0.3);
-        let normal = SOLVE * boundary * method * digits;
         let all: f64 = self.solved().iter().map(|columns| work(*columns as f64)).sum();
-        let mut effort = match (case.motion, &case.friction) {
+        // Convolutions of each contact, and their work with that of the iteration around them.
+        let of = |cost: Cost, contacts: f64| {
+            let convolutions = contacts * cost.convolutions * digits;
+            [convolutions, boundary * cost.work * convolutions * all]
+        };
+        let normal = Cost { convolutions: method * size * NORMAL.convolutions, ..NORMAL };
+        let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
+        let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
+        let [convolutions, mut effort] = match (case.motion, &case.friction) {
             (Some(motion), _) => {
                 let searches = match (motion.control, motion.plastic_update) {
                     (ControlKind::PassLoad, PlasticUpdate::Step) => 5.0,
-                    (ControlKind::PassLoad, PlasticUpdate::Pass) => 1.3,
                     _ => 1.0,
                 };
-                let sliding = if self.is_coupled() { 8.0 } else { 1.0 };
-                let at_once = threads.clamp(1, self.solved().len().max(1)) as f64;
-                self.computed_passes(motion.passes) * searches * sliding * normal * all / at_once.powf(0.85)
+                let positions = self.solved().len();
+                let passes = self.computed_passes(motion.passes);
+                let mut cost = if self.is_coupled() { SLIDING } else { normal };
+                // Later passes start from the pressures of the one before.
+                cost.convolutions *= WARM + (1.0 - WARM) / passes.max(1.0);
+                let [convolutions, effort] = of(cost, passes * searches);
+                let effort = effort + POSITION * passes * positions as f64;
+                let beside = passes * self.running(motion.passes);
+                [convolutions * positions as f64, effort / together(positions) + beside]
             }
             (None, _) if case.sliding.is_some() => {
                 let updates = case.sliding.map_or(0, |sliding| sliding.updates) as f64;
-                (2.0 + updates) * normal * all
+                of(normal, 2.0 + updates)
             }
-            (None, friction) => {
-                let [nx, ny] = self.facing();
-                match case.loading_path(nx * ny * self.lower.cell_area()) {
-                    Some(LoadingPath::Rolling(_)) => ROLLING * boundary * digits * all,
-                    Some(LoadingPath::Stages(stages)) => {
-                        let increments: usize = stages.iter().map(|stage| stage.increments).sum();
-                        let unlike =
-                            self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
-                        let shear = friction.as_ref().map_or(0.0, |friction| match friction.law.coupling {
-                            Coupling::Full | Coupling::Goodman if unlike => SHEAR,
-                            _ => SHEAR_ALIKE,
-                        });
-                        increments as f64 * (normal + shear * boundary * digits) * all
-                    }
-                    Some(LoadingPath::Sweep(points)) => {
-                        let point = |point: &Point| match point.rolling {
-                            Some(_) => ROLLING * boundary * digits,
-                            None => normal,
-                        };
-                        let stiffness = STIFFNESS * boundary * digits * points.len() as f64;
-                        (points.iter().map(point).sum::<f64>() + stiffness) * all
-                    }
-                    None => normal * all,
+            (None, friction) => match case.loading_path(nx * ny * self.lower.cell_area()) {
+                Some(LoadingPath::Rolling(_)) => of(rolling, 1.0),
+                Some(LoadingPath::Stages(stages)) => {
+                    let increments = stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
+                    let shear = match friction.as_ref().map(|friction| friction.law.coupling) {
+                        Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
+                        Some(_) => SHEAR,
+                        None => normal,
+                    };
+                    of(shear, increments)
                 }
-            }
+                Some(LoadingPath::Sweep(points)) => {
+                    let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
+                    let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
+                    let stiffness = STIFFNESS * boundary * digits * points.len() as f64 * all;
+                    [a[0] + b[0], a[1] + b[1] + stiffness]
+                }
+                None => of(normal, 1.0),
+            },
         };
         if let Some(spec) = &case.subsurface {
-            let [nx, _] = self.facing();
-            let tractions = if case.friction.is_some() { 2.0 } else { 1.0 };
             let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
-            effort += passes * STRESS * tractions * (spec.layers + spec.planes.len()) as f64 * work(nx);
+            let planes = spec.layers + spec.planes.len();
+            effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
         }
         // A fresh counter-body is made for each pass.
         let times = match case.motion {
@@ -346,28 +374,141 @@ impl Sizes<'_> {
             _ => [1.0; 2],
         };
         let made = self.making().into_iter().zip(times);
-        effort
-            + self.flow(threads)
-            + MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>()
+        let making =
+            MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>();
+        (convolutions, effort + self.flow(threads) + making)
+    }
+
+    /// The work of films and flash temperatures in a computed pass.
+    fn running(&self, passes: usize) -> f64 {
+        let films = [&self.case.lower, &self.case.upper].iter().filter(|body| body.film.is_some()).count();
+        let heated = match self.case.temperature {
+            Some(spec) if spec.every > 0 => 1.0 / spec.every.min(passes.max(1)) as f64,
+            _ => 0.0,
+        };
+        let cells = self.solved().iter().sum::<usize>() as f64 * self.facing()[1];
+        cells * (FILM * films as f64 + HEAT * heated)
+    }
+
+    /// Cells of the two bodies together.
+    fn cells(&self) -> f64 {
+        [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64).iter().sum()
+    }
+
+    /// Positions of a pass whose pressures are kept, and their cells.
+    fn kept(&self) -> [f64; 2] {
+        match self.case.output.pressure_every {
+            0 => [0.0; 2],
+            every => {
+                let kept = self.overlaps.iter().step_by(every);
+                [kept.len() as f64, kept.sum::<usize>() as f64 * self.lower.shape[1] as f64]
+            }
+        }
+    }
+
+    /// The work of writing fields.
+    fn writing(&self) -> f64 {
+        let case = self.case;
+        let bodies = [&case.lower, &case.upper];
+        let of_body = |body: &&Body| if body.film.is_some() { 3.0 } else { 2.0 };
+        let [fields, cells] = match case.motion {
+            Some(motion) => {
+                let shear = if case.friction.is_some() { 2.0 } else { 1.0 };
+                let kept = self.kept().map(|kept| shear * kept);
+                let heat = if case.temperature.is_some() { 2.0 } else { 0.0 };
+                let of_bodies = bodies.iter().map(of_body).sum::<f64>() + heat;
+                let pass = [kept[0] + of_bodies, kept[1] + 0.5 * of_bodies * self.cells()];
+                pass.map(|of_pass| self.computed_passes(motion.passes) * of_pass)
+            }
+            None => {
+                let fields = if case.friction.is_some() { 12.0 } else { 6.0 };
+                [fields, fields * self.facing().iter().product::<f64>()]
+            }
+        };
+        FIELD * fields + WRITTEN * cells
+    }
+
+    /// The work of figures and page.
+    fn drawing(&self, threads: usize) -> f64 {
+        let case = self.case;
+        let bodies = [&case.lower, &case.upper];
+        let any = |has: fn(&Body) -> bool| f64::from(bodies.into_iter().any(has));
+        let [wears, film] = [any(|body| body.wear.is_some()), any(|body| body.film.is_some())];
+        let given = |there: bool| f64::from(there);
+        let mut figures = match case.motion {
+            Some(_) => 19.0 + given(case.friction.is_some()) + given(case.temperature.is_some()),
+            None => 9.0 + if case.friction.is_some() { 4.0 } else { 0.0 },
+        };
+        figures += wears + film + 2.0 * wears.max(film) + given(case.subsurface.is_some());
+        figures += 2.0 * given(case.plasticity.is_some()) + given(case.is_swept());
+        let [frames, kept, cells] = match case.motion {
+            Some(motion) => {
+                let [fields, cells] = self.kept();
+                let passes = self.computed_passes(motion.passes);
+                [fields, passes * fields, passes * cells]
+            }
+            None => [0.0; 3],
+        };
+        let pictures = FIGURE * figures + FRAME * frames + DRAWN_CELL * self.cells();
+        let page = SHOWN * kept + SHOWN_CELL * cells + 0.5 * DRAWN_CELL * self.cells();
+        START + (pictures + page) / (threads.clamp(1, 4) as f64).powf(EFFICIENCY)
     }
 }
 
-// Each measured (docs/performance.md), in the unit of effort: some 17 to 25 convolutions, each with what the iteration
-// does besides.
-/// A normal contact, free, to 10⁻⁶.
-const SOLVE: f64 = 28.0;
-/// An increment with friction, of dissimilar bodies.
-const SHEAR: f64 = 450.0;
-/// The work of an increment with friction of identical bodies, whose pressure is known without the shear.
-const SHEAR_ALIKE: f64 = 150.0;
-/// Steady rolling.
-const ROLLING: f64 = 25_000.0;
-/// The stiffness of a contact.
+/// The cost of a contact.
+#[derive(Clone, Copy)]
+struct Cost {
+    /// Convolutions to 10⁻⁶, of few cells.
+    convolutions: f64,
+    /// The work of one, with that of the iteration around it, free, in the unit of effort.
+    work: f64,
+}
+
+// Each measured (docs/performance.md).
+/// A normal contact.
+const NORMAL: Cost = Cost { convolutions: 15.8, work: 2.2 };
+/// A contact whose shear displaces the surface normally, sliding.
+const SLIDING: Cost = Cost { convolutions: 36.0, work: 6.5 };
+/// An increment with friction of identical bodies, whose pressure is known without the shear.
+const SHEAR: Cost = Cost { convolutions: 24.0, work: 7.0 };
+/// An increment with friction of dissimilar bodies.
+const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
+/// Steady rolling of identical bodies.
+const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
+/// Steady rolling of dissimilar bodies.
+const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
+/// Convolutions of a pass over those of the first.
+const WARM: f64 = 0.8;
+/// Cells from which on a contact takes more convolutions, and the power of their number by which it does.
+const LARGE: f64 = 16384.0;
+const GROWTH: f64 = 0.09;
+/// A position beside its contact.
+const POSITION: f64 = 3.7e5;
+/// The stiffness of a contact, in the unit of effort for each cell and binary digit.
 const STIFFNESS: f64 = 12.0;
-/// The stress on a plane.
-const STRESS: f64 = 35.0;
-/// A surface: read or made, prepared, its figures for the estimate.
+/// The stress on a plane, likewise.
+const STRESS: f64 = 120.0;
+/// A surface: read or made, prepared, its figures for the estimate, likewise.
 const MAKING: f64 = 6.0;
+/// The growth of a film on a cell of a body at a position, in the unit of effort.
+const FILM: f64 = 380.0;
+/// The flash temperature of a cell at a position.
+const HEAT: f64 = 90.0;
+/// A field that is written, and each of its cells.
+const FIELD: f64 = 4e5;
+const WRITTEN: f64 = 110.0;
+/// A figure, and a picture of an animation.
+const FIGURE: f64 = 3.4e7;
+const FRAME: f64 = 1.4e7;
+/// A cell of a body in the figures.
+const DRAWN_CELL: f64 = 450.0;
+/// A pressure field on the page, and each of its cells.
+const SHOWN: f64 = 4e5;
+const SHOWN_CELL: f64 = 190.0;
+/// The start and the end of the program.
+const START: f64 = 2.5e7;
+/// The power of the number of threads by which work that is shared out is sooner done.
+const EFFICIENCY: f64 = 0.85;
 
 /// Seconds for a cell and a bit of the logarithm: the least of some convolutions, on this machine as it is now.
 fn unit_of_effort() -> Second {
@@ -383,7 +524,7 @@ fn unit_of_effort() -> Second {
         operator.apply(&pressure, &mut displacement);
         began.elapsed().as_secs_f64()
     };
-    let least = std::iter::repeat_with(time).take(8).fold(f64::INFINITY, f64::min);
+    let least = std::iter::repeat_with(time).take(32).fold(f64::INFINITY, f64::min);
     let cells = (SIDE * SIDE) as f64;
     SHARE * least / (cells * cells.log2())
 }

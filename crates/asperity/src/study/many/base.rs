@@ -5,6 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use toml::Value;
 
 use super::axis::Axis;
+use super::files::NamedFile;
 use crate::error::{CaseError, Error};
 use crate::io::sha256;
 use crate::study::case::document::{Document, join};
@@ -76,6 +77,26 @@ impl Base {
         self.document.error_at(&key, error.message.clone(), error.hint.clone())
     }
 
+    /// The files that the base names.
+    pub(super) fn files(&self) -> Vec<NamedFile> {
+        let mut files = Vec::new();
+        for (key, value) in &self.table {
+            find_files(key, value, &mut |key, path| {
+                files.push(NamedFile { key, value: None, path: PathBuf::from(path) });
+            });
+        }
+        files
+    }
+
+    /// The files that a value of an axis names.
+    pub(super) fn files_of(&self, axis: &Axis, value: &Value) -> Vec<NamedFile> {
+        let mut files = Vec::new();
+        find_files(axis.key(), value, &mut |key, path| {
+            files.push(NamedFile { key, value: Some(path.to_owned()), path: self.folder.join(path) });
+        });
+        files
+    }
+
     /// Whether there is something under this dotted key.
     pub(super) fn has(&self, key: &str) -> bool {
         let mut parts = key.split('.');
@@ -113,6 +134,23 @@ fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<
             }
         }
         _ => Err(format!("'{first}' in the base is no table, so that nothing lies in it")),
+    }
+}
+
+/// Tells of each path of a file in the value of a dotted key, with the key that names it.
+fn find_files(key: &str, value: &Value, found: &mut dyn FnMut(String, &str)) {
+    match value {
+        Value::String(path) if key.rsplit('.').next() == Some("file") => found(key.to_owned(), path),
+        Value::Table(inner) => {
+            inner.iter().for_each(|(name, value)| find_files(&join(key, name), value, found))
+        }
+        Value::Array(items) => {
+            items
+                .iter()
+                .enumerate()
+                .for_each(|(n, item)| find_files(&join(key, &n.to_string()), item, found));
+        }
+        _ => {}
     }
 }
 

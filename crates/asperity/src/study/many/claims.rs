@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::name;
 use crate::error::{Error, Result};
+use crate::io::regular;
 
 /// A process that computes cases.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -230,7 +231,7 @@ struct Look {
 impl Look {
     /// Who holds a claim; none where it has gone.
     fn at(&self, path: &Path) -> io::Result<Option<Holder>> {
-        let mut file = match File::open(path) {
+        let mut file = match regular::open(path, "a claim") {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             file => file?,
         };
@@ -302,7 +303,7 @@ impl Drop for Claim {
 impl Held {
     /// Whether the file is still the one that this process has made.
     fn is_there(&self) -> bool {
-        fs::read(&self.path).is_ok_and(|content| content == self.content)
+        regular::read(&self.path, "a claim", u64::MAX).is_ok_and(|content| content == self.content)
     }
 
     /// Writes the claim again, so that it is young; it is lost once it is not there, or a later one is.

@@ -19,7 +19,8 @@ use crate::study::given::Given;
 /// over; `stop`, asked again and again, whether to stop: cases under way are then open again.
 ///
 /// # Errors
-/// [`Error::Interrupted`] where `stop` wants it; [`Error::Threads`]; [`Error::File`] where the study cannot be written to.
+/// [`Error::Interrupted`] where `stop` wants it; [`Error::SurfaceChanged`] where a file of the study has changed since its plan was
+/// made; [`Error::Threads`]; [`Error::File`] where the study cannot be written to.
 pub fn compute(
     queue: &Queue<'_>,
     memory: f64,

@@ -9,11 +9,13 @@ use toml::Value;
 use super::axis::{Axis, Stated, axes};
 use super::base::Base;
 use super::filter::Exclusion;
+use super::plan::unguarded;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::study::case::MAX_CASE_BYTES;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::Document;
+use crate::study::case::keys::{self as case_keys, ROOT};
 use crate::units::Dimension;
 
 /// What a study file says.
@@ -85,11 +87,18 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
 
 /// A table of a case that stands in a study file by mistake.
 fn belongs(key: &str) -> Option<(String, Option<String>)> {
-    let of_a_case = ["lower", "upper", "contact", "friction", "motion", "history", "output", "subsurface"];
-    of_a_case.contains(&key).then(|| {
-        let hint = format!("a case that stands in the study file is its base: [base.{key}]");
-        (format!("unknown key '{key}' in the study"), Some(hint))
-    })
+    let unknown = |hint| Some((format!("unknown key '{key}' in the study"), Some(hint)));
+    if ROOT.contains(&key) {
+        return unknown(format!("a case that stands in the study file is its base: [base.{key}]"));
+    }
+    // A key of an axis, or one of a table of a case.
+    let hint = case_keys::belongs(key, "").and_then(|(_, hint)| hint);
+    match key.split_once('.').map(|(table, _)| table) {
+        Some(table) if ROOT.contains(&table) => {
+            unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`"))
+        }
+        _ => hint.and_then(|hint| unknown(format!("{hint} of the base"))),
+    }
 }
 
 /// The base: a case file, or the tables of one.
@@ -180,6 +189,7 @@ fn value(cell: &str, unit: &str) -> Option<Value> {
     if cell.is_empty() {
         return None;
     }
+    let cell = unguarded(cell);
     let parsed =
         format!("value = {cell}").parse::<toml::Table>().ok().and_then(|mut table| table.remove("value"));
     let plain = parsed.filter(|value| {

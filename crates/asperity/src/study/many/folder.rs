@@ -9,9 +9,10 @@ use std::time::SystemTime;
 use serde::{Deserialize, Serialize};
 
 use super::claims::{self, Holder, Worker};
+use super::files::Files;
 use super::plan::{Study, name};
 use crate::error::{Error, Result};
-use crate::io::atomic;
+use crate::io::{atomic, regular};
 
 /// The directory of a study.
 #[derive(Debug, Clone)]
@@ -93,7 +94,8 @@ impl Folder {
     /// A study may have grown since it was begun: cases that come after all others.
     ///
     /// # Errors
-    /// [`Error::NotThisStudy`] if there is another study, or something else; [`Error::File`].
+    /// [`Error::NotThisStudy`] if there is another study, or something else; [`Error::SurfaceChanged`] if finished cases were computed
+    /// from other contents of a file; [`Error::File`].
     pub fn enter(path: &Path, study: &Study) -> Result<Self> {
         let failed = |source| Error::File { path: path.to_owned(), source };
         let folder = Self { path: path.to_owned() };
@@ -119,6 +121,7 @@ impl Folder {
         // Of several processes that begin one study the first writes.
         atomic::create(&folder.identity_path(), &text)?;
         folder.admit(study)?;
+        Files::keep(&folder, study)?;
         Ok(folder)
     }
 
@@ -174,7 +177,7 @@ impl Folder {
     pub fn failure(&self, case: usize) -> Result<Option<String>> {
         let path = self.failure_path(case);
         let failed = |source| Error::File { path: path.clone(), source };
-        match fs::read(&path) {
+        match regular::read(&path, "the failure of a case", u64::MAX) {
             Ok(text) => {
                 let told: Failed = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
                 Ok(Some(told.message))
@@ -197,6 +200,33 @@ impl Folder {
         self.path.join("claims")
     }
 
+    /// Whether the plan that is there has cases beyond those of `study`: its file is an older one.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn has_grown(&self, study: &Study) -> Result<bool> {
+        let there = self.plan()?;
+        let is_longer = |ours: String| there.len() > ours.len() && there.starts_with(&ours);
+        Ok(is_longer(study.csv()) || is_longer(study.unguarded_csv()))
+    }
+
+    /// The plan that is there; nothing before it is written.
+    fn plan(&self) -> Result<String> {
+        let path = self.path.join("plan.csv");
+        let text = match regular::read(&path, "the plan of a study", u64::MAX) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(String::new()),
+            text => text.and_then(|text| {
+                String::from_utf8(text).map_err(|error| io::Error::new(ErrorKind::InvalidData, error))
+            }),
+        };
+        text.map_err(|source| Error::File { path, source })
+    }
+
+    /// The digests of the files that the study names.
+    pub(super) fn files_path(&self) -> PathBuf {
+        self.path.join("files.json")
+    }
+
     fn identity_path(&self) -> PathBuf {
         self.path.join("study.json")
     }
@@ -206,22 +236,21 @@ impl Folder {
         let (identity, plan) = (self.identity_path(), self.path.join("plan.csv"));
         let other = |what| Error::NotThisStudy { path: self.path.clone(), what };
         let failed = |path: &Path, source| Error::File { path: path.to_owned(), source };
-        let text = fs::read(&identity).map_err(|source| failed(&identity, source))?;
+        let text =
+            regular::read(&identity, "a study", u64::MAX).map_err(|source| failed(&identity, source))?;
         let known: Identity =
             serde_json::from_slice(&text).map_err(|error| failed(&identity, error.into()))?;
         if known.digest != study.digest() {
             return Err(other("holds another study: its base or the keys of its axes differ"));
         }
-        let ours = study.csv();
-        let there = match fs::read_to_string(&plan) {
-            Ok(text) => text,
-            Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
-            Err(source) => return Err(failed(&plan, source)),
-        };
-        if there.starts_with(&ours) {
+        let there = self.plan()?;
+        let (ours, before) = (study.csv(), study.unguarded_csv());
+        if there.starts_with(&ours)
+            || ours != before && there.len() > before.len() && there.starts_with(&before)
+        {
             return Ok(());
         }
-        if !ours.starts_with(&there) {
+        if !ours.starts_with(&there) && !before.starts_with(&there) {
             return Err(other("holds another study: cases of its plan have other values"));
         }
         atomic::replace(&plan, ours.as_bytes())

@@ -3,6 +3,7 @@
 //! ```text
 //! STUDY/study.json          what the study is known by
 //!       plan.csv            a row per case: its number, the values of its axes
+//!       files.json          digests of the files that the study names, as they were when the plan was made
 //!       cases/0001/         case.toml and the results of a run, made when the case is claimed
 //!       cases/0002/failed.json    in place of results: why there are none
 //!       claims/0003-1       a case under way: who computes it, written again and again
@@ -16,6 +17,7 @@ mod base; // the case that all others are made of
 mod claims; // who computes which case
 mod compute; // computing what is left, case beside case
 mod file; // the study file
+mod files; // what the files held that it names
 mod filter; // cases that are left out
 mod folder; // what is there of a study
 mod plan; // which values each case has

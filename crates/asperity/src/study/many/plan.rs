@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::axis::Axis;
 use super::file::{self, StudyFile};
+use super::files::NamedFile;
 use crate::error::{CaseError, Error, Result};
 use crate::io::sha256;
 use crate::study::case::Case;
@@ -104,8 +105,18 @@ impl Study {
             .map_err(|(axis, message)| self.error_at(case, axis, &message, None))
     }
 
-    /// The plan as a table: a row per case, its number, the values of its axes.
+    /// The plan as a table: a row per case, its number, the values of its axes. A text that a spreadsheet would take for a formula
+    /// begins with an apostrophe.
     pub fn csv(&self) -> String {
+        self.csv_with(quoted)
+    }
+
+    /// The plan as versions wrote it that guarded no text.
+    pub(super) fn unguarded_csv(&self) -> String {
+        self.csv_with(in_quotes)
+    }
+
+    fn csv_with(&self, quoted: impl Fn(&str) -> String) -> String {
         let cells: Vec<Vec<String>> = self
             .axes()
             .iter()
@@ -124,6 +135,27 @@ impl Study {
             csv.push('\n');
         }
         csv
+    }
+
+    /// The files that the study names, in the base and on its axes.
+    pub(super) fn files(&self) -> Vec<NamedFile> {
+        let base = &self.file.base;
+        let of_axes = self
+            .axes()
+            .iter()
+            .flat_map(|axis| (0..axis.len()).flat_map(move |index| base.files_of(axis, axis.value(index))));
+        base.files().into_iter().chain(of_axes).collect()
+    }
+
+    /// The files that a case names, from 1.
+    pub(super) fn files_of(&self, case: usize) -> Vec<NamedFile> {
+        let base = &self.file.base;
+        let mut files = base.files();
+        for (axis, index) in self.axes().iter().zip(self.indices(case)) {
+            files.retain(|file| file.key != axis.key() && !beneath(&file.key, axis.key()));
+            files.extend(base.files_of(axis, axis.value(*index as usize)));
+        }
+        files
     }
 
     /// What all cases share, by its digest.
@@ -180,8 +212,6 @@ impl Study {
 
     /// A mistake of a case at the place of the study that it comes from: the value of an axis, or the base.
     fn located(&self, case: usize, error: &CaseError) -> Error {
-        let beneath =
-            |key: &str, table: &str| key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'));
         let of_axis = |axis: &Axis| {
             let (axis, key) = (axis.key(), error.key.as_str());
             axis == key || beneath(key, axis) || beneath(axis, key) && !self.file.base.has(key)
@@ -204,13 +234,34 @@ impl Study {
     }
 }
 
+/// Whether a dotted key lies in a table.
+fn beneath(key: &str, table: &str) -> bool {
+    key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
+}
+
 /// The name of the folder of a case, from 1.
 pub(super) fn name(case: usize) -> String {
     format!("{case:04}")
 }
 
-/// A cell of a table of values separated by commas.
+/// What a spreadsheet takes for the beginning of a formula.
+const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
+
+/// A cell of a table of values separated by commas. A text that begins as a formula, which a spreadsheet would compute, has an
+/// apostrophe before it; a number has none.
 pub(super) fn quoted(text: &str) -> String {
+    match text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
+        true => in_quotes(&format!("'{text}")),
+        false => in_quotes(text),
+    }
+}
+
+/// The text of a cell without the apostrophe that guards it.
+pub(super) fn unguarded(cell: &str) -> &str {
+    cell.strip_prefix('\'').filter(|text| text.starts_with(FORMULAS)).unwrap_or(cell)
+}
+
+fn in_quotes(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

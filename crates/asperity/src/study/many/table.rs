@@ -14,7 +14,8 @@ use super::plan::{Study, name, quoted};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
-use crate::study::results::Results;
+use crate::study::columns::unit_of_column;
+use crate::study::results::{NO_LOCKS, Results};
 use crate::study::summary::{Outcome, Summary};
 use crate::study::tables;
 
@@ -38,7 +39,7 @@ pub struct Row {
     pub indices: Vec<u32>,
     /// The numbers of its summary, SI, by column of the table; NaN where it has none. None at all of a case that failed.
     pub numbers: Vec<f64>,
-    /// How many warnings its summary has.
+    /// How many warnings its summary has, without that of a file system that has no locks.
     pub warnings: usize,
     /// Time that the last process to compute it took; 0 of a case that failed.
     pub wall_time: f64,
@@ -143,17 +144,19 @@ impl Table {
                 file.add_series(name, unit, "case", 1.0, 1.0, &values);
             }
         };
-        add("case", "", &|row| row.case as f64);
-        add("done", "", &|row| f64::from(u8::from(row.failure.is_none())));
+        add("case", "1", &|row| row.case as f64);
+        add("done", "1", &|row| f64::from(u8::from(row.failure.is_none())));
         for (n, axis) in self.axes.iter().enumerate() {
-            add(axis.key(), &axis.unit(), &|row| {
+            // The index of a text has no unit, a pure number has 1.
+            let unit =
+                if axis.numbers().is_some() && axis.unit().is_empty() { "1".to_owned() } else { axis.unit() };
+            add(axis.key(), &unit, &|row| {
                 let index = row.indices[n] as usize;
                 axis.numbers().map_or(index as f64, |numbers| numbers[index])
             });
         }
         for (n, column) in self.columns.iter().enumerate() {
-            let unit = tables::dimension(column).map(|dimension| dimension.si()).unwrap_or_default();
-            add(column, &unit, &|row| row.numbers[n]);
+            add(column, unit_of_column(column).unwrap_or_default(), &|row| row.numbers[n]);
         }
         for axis in self.axes.iter().filter(|axis| axis.numbers().is_none()) {
             let words: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
@@ -194,7 +197,9 @@ fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
     }
     match Results::open(&folder.case(case)).and_then(|results| results.summary()) {
         Ok(summary) => {
-            let (warnings, wall_time) = (summary.warnings.len(), summary.wall_time_s);
+            let wall_time = summary.wall_time_s;
+            // A table does not depend on where it was computed.
+            let warnings = summary.warnings.iter().filter(|warning| *warning != NO_LOCKS).count();
             Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }))
         }
         Err(Error::File { source, .. }) if is_damage(&source) => {

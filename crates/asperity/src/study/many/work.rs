@@ -8,10 +8,11 @@ use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
 use super::claims::{Attempt, Claim, Claims, Worker};
+use super::files::Files;
 use super::folder::{Failed, Folder};
 use super::plan::Study;
 use crate::error::{Error, Result};
-use crate::io::atomic;
+use crate::io::{atomic, regular};
 use crate::motion::{PassRecord, Progress, SweepRecord, UpdateRecord, Watch};
 use crate::study::case::Case;
 use crate::study::given::Given;
@@ -47,6 +48,8 @@ pub struct Queue<'s> {
     next: AtomicUsize,
     /// Cases that were claimed by others when it was their turn.
     others: Mutex<Vec<usize>>,
+    /// What the files of the study held when its plan was made.
+    files: Files,
     /// Failures of before this time are open again.
     retry_before: Option<SystemTime>,
 }
@@ -92,6 +95,7 @@ impl<'s> Queue<'s> {
             next: AtomicUsize::new(0),
             others: Mutex::default(),
             retry_before,
+            files: Files::read(&folder.files_path())?.unwrap_or_default(),
         };
         let cases = (1..=study.len()).filter(|case| task.has(*case) && !queue.is_over(*case)).collect();
         Ok(Self { cases, ..queue })
@@ -170,7 +174,12 @@ impl Turn<'_> {
         let path = folder.join(CASE_FILE);
         let text = self.queue.study.case_file(self.case, Some(&folder))?;
         // Nobody else writes it, and half of it, after a power cut, is written again.
-        if fs::read_to_string(&path).ok().as_deref() != Some(&text) {
+        let there = match path.exists() {
+            true => regular::read(&path, "a case file", u64::MAX)
+                .map_err(|source| Error::File { path: path.clone(), source })?,
+            false => Vec::new(),
+        };
+        if there != text.as_bytes() {
             fs::write(&path, &text).map_err(|source| Error::File { path: path.clone(), source })?;
         }
         Case::load(&path)
@@ -180,8 +189,9 @@ impl Turn<'_> {
     /// `admit` may refuse it once it is known.
     ///
     /// # Errors
-    /// [`Error::Interrupted`] where `watch` asks for it; [`Error::File`] where the study cannot be written to. Of neither is
-    /// anything kept: the case is open again.
+    /// [`Error::Interrupted`] where `watch` asks for it; [`Error::SurfaceChanged`] where a file of the study is no longer the one that
+    /// its plan was made with; [`Error::File`] where the study cannot be written to. Nothing of these is
+    /// kept: the case is open again.
     pub fn compute<T>(self, admit: impl FnOnce(&Case) -> Result<T>, watch: &dyn Watch) -> Result<Computed> {
         let folder = self.queue.folder.case(self.case);
         let failure = self.queue.folder.failure_path(self.case);
@@ -190,7 +200,9 @@ impl Turn<'_> {
             // Of an earlier attempt.
             let _ = fs::remove_file(&failure);
             let _admitted = admit(&case)?;
-            let go = |existing| run(&case, Given::default(), &folder, existing, &watch).map(drop);
+            let pinned = self.queue.files.pinned(self.queue.folder, self.queue.study, self.case);
+            let given = Given { pinned: Some(pinned), ..Given::default() };
+            let go = |existing| run(&case, given.clone(), &folder, existing, &watch).map(drop);
             match go(Existing::Resume) {
                 Err(Error::NotResumable { .. } | Error::OtherCase { .. } | Error::SurfaceChanged { .. }) => {
                     go(Existing::Overwrite)
@@ -218,6 +230,8 @@ impl Turn<'_> {
 fn is_of_the_place(error: &Error, study: &Path) -> bool {
     match error {
         Error::Interrupted => true,
+        // A table would have rows of both contents.
+        Error::SurfaceChanged { path, .. } => path == study,
         Error::File { path, source } => {
             let full = [
                 ErrorKind::StorageFull,

@@ -35,7 +35,7 @@ pub(in crate::study) struct SlabBody {
 /// As of [`super::bodies`]; [`crate::Error::TooManyRanks`].
 pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
     let specs = [&case.lower.topography, &case.upper.topography];
-    if !specs.into_iter().all(by_slabs) {
+    if !specs.into_iter().all(made_by_slabs) {
         let Bodies { lower, upper } = bodies(case, Given::default())?;
         let slab = Slab::new(ranks, *upper.topography.grid())?;
         let bodies = [cut(lower, &slab)?, cut(upper, &slab)?];
@@ -49,7 +49,7 @@ pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Resul
 }
 
 /// Whether each rank makes its rows of a topography alone.
-fn by_slabs(spec: &TopographySpec) -> bool {
+pub(in crate::study) fn made_by_slabs(spec: &TopographySpec) -> bool {
     let source = match &spec.source {
         Source::Generate { generate, .. } => generate.makes_slabs(),
         Source::Form { .. } => true,

@@ -10,14 +10,15 @@ use std::time::Duration;
 use serde_json::Value;
 use web_time::Instant;
 
-use super::Results;
+use super::{Results, has_every_position};
 use crate::error::{Error, Result};
-use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
-use crate::motion::{StepRecord, SweepRecord};
+use crate::io::{atomic, regular};
+use crate::motion::SweepRecord;
 use crate::study::case::Keep;
 use crate::study::identity;
 use crate::study::sweep::is_kept;
+use crate::study::tables;
 
 /// What to do about results that are there already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,10 +47,17 @@ const LOCK: &str = ".lock";
 /// How long a run waits for another one to end.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// What is to be known of results on a file system without locks.
+pub(in crate::study) const NO_LOCKS: &str =
+    "the file system of the results has no locks: a second run in their directory would go unnoticed";
+
 impl Lock {
     fn acquire(directory: &Path) -> Result<Self> {
         let path = directory.join(LOCK);
         let failed = |source| Error::File { path: path.clone(), source };
+        if path.exists() {
+            regular::check(&path, "a file to be locked").map_err(failed)?;
+        }
         let file = File::options().write(true).create(true).truncate(false).open(&path).map_err(failed)?;
         let began = Instant::now();
         loop {
@@ -65,9 +73,7 @@ impl Lock {
 
     /// What the user should know where nothing is locked.
     pub(super) fn warning(&self) -> Option<&'static str> {
-        self.held.is_none().then_some(
-            "the file system of the results has no locks: a second run in their directory would go unnoticed",
-        )
+        self.held.is_none().then_some(NO_LOCKS)
     }
 }
 
@@ -157,11 +163,11 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
             return Ok(Kept::Increments);
         }
     }
-    let points = results.sweep()?;
+    let points = results.points_there()?;
     if !points.is_empty() {
         return kept_points(results, case, &identity, &points);
     }
-    let passes = results.passes()?;
+    let passes = results.passes_there()?;
     if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
         let path = results.passes_path();
         return Err(Error::NotResumable { path, reason: "does not number its passes 1, 2, 3 …" });
@@ -173,10 +179,13 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     if !steps.exists() {
         return Err(Error::NotResumable { path: steps, reason: "is missing" });
     }
-    if !is_whole(&results.steps()?, passes.len()) {
+    let mut positions = tables::read_steps(&steps)?;
+    positions.retain(|step| step.pass <= passes.len());
+    if !has_every_position(&positions, passes.len()) {
         let reason = "does not have every position of the finished passes";
         return Err(Error::NotResumable { path: steps, reason });
     }
+    unlike_summary(results, &passes, &results.passes_path())?;
     for pass in 0..=passes.len() {
         whole(&results.fields_path(pass), &identity, Some(pass))?;
         if pass > 0 && case.get("subsurface").is_some() {
@@ -198,6 +207,8 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     if wanted.is_some_and(|wanted| wanted > passes.len() as u64) {
         whole(&results.warm_start_path(passes.len()), &identity, Some(passes.len()))?;
     }
+    let digest = tables::digest_of_passes(&passes, &positions);
+    same_rows(&results.warm_start_path(passes.len()), &digest, &results.passes_path())?;
     Ok(Kept::Passes(passes.len()))
 }
 
@@ -207,18 +218,13 @@ fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepR
         let path = results.sweep_path();
         return Err(Error::NotResumable { path, reason: "does not number its points 1, 2, 3 …" });
     }
+    unlike_summary(results, points, &results.sweep_path())?;
+    same_points(results, points)?;
     let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
     for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
         whole(&results.point_path(point), identity, None)?;
     }
     Ok(Kept::Points)
-}
-
-/// Whether each pass has the same positions.
-fn is_whole(steps: &[StepRecord], passes: usize) -> bool {
-    let positions = steps.len() / passes;
-    let expected = (1..=passes).flat_map(|pass| (1..=positions).map(move |step| (pass, step)));
-    positions > 0 && steps.iter().map(|step| (step.pass, step.step)).eq(expected)
 }
 
 /// An error unless `path` holds the undamaged fields of that run, of a motion those of that pass.
@@ -236,6 +242,55 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
         return refused("is of another pass");
     }
     fields.verify()
+}
+
+/// What is wrong with a table whose rows are not those that were written.
+pub(in crate::study) const ALTERED: &str = "has been changed since it was written";
+
+/// Name of the attribute of a state with the digest of the rows that it stands for.
+pub(in crate::study) const ROWS: &str = "rows";
+
+/// An error if the state at `path` was written with rows of another digest; `table` has them, and it or a table beside it was
+/// changed since. States of earlier versions have no digest.
+fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
+    // One that is needed was read in full; another is not missed.
+    let Ok(attributes) = Fields::open(path).and_then(|fields| fields.attributes()) else { return Ok(()) };
+    match attributes.get(ROWS) {
+        Some(written) if *written != Attribute::from(digest) => {
+            Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An error if a point is not the one that was written.
+fn same_points(results: &Results, points: &[SweepRecord]) -> Result<()> {
+    let path = results.sweep_state_path();
+    if !path.exists() {
+        return Ok(());
+    }
+    let failed = |source| Error::File { path: path.clone(), source };
+    let text = regular::read(&path, "the state of a sweep", u64::MAX).map_err(failed)?;
+    let written: Vec<String> = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
+    let now = points.iter().map(|point| tables::digest("", std::slice::from_ref(point)));
+    // The state is written before the row: it may have one more.
+    if written.len() < points.len() || now.zip(&written).any(|(now, written)| now != *written) {
+        return Err(Error::NotResumable { path: results.sweep_path(), reason: ALTERED });
+    }
+    Ok(())
+}
+
+/// An error if a row of a table is not the one that the summary has, where all was done.
+fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Path) -> Result<()> {
+    // Without a summary that can be read it is made anew.
+    let Ok(summary) = results.summary() else { return Ok(()) };
+    let told = serde_json::to_value(&summary.outcome).expect("a record is JSON");
+    let told = told.as_object().and_then(|outcome| outcome.values().next()).and_then(Value::as_array);
+    let differs = |(told, row): (&Value, &T)| *told != serde_json::to_value(row).expect("a record is JSON");
+    match told.is_some_and(|told| told.iter().zip(rows).any(differs)) {
+        true => Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED }),
+        false => Ok(()),
+    }
 }
 
 /// Removes what an earlier computation left but what is kept, of passes in which bodies flow their volumes as told, and nothing else.

@@ -14,6 +14,7 @@
 //!     fields/update-state.h5      what the next update goes on from, until all is done
 //!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
+//!     fields/sweep-state.json     digests of the rows of a sweep, until all is done
 //!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
 //!     plasticity.h5        what has flowed below the surfaces of bodies that do
@@ -35,19 +36,22 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-pub(super) use entry::CASE_FILE;
 pub use entry::Existing;
+pub(super) use entry::{ALTERED, CASE_FILE, NO_LOCKS, ROWS};
 pub(super) use write::add_bodies;
 pub use write::{PassWriter, Writer};
+
+use serde_json::Value;
 
 use super::{summary, tables, warm_start};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
+use crate::io::regular;
 use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart};
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
-use crate::study::summary::Summary;
+use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 
 /// A results directory, to be read.
@@ -78,11 +82,15 @@ impl Results {
     /// The case as resolved.
     ///
     /// # Errors
-    /// [`Error::File`].
-    pub fn case(&self) -> Result<serde_json::Value> {
+    /// [`Error::File`], also where the file holds no case.
+    pub fn case(&self) -> Result<Value> {
         let path = self.case_path();
-        let text = fs::read(&path).map_err(|source| self.failed(&path, source))?;
-        serde_json::from_slice(&text).map_err(|error| self.failed(&path, error.into()))
+        let text = regular::read(&path, "a case", u64::MAX).map_err(|source| self.failed(&path, source))?;
+        let case: Value = serde_json::from_slice(&text).map_err(|error| self.failed(&path, error.into()))?;
+        match defect_of_case(&case) {
+            None => Ok(case),
+            Some(defect) => Err(self.damaged(&path, defect)),
+        }
     }
 
     /// The summary, which is there once all is done.
@@ -96,8 +104,18 @@ impl Results {
     /// The finished passes; none where nothing moved yet.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::File`], also where the summary has more or fewer.
     pub fn passes(&self) -> Result<Vec<PassRecord>> {
+        let passes = self.passes_there()?;
+        self.agree(&self.passes_path(), passes.len(), |summary| match &summary.outcome {
+            Outcome::Passes(passes) => Some(passes.len()),
+            _ => None,
+        })?;
+        Ok(passes)
+    }
+
+    /// The rows of the table of passes, whatever the summary says.
+    pub(super) fn passes_there(&self) -> Result<Vec<PassRecord>> {
         let path = self.passes_path();
         if path.exists() { tables::read_passes(&path) } else { Ok(Vec::new()) }
     }
@@ -105,12 +123,19 @@ impl Results {
     /// The positions of the finished passes.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::File`], also where a pass has not all of its positions.
     pub fn steps(&self) -> Result<Vec<StepRecord>> {
         let path = self.steps_path();
         let finished = self.passes()?.len();
-        let steps = if path.exists() { tables::read_steps(&path)? } else { Vec::new() };
-        Ok(steps.into_iter().filter(|step| step.pass <= finished).collect())
+        if finished == 0 {
+            return Ok(Vec::new());
+        }
+        let mut steps = tables::read_steps(&path)?;
+        steps.retain(|step| step.pass <= finished);
+        match has_every_position(&steps, finished) {
+            true => Ok(steps),
+            false => Err(self.damaged(&path, "it does not have every position of the finished passes")),
+        }
     }
 
     /// The fields of a motion after so many passes, 0 for those before the first.
@@ -132,28 +157,55 @@ impl Results {
     /// The increments of a static contact that was loaded in stages; none of other contacts.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::File`], also where a finished contact that was loaded in stages has none.
     pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
         let path = self.increments_path();
-        if path.exists() { tables::read_increments(&path) } else { Ok(Vec::new()) }
+        let increments = if path.exists() { tables::read_increments(&path)? } else { Vec::new() };
+        if increments.is_empty() && self.summary_path().exists() && was_loaded_in_stages(&self.summary()?) {
+            return Err(self.incomplete(&path));
+        }
+        Ok(increments)
     }
 
     /// The updates of a contact that slides in place, the first before it slides; none of other contacts.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::File`], also where the summary has more or fewer.
     pub fn updates(&self) -> Result<Vec<UpdateRecord>> {
         let path = self.updates_path();
-        if path.exists() { tables::read_updates(&path) } else { Ok(Vec::new()) }
+        let updates = if path.exists() { tables::read_updates(&path)? } else { Vec::new() };
+        self.agree(&path, updates.len(), |summary| Some(summary.sliding.as_ref()?.update + 1))?;
+        Ok(updates)
     }
 
     /// The points of a sweep that are done; none of other contacts.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::File`], also where the summary has more or fewer.
     pub fn sweep(&self) -> Result<Vec<SweepRecord>> {
+        let points = self.points_there()?;
+        self.agree(&self.sweep_path(), points.len(), |summary| match &summary.outcome {
+            Outcome::Sweep(points) => Some(points.len()),
+            _ => None,
+        })?;
+        Ok(points)
+    }
+
+    /// The rows of the table of a sweep, whatever the summary says.
+    pub(super) fn points_there(&self) -> Result<Vec<SweepRecord>> {
         let path = self.sweep_path();
         if path.exists() { tables::read_sweep(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// An error unless the table at `path` has so many `rows` as the summary tells, where there is one and it does.
+    fn agree(&self, path: &Path, rows: usize, told: impl Fn(&Summary) -> Option<usize>) -> Result<()> {
+        if !self.summary_path().exists() {
+            return Ok(());
+        }
+        match told(&self.summary()?) {
+            Some(told) if told != rows => Err(self.incomplete(path)),
+            _ => Ok(()),
+        }
     }
 
     /// The fields kept of a point, from 1, of a sweep.
@@ -255,6 +307,11 @@ impl Results {
         self.directory.join("sweep.csv")
     }
 
+    /// What a sweep under way has written, by digests.
+    pub(super) fn sweep_state_path(&self) -> PathBuf {
+        self.fields_folder().join("sweep-state.json")
+    }
+
     pub(super) fn point_path(&self, point: usize) -> PathBuf {
         self.fields_folder().join(format!("point-{point:04}.h5"))
     }
@@ -300,6 +357,12 @@ impl Results {
         self.remove(state)?;
         let _ = state.parent().map(fs::remove_dir);
         Ok(())
+    }
+
+    /// Removes what a sweep under way has kept of its rows.
+    pub(super) fn forget_sweep(&self) -> Result<()> {
+        let state = self.sweep_state_path();
+        if state.exists() { self.remove_state(&state) } else { Ok(()) }
     }
 
     /// What has flowed below the surfaces: of a static contact, or after the pass, from 1, of a motion.
@@ -358,6 +421,56 @@ impl Results {
     fn failed(&self, path: &Path, source: std::io::Error) -> Error {
         Error::File { path: path.to_owned(), source }
     }
+
+    fn damaged(&self, path: &Path, what: &str) -> Error {
+        self.failed(path, std::io::Error::new(ErrorKind::InvalidData, what))
+    }
+
+    /// A table that is not there, or has other rows than the summary.
+    fn incomplete(&self, path: &Path) -> Error {
+        match path.exists() {
+            true => self.damaged(path, "it is damaged: its rows are not those in summary.json"),
+            false => self.failed(path, std::io::Error::new(ErrorKind::NotFound, "is missing")),
+        }
+    }
+}
+
+/// What keeps a JSON value from being a case, as far as the readers of results ask for it; none of a case.
+fn defect_of_case(case: &Value) -> Option<&'static str> {
+    let Some(case) = case.as_object() else { return Some("holds no case, expected an object") };
+    let is_text = |key: &str| case.get(key).is_none_or(Value::is_string);
+    let is_table = |key: &str| case.get(key).is_none_or(|table| table.is_object() || table.is_null());
+    match case.get("motion") {
+        _ if !is_text("title") => Some("holds no case: 'title' is no text"),
+        _ if !is_text("identity") => Some("holds no case: 'identity' is no text"),
+        None | Some(Value::Null) => {
+            let tables =
+                ["lower", "upper", "contact", "friction", "sliding", "plasticity", "subsurface", "output"];
+            tables.into_iter().any(|key| !is_table(key)).then_some("holds no case: a table is none")
+        }
+        Some(motion) => {
+            let passes = motion.get("passes").and_then(Value::as_u64);
+            passes
+                .is_none_or(|passes| passes == 0)
+                .then_some("holds no case: the number of passes is missing")
+        }
+    }
+}
+
+/// Whether the summary is that of a contact with a row for each increment of its loading.
+fn was_loaded_in_stages(summary: &Summary) -> bool {
+    let Outcome::Static(record) = &summary.outcome else { return false };
+    let has_history =
+        summary.case.get("history").and_then(Value::as_array).is_some_and(|stages| !stages.is_empty());
+    let rubs = record.shear.as_ref().is_some_and(|shear| shear.creepage.is_none());
+    summary.sliding.is_none() && (record.flow.is_some() || rubs || has_history)
+}
+
+/// Whether so many passes have the same positions each.
+pub(super) fn has_every_position(steps: &[StepRecord], passes: usize) -> bool {
+    let positions = steps.len() / passes;
+    let expected = (1..=passes).flat_map(|pass| (1..=positions).map(move |step| (pass, step)));
+    positions > 0 && steps.iter().map(|step| (step.pass, step.step)).eq(expected)
 }
 
 /// The bodies, by the names of the fields of their heights.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::entry::{self, Existing, Kept, Lock};
+use super::entry::{self, Existing, Kept, Lock, ROWS};
 use super::{
     BODIES, Results, cap_name, depths_attribute, pressure_name, state_name, states_attribute,
     temperature_name, tensor_name, traction_name,
@@ -28,6 +28,7 @@ use crate::study::sweep::SweepWriter;
 use crate::study::tables::GrowingTable;
 use crate::study::{identity, summary, tables, warm_start};
 use crate::subsurface::Tractions;
+use crate::units::Pascal;
 
 /// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
 #[derive(Debug)]
@@ -155,7 +156,7 @@ impl Writer {
     pub fn write_initial(&self, pair: &Pair, friction: Option<&Friction>) -> Result<()> {
         let mut file = self.field_file(&self.results.fields_path(0));
         file.set("pass", 0);
-        set_caps(&mut file, pair, friction);
+        set_caps(&mut file, pair.min_hardness(), friction);
         add_bodies(&mut file, pair);
         file.write()
     }
@@ -167,9 +168,10 @@ impl Writer {
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
     pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
         let passes = self.results.passes()?;
-        let steps = self.results.steps()?.len();
+        let steps = self.results.steps()?;
         Ok(PassWriter {
-            steps: GrowingTable::open(self.results.steps_path(), steps)?,
+            digest: tables::digest_of_passes(&passes, &steps),
+            steps: GrowingTable::open(self.results.steps_path(), steps.len())?,
             passes: GrowingTable::open(self.results.passes_path(), passes.len())?,
             results: self.results.clone(),
             identity: self.identity.clone(),
@@ -212,6 +214,8 @@ pub struct PassWriter {
     identity: String,
     steps: GrowingTable,
     passes: GrowingTable,
+    /// Digest of the rows of both.
+    digest: String,
     pressure_every: usize,
     plan: Option<Plan>,
     keep: Keep,
@@ -234,7 +238,7 @@ impl Output for PassWriter {
         let results = &self.results;
         let mut file = FieldFile::of_run(&self.identity, &results.fields_path(report.record.pass));
         file.set("pass", report.record.pass);
-        set_caps(&mut file, pair, report.motion.friction.as_ref());
+        set_caps(&mut file, report.min_hardness(), report.motion.friction.as_ref());
         add_bodies(&mut file, pair);
         let [lower, upper] = report.mean_pressure();
         file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
@@ -248,8 +252,7 @@ impl Output for PassWriter {
                 if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
                     file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
                 }
-                let friction = report.motion.friction.as_ref();
-                if let CellValues::Field(cap) = pair.bounds(&contact.position, friction).upper() {
+                if let CellValues::Field(cap) = report.bounds(contact).upper() {
                     file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
                 }
                 if let Some(sliding) = report.motion.sliding(contact.position.way) {
@@ -281,11 +284,15 @@ impl Output for PassWriter {
             add_volumes(&mut file, report.flowed, report.flowed);
             file.write()?;
         }
-        let file = FieldFile::of_run(&self.identity, &results.warm_start_path(passes));
+        let record = std::slice::from_ref(report.record);
+        let digest = tables::digest(&tables::digest(&self.digest, report.steps), record);
+        let mut file = FieldFile::of_run(&self.identity, &results.warm_start_path(passes));
+        file.set(ROWS, digest.as_str());
         let grids = [pair.lower_grid(), pair.upper_grid()];
         warm_start::write(file, passes, &grids, report.warm)?;
         self.steps.add(report.steps)?;
-        self.passes.add(std::slice::from_ref(report.record))?;
+        self.passes.add(record)?;
+        self.digest = digest;
         if self.keep == Keep::Last {
             results.remove(&results.flow_path(Some(passes - 1)))?;
         }
@@ -328,8 +335,7 @@ fn layers_last(values: ndarray::ArrayView3<f64>) -> ndarray::Array3<f64> {
 }
 
 /// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
-fn set_caps(file: &mut FieldFile, pair: &Pair, friction: Option<&Friction>) {
-    let hardness = pair.min_hardness();
+fn set_caps(file: &mut FieldFile, hardness: Pascal, friction: Option<&Friction>) {
     file.set("hardness", hardness);
     file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
 }

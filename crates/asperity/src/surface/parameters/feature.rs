@@ -2,7 +2,7 @@
 
 use super::row::family;
 use crate::error::Result;
-use crate::surface::{Motif, Segmentation, Topography};
+use crate::surface::{Motif, NEVER, Segmentation, Stop, Topography};
 
 family! {
     /// Feature parameters of ISO 25178-2:2021, 5.8, from the hills and dales that Wolf pruning leaves.
@@ -60,7 +60,16 @@ impl FeatureParameters {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
     pub fn of(topography: &Topography, pruning: f64) -> Result<Self> {
-        let (hills, dales) = rayon::join(|| topography.hills(pruning), || topography.dales(pruning));
+        Self::until(topography, pruning, NEVER)
+    }
+
+    /// As [`of`](Self::of), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of); [`crate::Error::Interrupted`].
+    pub fn until(topography: &Topography, pruning: f64, stop: Stop<'_>) -> Result<Self> {
+        let (hills, dales) =
+            rayon::join(|| topography.hills_until(pruning, stop), || topography.dales_until(pruning, stop));
         let (hills, dales) = (hills?, dales?);
         let area = topography.defined() as f64 * topography.grid().cell_area();
         let datum = topography.mean();

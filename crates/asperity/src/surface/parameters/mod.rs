@@ -24,7 +24,8 @@ pub use stratified::Core;
 
 use serde::Serialize;
 
-use crate::surface::{Topography, WOLF_PRUNING};
+use crate::error::Result;
+use crate::surface::{NEVER, Stop, Topography, WOLF_PRUNING, go_on};
 use crate::units::Metre;
 
 /// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
@@ -54,13 +55,25 @@ pub struct Parameters {
 impl Parameters {
     /// The parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
-        Self {
-            height: HeightParameters::of(topography),
-            spatial: SpatialParameters::of(topography),
-            hybrid: HybridParameters::of(topography),
-            functional: FunctionalParameters::of(topography),
-            feature: FeatureParameters::of(topography, WOLF_PRUNING).expect("the pruning is a share"),
+        Self::until(topography, NEVER).expect("nobody stops it, and the pruning is a share")
+    }
+
+    /// As [`of`](Self::of), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// [`crate::Error::Interrupted`].
+    pub fn until(topography: &Topography, stop: Stop<'_>) -> Result<Self> {
+        fn made<T>(stop: Stop<'_>, of: impl FnOnce() -> T) -> Result<T> {
+            go_on(stop)?;
+            Ok(of())
         }
+        Ok(Self {
+            height: made(stop, || HeightParameters::of(topography))?,
+            spatial: made(stop, || SpatialParameters::of(topography))?,
+            hybrid: made(stop, || HybridParameters::of(topography))?,
+            functional: made(stop, || FunctionalParameters::of(topography))?,
+            feature: FeatureParameters::until(topography, WOLF_PRUNING, stop)?,
+        })
     }
 
     /// All parameters with symbols, units and meanings: what tables are printed from.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::median::median;
 use crate::error::{Result, check};
 use crate::grid::Field;
-use crate::surface::Topography;
+use crate::surface::{NEVER, Stop, Topography, go_on};
 
 /// Samples around the one judged, on each side of it along x and y: 5 × 5 in all.
 const REACH: usize = 2;
@@ -39,10 +39,18 @@ impl Topography {
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the factor is above 0.
-    pub fn despike(mut self, factor: f64) -> Result<Self> {
+    pub fn despike(self, factor: f64) -> Result<Self> {
+        self.despike_until(factor, NEVER)
+    }
+
+    /// As [`despike`](Self::despike), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// As [`despike`](Self::despike); [`crate::Error::Interrupted`].
+    pub fn despike_until(mut self, factor: f64, stop: Stop<'_>) -> Result<Self> {
         check("despike", factor, factor > 0.0 && factor.is_finite(), "a number above 0 such as 6")?;
         for stride in STRIDES {
-            let spikes = spikes(self.heights(), factor, stride);
+            let spikes = spikes(self.heights(), factor, stride, stop)?;
             spikes.into_iter().for_each(|at| self.heights_mut()[at] = f64::NAN);
         }
         Ok(self)
@@ -53,11 +61,11 @@ impl Topography {
 const SIGMA: f64 = 1.4826;
 
 /// The spikes that stand out from medians of samples so far from each other.
-fn spikes(z: &Field, factor: f64, stride: usize) -> Vec<(usize, usize)> {
-    let deviations = deviations(z, stride);
+fn spikes(z: &Field, factor: f64, stride: usize, stop: Stop<'_>) -> Result<Vec<(usize, usize)>> {
+    let deviations = deviations(z, stride, stop)?;
     let mut sizes: Vec<f64> = deviations.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
     if sizes.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let sigma = match SIGMA * median(&mut sizes) {
         0.0 => 1.2533 * sizes.iter().sum::<f64>() / sizes.len() as f64,
@@ -67,6 +75,9 @@ fn spikes(z: &Field, factor: f64, stride: usize) -> Vec<(usize, usize)> {
     let mut candidates = deviations;
     let mut around = Vec::new();
     for ((ix, iy), deviation) in candidates.indexed_iter_mut() {
+        if iy == 0 {
+            go_on(stop)?;
+        }
         let is_one = deviation.abs() > factor * sigma && {
             let there = |i: usize, n: usize| {
                 let start = i - stride * REACH.min(i / stride);
@@ -81,7 +92,12 @@ fn spikes(z: &Field, factor: f64, stride: usize) -> Vec<(usize, usize)> {
     }
     let groups = groups(candidates);
     let groups = groups.into_iter().filter(|group| extent(group) <= 2 * REACH * stride);
-    groups.flat_map(|group| outliers(z, group, factor, sigma)).collect()
+    let mut spikes = Vec::new();
+    for group in groups {
+        go_on(stop)?;
+        spikes.extend(outliers(z, group, factor, sigma));
+    }
+    Ok(spikes)
 }
 
 /// The samples of a group that stand out from what is around all of them.
@@ -150,21 +166,23 @@ fn extent(group: &[(usize, usize)]) -> usize {
 }
 
 /// Height of each sample above the median of those around, which become fewer towards a rim so that they stay symmetric.
-fn deviations(z: &Field, stride: usize) -> Field {
+fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
     let mut deviations = z.clone();
     let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(z.ncols());
     let symmetric = |i: usize, n: usize| {
         let reach = stride * REACH.min(i.min(n - 1 - i) / stride);
         (i - reach..i + reach + 1).step_by(stride)
     };
-    rows.enumerate().for_each(|(ix, row)| {
+    rows.enumerate().try_for_each(|(ix, row)| {
+        go_on(stop)?;
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
         for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
             defined(z, symmetric(ix, z.nrows()), symmetric(iy, z.ncols()), &mut around);
             *deviation -= median(&mut around);
         }
-    });
-    deviations
+        Ok(())
+    })?;
+    Ok(deviations)
 }
 
 /// The median, and the median of the absolute deviations from it, which take the values' place.

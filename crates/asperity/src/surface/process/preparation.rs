@@ -8,7 +8,7 @@ use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::error::{Result, check_in};
 use crate::grid::Grid;
-use crate::surface::{Axis, Topography};
+use crate::surface::{Axis, NEVER, Stop, Topography, go_on};
 use crate::units::{Dimension, Metre};
 
 /// What is done with a topography; by default nothing.
@@ -98,7 +98,16 @@ impl Preparation {
     ///
     /// # Errors
     /// Those of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
-    pub fn apply(&self, mut topography: Topography) -> Result<(Topography, Findings)> {
+    pub fn apply(&self, topography: Topography) -> Result<(Topography, Findings)> {
+        self.apply_until(topography, NEVER)
+    }
+
+    /// As [`apply`](Self::apply), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply); [`crate::Error::Interrupted`].
+    pub fn apply_until(&self, mut topography: Topography, stop: Stop<'_>) -> Result<(Topography, Findings)> {
+        go_on(stop)?;
         if let (Some(shortest), Some(longest)) = (self.s_filter, self.l_filter) {
             check_in(
                 Dimension::Length,
@@ -113,9 +122,10 @@ impl Preparation {
         }
         let undefined = topography.undefined();
         if let Some(factor) = self.despike {
-            topography = topography.despike(factor)?;
+            topography = topography.despike_until(factor, stop)?;
         }
         let spikes = topography.undefined() - undefined;
+        go_on(stop)?;
         if self.fill != Fill::None {
             topography = topography.fill(self.fill)?;
         }
@@ -123,13 +133,17 @@ impl Preparation {
         if let Some(axis) = self.mirror {
             topography = topography.mirror(axis);
         }
+        go_on(stop)?;
         topography = topography.rotate(self.rotate)?;
+        go_on(stop)?;
         if let Some(nesting_index) = self.s_filter {
             topography = topography.s_filter(nesting_index, self.filter)?;
         }
+        go_on(stop)?;
         if let Some(nesting_index) = self.l_filter {
             topography = topography.l_filter(nesting_index, self.filter)?;
         }
+        go_on(stop)?;
         topography = match self.resample {
             Some(Resample::Shape(shape)) => topography.resample_to_shape(shape, self.interpolate)?,
             Some(Resample::Pitch(pitch)) if pitch != topography.grid().pitch => {

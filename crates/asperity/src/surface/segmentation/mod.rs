@@ -6,7 +6,7 @@ mod watershed;
 use ndarray::Array2;
 
 use crate::error::{Result, check};
-use crate::surface::Topography;
+use crate::surface::{NEVER, Stop, Topography, go_on};
 use crate::units::{CubicMetre, Metre, SquareMetre};
 use relief::Relief;
 use watershed::{Pruned, Watershed};
@@ -82,7 +82,15 @@ impl Topography {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
     pub fn hills(&self, pruning: f64) -> Result<Segmentation> {
-        segment(self, 1.0, pruning)
+        self.hills_until(pruning, NEVER)
+    }
+
+    /// As [`hills`](Self::hills), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// As [`hills`](Self::hills); [`crate::Error::Interrupted`].
+    pub fn hills_until(&self, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
+        segment(self, 1.0, pruning, stop)
     }
 
     /// The dales at least `pruning` of Sz deep below their saddles; [`WOLF_PRUNING`] is usual.
@@ -90,12 +98,20 @@ impl Topography {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
     pub fn dales(&self, pruning: f64) -> Result<Segmentation> {
-        segment(self, -1.0, pruning)
+        self.dales_until(pruning, NEVER)
+    }
+
+    /// As [`dales`](Self::dales), unless `stop` says so first.
+    ///
+    /// # Errors
+    /// As [`dales`](Self::dales); [`crate::Error::Interrupted`].
+    pub fn dales_until(&self, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
+        segment(self, -1.0, pruning, stop)
     }
 }
 
 /// The hills of `up` · z.
-fn segment(topography: &Topography, up: f64, pruning: f64) -> Result<Segmentation> {
+fn segment(topography: &Topography, up: f64, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
     check("pruning", pruning, (0.0..=1.0).contains(&pruning), "a share of Sz from 0 to 1")?;
     let relief = Relief::of(topography, up);
     let mut defined: Vec<f64> = relief.z.iter().copied().filter(|z| !z.is_nan()).collect();
@@ -106,7 +122,7 @@ fn segment(topography: &Topography, up: f64, pruning: f64) -> Result<Segmentatio
     let half = *defined.select_nth_unstable_by(middle, |a, b| b.total_cmp(a)).1;
     let highest = defined.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let lowest = defined.iter().copied().fold(f64::INFINITY, f64::min);
-    let Pruned { of, hills } = Watershed::of(&relief).prune(pruning * (highest - lowest));
+    let Pruned { of, hills } = Watershed::of(&relief, stop)?.prune(pruning * (highest - lowest));
 
     let mut motifs: Vec<Motif> = hills
         .iter()
@@ -121,8 +137,11 @@ fn segment(topography: &Topography, up: f64, pruning: f64) -> Result<Segmentatio
             closed: true,
         })
         .collect();
+    go_on(stop)?;
     let labels = Array2::from_shape_fn(topography.grid().shape, |(ix, iy)| of[relief.cell(ix, iy)]);
+    go_on(stop)?;
     let rim = relief.rim();
+    go_on(stop)?;
     let cell_area = topography.grid().cell_area();
     for ((ix, iy), &label) in labels.indexed_iter().filter(|(_, label)| **label > 0) {
         let (motif, cell) = (&mut motifs[label as usize - 1], relief.cell(ix, iy));
@@ -160,6 +179,37 @@ mod tests {
     fn egg_box(n: usize, m: usize) -> Topography {
         let cosine = |i: usize| (TAU * (i as f64 - 0.5 * (n as f64 - 1.0)) / n as f64).cos();
         topography(Field::from_shape_fn([n * m, n * m], |(ix, iy)| 0.5 * (cosine(ix) + cosine(iy))))
+    }
+
+    #[test]
+    fn what_takes_long_asks_often_and_stops_at_any_question() {
+        use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+        use crate::error::Error;
+        use crate::surface::{Fill, Parameters, Preparation};
+
+        let surface = egg_box(15, 9);
+        type Work = fn(&Topography, Stop<'_>) -> Result<()>;
+        let works: [(&str, usize, Work); 4] = [
+            ("hills", 8, |surface, stop| surface.hills_until(WOLF_PRUNING, stop).map(drop)),
+            ("parameters", 16, |surface, stop| Parameters::until(surface, stop).map(drop)),
+            ("despike", 100, |surface, stop| surface.clone().despike_until(6.0, stop).map(drop)),
+            ("preparation", 5, |surface, stop| {
+                let preparation = Preparation { fill: Fill::Nearest, ..Preparation::default() };
+                preparation.apply_until(surface.clone(), stop).map(drop)
+            }),
+        ];
+        for (name, least, work) in works {
+            let asked = AtomicUsize::new(0);
+            work(&surface, &|| asked.fetch_add(1, Relaxed) > usize::MAX / 2).unwrap();
+            let all = asked.into_inner();
+            assert!(all >= least, "{name} asks {all} times");
+            for last in 0..all.min(12) {
+                let asked = AtomicUsize::new(0);
+                let stopped = work(&surface, &|| asked.fetch_add(1, Relaxed) >= last);
+                assert!(matches!(stopped, Err(Error::Interrupted)), "{name} goes on after question {last}");
+            }
+        }
     }
 
     #[test]

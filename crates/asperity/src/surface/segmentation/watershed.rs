@@ -3,6 +3,8 @@
 use rayon::slice::ParallelSliceMut;
 
 use super::relief::Relief;
+use crate::error::Result;
+use crate::surface::{Stop, go_on, go_on_at};
 
 /// No way up.
 const NONE: usize = usize::MAX;
@@ -51,20 +53,23 @@ impl Watershed {
     /// together.
     ///
     /// Linear in the number of samples, but for sorting the peaks and the samples at borders between hills.
-    pub(super) fn of(relief: &Relief) -> Self {
+    pub(super) fn of(relief: &Relief, stop: Stop<'_>) -> Result<Self> {
         let z = &relief.z;
-        let (of, peaks) = hills(relief);
+        let (of, peaks) = hills(relief, stop)?;
         let meets = |cell: usize, other: usize| z[other] >= z[cell] && of[other] != of[cell];
-        let mut border: Vec<(f64, usize)> = relief
-            .samples()
-            .filter(|&cell| relief.neighbours(cell).any(|other| meets(cell, other)))
-            .map(|cell| (z[cell], cell))
-            .collect();
+        let mut border: Vec<(f64, usize)> = Vec::new();
+        for (n, cell) in relief.samples().enumerate() {
+            go_on_at(n, stop)?;
+            if relief.neighbours(cell).any(|other| meets(cell, other)) {
+                border.push((z[cell], cell));
+            }
+        }
         border.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
 
         let mut lands: Vec<usize> = (0..peaks.len()).collect();
         let mut ends: Vec<End> = peaks.iter().map(|&(_, height)| End { height, saddle: None }).collect();
-        for (height, cell) in border {
+        for (n, (height, cell)) in border.into_iter().enumerate() {
+            go_on_at(n, stop)?;
             while let Some(other) = relief.steepest(cell, |other| {
                 meets(cell, other)
                     && find(&mut lands, of[other] as usize) != find(&mut lands, of[cell] as usize)
@@ -77,11 +82,12 @@ impl Watershed {
                 lands[lower] = higher;
             }
         }
-        for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+        for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
+            go_on_at(n, stop)?;
             let end = &mut ends[find(&mut lands, of[cell] as usize)];
             end.height = end.height.min(z[cell]);
         }
-        Self { of, peaks, ends }
+        Ok(Self { of, peaks, ends })
     }
 
     /// The land in which each hill lower than `threshold`, or without height, has gone to the hill across its saddle.
@@ -113,12 +119,16 @@ impl Watershed {
     }
 }
 
+/// The hill of each cell, and the peaks: their cells and heights.
+type Hills = (Vec<u32>, Vec<(usize, f64)>);
+
 /// The hill of each cell, and the peaks with their heights.
-fn hills(relief: &Relief) -> (Vec<u32>, Vec<(usize, f64)>) {
+fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     let z = &relief.z;
     // The way up: each cell's next one. It ends at a cell that is its own next one.
     let mut next = vec![NONE; z.len()];
-    for cell in relief.samples() {
+    for (n, cell) in relief.samples().enumerate() {
+        go_on_at(n, stop)?;
         if let Some(higher) = relief.steepest(cell, |other| z[other] > z[cell]) {
             next[cell] = higher;
         }
@@ -126,10 +136,12 @@ fn hills(relief: &Relief) -> (Vec<u32>, Vec<(usize, f64)>) {
     let level = |cell: usize, next: &[usize]| {
         relief.neighbours(cell).any(|other| z[other] == z[cell] && next[other] == NONE)
     };
+    go_on(stop)?;
     let brinks = relief.samples().filter(|&cell| next[cell] != NONE && level(cell, &next)).collect();
     spread(relief, &mut next, brinks);
     let mut peaks = Vec::new();
-    for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+    for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
+        go_on_at(n, stop)?;
         if next[cell] == NONE {
             next[cell] = cell;
             peaks.push((cell, z[cell]));
@@ -142,10 +154,11 @@ fn hills(relief: &Relief) -> (Vec<u32>, Vec<(usize, f64)>) {
     for (hill, &(peak, _)) in peaks.iter().enumerate() {
         of[peak] = hill as u32;
     }
-    for cell in relief.samples().filter(|&cell| !z[cell].is_nan()) {
+    for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
+        go_on_at(n, stop)?;
         of[cell] = of[find(&mut next, cell)];
     }
-    (of, peaks)
+    Ok((of, peaks))
 }
 
 /// Sets the ways from the cells of `front` over the plateaus that they lie on, nearest first, where there is no way

@@ -87,8 +87,8 @@ impl Influence {
     /// Adapts the approximate inverse to the cells whose predicted freedoms are coupled.
     pub(super) fn adapt(&mut self, state: &State) {
         let mut is_free = vec![false; self.single[0].len()];
-        for (cell, freedom) in state.cells.iter().zip(&state.freedom) {
-            is_free[*cell] = !freedom.is_diagonal(self.compliance);
+        for (k, (cell, freedom)) in state.cells.iter().zip(&state.freedom).enumerate() {
+            is_free[*cell] = !freedom.is_diagonal(self.compliance) && !state.is_unyielding(k);
         }
         self.sets.free_where(|cell| is_free[cell]);
         self.preconditioner.adapt(&self.sets);

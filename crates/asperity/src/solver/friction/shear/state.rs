@@ -13,6 +13,9 @@ const INSIDE_RIM: f64 = 1.0 - 1e-12;
 /// A slipping cell whose [`Freedom::slip_compliance`] is more than so many times its own compliance hardly turns: its block
 /// of the Newton matrix is taken to be diagonal.
 const DIAGONAL_DOMINANCE: f64 = 3.0;
+/// The complementarity parameter of a cell whose slip does not depend on its shear, as a share of the compliance of a cell: so small that
+/// all slip takes it to its limit.
+const UNYIELDING_SHARE: f64 = 1e-9;
 /// Relative error of the sum of the shear that a projection may leave.
 const SUM_ACCURACY: f64 = 1e-12;
 
@@ -63,6 +66,7 @@ impl Freedom {
 }
 
 /// The shear of the cells in contact, and their displacement.
+#[derive(Clone)]
 pub(super) struct State {
     /// Flat indices of the cells.
     pub(super) cells: Vec<usize>,
@@ -82,6 +86,8 @@ pub(super) struct State {
     pub(super) rounding: Metre,
     /// The predicted freedom of each cell.
     pub(super) freedom: Vec<Freedom>,
+    /// Whether the slip of each cell does not depend on the shear; none where it does in all cells.
+    pub(super) unyielding: Option<Vec<bool>>,
 }
 
 impl State {
@@ -117,7 +123,18 @@ impl State {
             wanted,
             rigid,
             shear,
+            unyielding: None,
         })
+    }
+
+    /// Whether the slip of a cell does not depend on the shear.
+    pub(super) fn is_unyielding(&self, k: usize) -> bool {
+        self.unyielding.as_ref().is_some_and(|cells| cells[k])
+    }
+
+    /// The complementarity parameter of a cell: the compliance of a cell alone, or a small one where its slip does not depend on the shear.
+    fn parameter(&self, k: usize, compliance: f64) -> f64 {
+        if self.is_unyielding(k) { UNYIELDING_SHARE * compliance } else { compliance }
     }
 
     /// The freedom of each cell, its shear and its limit.
@@ -132,7 +149,7 @@ impl State {
 
     /// The proposed shear q + s/c of a cell, in or outside its disc.
     fn proposed(&self, k: usize, compliance: f64) -> Vector {
-        add(self.shear[k], times(1.0 / compliance, self.slip(k)))
+        add(self.shear[k], times(1.0 / self.parameter(k, compliance), self.slip(k)))
     }
 
     /// The proposed shear of a cell, projected onto its disc.
@@ -140,7 +157,7 @@ impl State {
         onto_disc(self.proposed(k, compliance), self.limit[k])
     }
 
-    /// Under force control, sets the rigid-body displacement D to that at which the projected shear bears the force.
+    /// Under force control, sets the rigid-body displacement D to that at which the projected shear bears the force. No cell is unyielding.
     pub(super) fn find_rigid_displacement(&mut self, compliance: f64) {
         let Some(wanted) = self.wanted else { return };
         let start = times(1.0 / compliance, self.rigid);
@@ -170,6 +187,19 @@ impl State {
         let sum = self.shear.iter().fold([0.0; 2], |sum, q| add(sum, *q));
         let size = self.shear.iter().map(|q| length(*q)).fold(length(wanted), |sum, q| sum + q);
         residual.max(share(length(minus(wanted, sum)), size))
+    }
+
+    /// Takes the proposed shear of all cells, projected onto their discs.
+    pub(super) fn take_projected(&mut self, compliance: f64) {
+        self.shear = (0..self.cells.len()).map(|k| self.projected(k, compliance)).collect();
+    }
+
+    /// The largest change of the shear from another, as a share of the largest shear.
+    pub(super) fn relative_change(&self, from: &[Vector]) -> f64 {
+        let most = self.shear.iter().map(|q| length(*q)).fold(0.0, f64::max);
+        let change =
+            self.shear.iter().zip(from).map(|(q, from)| length(minus(*q, *from))).fold(0.0, f64::max);
+        if change == 0.0 { 0.0 } else { change / most.max(change) }
     }
 
     /// Projects the tractions onto their discs, and under force control onto the force. Returns whether any has changed.
@@ -211,7 +241,7 @@ impl State {
             } else {
                 Freedom::Slip {
                     rim: [-y[1] / length, y[0] / length],
-                    slip_compliance: compliance * (length / limit - 1.0),
+                    slip_compliance: self.parameter(k, compliance) * (length / limit - 1.0),
                 }
             };
         }

@@ -5,11 +5,11 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::math::gmres;
 use crate::operator::CoupledOperator;
-use crate::solver::friction::disc::{Vector, add, combination, minus, times};
+use crate::solver::friction::disc::{Vector, add, combination, dot, minus, times};
 use crate::solver::friction::shear::influence::{Influence, at};
-use crate::solver::friction::shear::state::State;
+use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
-use crate::solver::friction::transport::Ahead;
+use crate::solver::friction::transport::{Ahead, SteadyMethod};
 use crate::solver::watch::go_on;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::SquareMetre;
@@ -25,6 +25,36 @@ const MIN_REDUCTION: f64 = 1e-6;
 const RESIDUAL_SHARE: f64 = 0.3;
 /// Products in one Newton step, at the most.
 const MAX_PRODUCTS: usize = 60;
+/// First weight of the proximal terms, as a share of the compliance of a cell.
+const FIRST_WEIGHT: f64 = 0.1;
+/// A proximal step that has converged multiplies the weight by this, down to [`MIN_WEIGHT`].
+const WEIGHT_REDUCTION: f64 = 0.1;
+/// The least weight.
+const MIN_WEIGHT: f64 = 1e-8;
+/// A proximal step that has not converged multiplies the weight by this, up to [`MAX_WEIGHT`].
+const WEIGHT_GROWTH: f64 = 10.0;
+/// The largest weight.
+const MAX_WEIGHT: f64 = 1e4;
+/// Above this weight the Newton matrix of a proximal step is taken to be diagonal.
+const DOMINANT_WEIGHT: f64 = 0.3;
+/// After a proximal step that has not converged, so many leave the weight as it is.
+const STEPS_AT_WEIGHT: usize = 3;
+/// Two proximal steps one after the other whose changes have at least this cosine are extrapolated.
+const MIN_COSINE: f64 = 0.9;
+/// The longest extrapolation, in steps.
+const MAX_EXTRAPOLATION: f64 = 1e3;
+/// Proximal steps, at the most.
+const MAX_PROXIMAL_STEPS: usize = 300;
+/// A proximal step is solved until its residual is this share of the change of the shear in it,
+const PROXIMAL_REDUCTION: f64 = 0.1;
+/// and no further than to this share of what is asked of the answer.
+const PROXIMAL_SHARE: f64 = 0.1;
+/// The Newton equations of a proximal step are solved to this share of their residual.
+const PROXIMAL_NEWTON_REDUCTION: f64 = 1e-2;
+/// Above this weight projected steps contract.
+const CONTRACTING_WEIGHT: f64 = 3.0;
+/// Projected steps in a proximal step, at the most.
+const MAX_PROJECTED_STEPS: usize = 50;
 
 /// Solves tangential problems of steady rolling on one grid. As the contact moves on by a cell, the material of the next cell arrives
 /// with the displacement that it has there, S T q, and slips by
@@ -39,19 +69,37 @@ const MAX_PRODUCTS: usize = 60;
 ///
 /// The preconditioner follows the material: without other cells a Newton step Δq displaces by u = c Δq, and (u − S u) + κ Δq = r along
 /// a line from the leading edge; with that u the shear is that of the [`Influence`]'s approximate inverse.
+///
+/// Newton's iteration may not converge. It is sure not to where all cells of a line along the rolling touch under a periodic boundary: a
+/// uniform shear of them causes no slip, and the matrix is singular. The proximal point method (Rockafellar, SIAM J. Control Optim. 14,
+/// 877 (1976)) converges for any monotone matrix. It adds a weight times c (q − q₀) to the displacement, solves this problem, and takes
+/// its answer for the next q₀ until the added term vanishes.
 pub(super) struct SteadySolver {
     cell_area: SquareMetre,
     influence: Influence,
     ahead: Ahead,
+    method: SteadyMethod,
+    /// The proximal term added to the displacement, if any.
+    proximal: Option<Proximal>,
     stats: Stats,
 }
 
+/// The displacement w (q − q₀) that is added to that of the cells.
+struct Proximal {
+    /// The compliance w as a share of that of a cell.
+    weight: f64,
+    /// The shear q₀ of each cell in contact.
+    from: Vec<Vector>,
+}
+
 impl SteadySolver {
-    pub(super) fn new(operator: &mut dyn CoupledOperator, ahead: Ahead) -> Self {
+    pub(super) fn new(operator: &mut dyn CoupledOperator, ahead: Ahead, method: SteadyMethod) -> Self {
         Self {
             cell_area: operator.grid().cell_area(),
             influence: Influence::new(operator),
             ahead,
+            method,
+            proximal: None,
             stats: Stats::default(),
         }
     }
@@ -67,15 +115,49 @@ impl Method for SteadySolver {
         max_convolutions: usize,
         watch: &dyn Watch,
     ) -> Result<Answer> {
-        let compliance = self.influence.compliance;
-        let mut state = State::new(task, start, self.cell_area)?;
+        let state = State::new(task, start, self.cell_area)?;
+        let contact = Contact { task, coming: self.cells_ahead(&state), max_convolutions, watch };
         self.influence.unload();
-        let coming = self.cells_ahead(&state);
+        self.proximal = None;
+        match self.method {
+            SteadyMethod::Newton => self.newton(operator, state, &contact),
+            SteadyMethod::ProximalPoint => self.proximal_point(operator, state, &contact),
+        }
+    }
+
+    fn stats(&self) -> &Stats {
+        &self.stats
+    }
+}
+
+/// What stays the same in all steps of a solution.
+struct Contact<'a> {
+    task: &'a Task<'a>,
+    /// For each cell the place of that whose material arrives there.
+    coming: Vec<Option<usize>>,
+    max_convolutions: usize,
+    watch: &'a dyn Watch,
+}
+
+impl SteadySolver {
+    /// Solves by Newton's iteration.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    fn newton(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        mut state: State,
+        contact: &Contact,
+    ) -> Result<Answer> {
+        let (task, compliance) = (contact.task, self.influence.compliance);
+        // Its rigid displacement is that of cells that are all alike.
         self.respond(operator, &mut state);
         state.find_rigid_displacement(compliance);
+        self.mark_unyielding(&mut state);
         let (mut best, mut last, mut stagnations, mut tightening) = (f64::INFINITY, f64::INFINITY, 0, 1.0);
         loop {
-            go_on(watch)?;
+            go_on(contact.watch)?;
             let mut residual = state.relative_residual(compliance);
             if residual < tightening * task.tolerance {
                 if state.project() {
@@ -92,7 +174,7 @@ impl Method for SteadySolver {
             } else {
                 stagnations += 1;
             }
-            if stagnations > MAX_STAGNATIONS || self.stats.convolutions as usize >= max_convolutions {
+            if stagnations > MAX_STAGNATIONS || self.has_cost_too_much(contact) {
                 return Err(self.not_converged(residual, task));
             }
             // As good as the quadratic convergence of the last step lets the next one be.
@@ -100,25 +182,130 @@ impl Method for SteadySolver {
             let reduction =
                 (residual / last).powi(2).clamp(MIN_REDUCTION, REDUCTION).max(wanted.min(REDUCTION));
             last = residual;
-            state.predict_freedoms(compliance);
-            if let Some(direction) = state.direction_to_rims() {
-                let response = self.convolve(operator, &state.cells, &direction);
-                state.advance(1.0, &direction, &response, 0.0);
-            }
-            if !self.newton_step(operator, &mut state, &coming, reduction) {
+            if !self.newton_step(operator, &mut state, &contact.coming, reduction) {
                 return Err(self.not_converged(residual, task));
             }
-            self.respond(operator, &mut state);
-            state.balance_rigid_displacement();
         }
     }
 
-    fn stats(&self) -> &Stats {
-        &self.stats
+    /// Solves by the proximal point method.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], [`Error::Interrupted`].
+    fn proximal_point(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        mut state: State,
+        contact: &Contact,
+    ) -> Result<Answer> {
+        let (task, compliance) = (contact.task, self.influence.compliance);
+        self.respond(operator, &mut state);
+        let (mut weight, mut held, mut residual) = (FIRST_WEIGHT, 0, f64::INFINITY);
+        let mut last_change: Option<Vec<Vector>> = None;
+        for _ in 0..MAX_PROXIMAL_STEPS {
+            let before = state.clone();
+            self.proximal = Some(Proximal { weight, from: state.shear.clone() });
+            let converged = self.proximal_step(operator, &mut state, contact)?;
+            self.proximal = None;
+            if self.has_cost_too_much(contact) {
+                break;
+            }
+            if converged {
+                state.project();
+                self.respond(operator, &mut state);
+                self.mark_unyielding(&mut state);
+                residual = state.relative_residual(compliance);
+                if residual < task.tolerance {
+                    return Ok(state.into_answer(task.limit.raw_dim(), residual));
+                }
+                let change: Vec<Vector> =
+                    state.shear.iter().zip(&before.shear).map(|(q, from)| minus(*q, *from)).collect();
+                // A shear that causes no slip grows by the same in each step until cells slip.
+                let steps = last_change.as_ref().map_or(0.0, |last| extrapolation(last, &change));
+                if steps > 0.0 {
+                    state.shear.iter_mut().zip(&change).for_each(|(q, d)| *q = add(*q, times(steps, *d)));
+                    state.project();
+                    self.respond(operator, &mut state);
+                }
+                last_change = (steps == 0.0).then_some(change);
+                if held > 0 {
+                    held -= 1;
+                } else {
+                    (weight, last_change) = ((WEIGHT_REDUCTION * weight).max(MIN_WEIGHT), None);
+                }
+            } else if weight < MAX_WEIGHT {
+                (weight, held, last_change) = (WEIGHT_GROWTH * weight, STEPS_AT_WEIGHT, None);
+                state = before;
+            } else {
+                break;
+            }
+        }
+        Err(self.not_converged(residual, task))
     }
-}
 
-impl SteadySolver {
+    /// Solves the problem with its proximal term by Newton's iteration, and where that stagnates under a large weight by projected steps,
+    /// which then contract. Returns whether it has converged.
+    fn proximal_step(
+        &mut self,
+        operator: &mut dyn CoupledOperator,
+        state: &mut State,
+        contact: &Contact,
+    ) -> Result<bool> {
+        let Proximal { weight, from } = self.proximal.as_ref().expect("a proximal term");
+        let (weight, from) = (*weight, from.clone());
+        let compliance = (1.0 + weight) * self.influence.compliance;
+        let is_enough = |state: &State, residual: f64| {
+            let share = PROXIMAL_REDUCTION * state.relative_change(&from);
+            residual < share.max(PROXIMAL_SHARE * contact.task.tolerance)
+        };
+        // Under the proximal term the slip of every cell depends on its shear.
+        state.unyielding = None;
+        state.find_rigid_displacement(compliance);
+        let before = state.clone();
+        let (mut best, mut stagnations) = (state.relative_residual(compliance), 0);
+        while stagnations <= MAX_STAGNATIONS && !self.has_cost_too_much(contact) {
+            go_on(contact.watch)?;
+            if !self.newton_step(operator, state, &contact.coming, PROXIMAL_NEWTON_REDUCTION) {
+                break;
+            }
+            let residual = state.relative_residual(compliance);
+            if is_enough(state, residual) {
+                return Ok(true);
+            }
+            if residual < PROGRESS * best {
+                (best, stagnations) = (residual, 0);
+            } else {
+                stagnations += 1;
+            }
+        }
+        *state = before;
+        if weight < CONTRACTING_WEIGHT {
+            return Ok(false);
+        }
+        for _ in 0..MAX_PROJECTED_STEPS {
+            go_on(contact.watch)?;
+            state.take_projected(compliance);
+            self.respond(operator, state);
+            state.find_rigid_displacement(compliance);
+            let residual = state.relative_residual(compliance);
+            if is_enough(state, residual) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether more convolutions were needed than are allowed.
+    fn has_cost_too_much(&self, contact: &Contact) -> bool {
+        self.stats.convolutions as usize >= contact.max_convolutions
+    }
+
+    /// Marks the cells to which their own material comes: their slip does not depend on the shear.
+    fn mark_unyielding(&self, state: &mut State) {
+        let stays = state.cells.iter().map(|cell| self.ahead.of(*cell) == *cell).collect::<Vec<_>>();
+        state.unyielding = stays.contains(&true).then_some(stays);
+    }
+
     /// Computes (1 − S) T q of the cells under a shear on them, by one convolution.
     fn convolve(
         &mut self,
@@ -129,7 +316,16 @@ impl SteadySolver {
         self.stats.convolutions += 1.0;
         let displaced = self.influence.displace(operator, cells, shear);
         let arriving = cells.iter().map(|cell| self.ahead.of(*cell)).collect::<Vec<_>>();
-        at(displaced, cells).iter().zip(at(displaced, &arriving)).map(|(u, next)| minus(*u, next)).collect()
+        let mut response: Vec<Vector> = at(displaced, cells)
+            .iter()
+            .zip(at(displaced, &arriving))
+            .map(|(u, next)| minus(*u, next))
+            .collect();
+        if let Some(Proximal { weight, .. }) = &self.proximal {
+            let compliance = weight * self.influence.compliance;
+            response.iter_mut().zip(shear).for_each(|(u, q)| *u = add(*u, times(compliance, *q)));
+        }
+        response
     }
 
     fn not_converged(&self, residual: f64, task: &Task) -> Error {
@@ -139,6 +335,10 @@ impl SteadySolver {
     /// Computes the response of the cells to their shear.
     fn respond(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         state.response = self.convolve(operator, &state.cells, &state.shear);
+        if let Some(Proximal { weight, from }) = &self.proximal {
+            let compliance = weight * self.influence.compliance;
+            state.response.iter_mut().zip(from).for_each(|(u, q)| *u = minus(*u, times(compliance, *q)));
+        }
     }
 
     /// For each cell the place in the list of that whose material arrives there, if that is in contact and comes later.
@@ -155,8 +355,8 @@ impl SteadySolver {
             .collect()
     }
 
-    /// Solves the Newton equations of the predicted freedoms to that `reduction` of their residual. Returns whether they have a
-    /// solution.
+    /// Predicts the freedoms of the cells, solves their Newton equations to that `reduction` of their residual, and computes the
+    /// response to the new shear. Returns whether the equations have a solution.
     fn newton_step(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -164,6 +364,11 @@ impl SteadySolver {
         coming: &[Option<usize>],
         reduction: f64,
     ) -> bool {
+        state.predict_freedoms(self.influence.compliance);
+        if let Some(direction) = state.direction_to_rims() {
+            let response = self.convolve(operator, &state.cells, &direction);
+            state.advance(1.0, &direction, &response, 0.0);
+        }
         self.influence.adapt(state);
         // What the preconditioner makes of a rigid displacement, by which it leaves the force as it is.
         let under_rigid = state.wanted.map(|_| {
@@ -203,6 +408,8 @@ impl SteadySolver {
         let solved = step.iter().flatten().all(|d| d.is_finite());
         if solved {
             state.shear.iter_mut().zip(&step).for_each(|(q, d)| *q = add(*q, *d));
+            self.respond(operator, state);
+            state.balance_rigid_displacement();
         }
         solved
     }
@@ -210,21 +417,41 @@ impl SteadySolver {
     /// An approximate solution of the Newton equations without regard to the force.
     fn precondition(&mut self, state: &State, coming: &[Option<usize>], residual: &[Vector]) -> Vec<Vector> {
         let compliance = self.influence.compliance;
+        if let Some(Proximal { weight, .. }) = self.proximal.as_ref().filter(|p| p.weight > DOMINANT_WEIGHT) {
+            let diagonal = |freedom: &Freedom| (1.0 + weight) * compliance + freedom.slip_compliance();
+            return state.freedom.iter().zip(residual).map(|(f, r)| times(1.0 / diagonal(f), *r)).collect();
+        }
         let mut displacement = residual.to_vec();
         for (k, freedom) in state.freedom.iter().enumerate().rev() {
             let arriving = coming[k].map_or([0.0; 2], |next| displacement[next]);
             let damping = 1.0 / (1.0 + freedom.slip_compliance() / compliance);
-            displacement[k] = times(damping, freedom.part(add(residual[k], arriving)));
+            displacement[k] = match state.is_unyielding(k) {
+                false => times(damping, freedom.part(add(residual[k], arriving))),
+                true => [0.0; 2],
+            };
         }
         let mut shear = self.influence.invert(&state.cells, &displacement);
-        for ((freedom, q), r) in state.freedom.iter().zip(&mut shear).zip(residual) {
-            *q = match freedom.is_diagonal(compliance) {
-                false => freedom.part(*q),
-                true => times(1.0 / (compliance + freedom.slip_compliance()), *r),
+        for (k, ((freedom, q), r)) in state.freedom.iter().zip(&mut shear).zip(residual).enumerate() {
+            *q = match (freedom.slip_compliance(), state.is_unyielding(k)) {
+                (slips, true) if slips > 0.0 => times(1.0 / slips, *r),
+                (slips, _) if freedom.is_diagonal(compliance) => times(1.0 / (compliance + slips), *r),
+                _ => freedom.part(*q),
             };
         }
         shear
     }
+}
+
+/// The steps by which the sum of a geometric series exceeds its present term, from its last and its present one; 0 where they are none.
+fn extrapolation(last: &[Vector], present: &[Vector]) -> f64 {
+    let product = |a: &[Vector], b: &[Vector]| a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum::<f64>();
+    let (along, last, present) = (product(last, present), product(last, last), product(present, present));
+    let is_straight = along > MIN_COSINE * (last * present).sqrt();
+    if !is_straight {
+        return 0.0;
+    }
+    let ratio = along / last;
+    if ratio < 1.0 { (ratio / (1.0 - ratio)).min(MAX_EXTRAPOLATION) } else { MAX_EXTRAPOLATION }
 }
 
 /// The sum of vectors.

@@ -1,0 +1,64 @@
+//! Whether the machines have the memory that their ranks need.
+
+use std::path::Path;
+
+use asperity::Error;
+use asperity::ranks::Ranks;
+use asperity::study::{Case, DemandOfRank, demand_of_collecting, demand_on_ranks};
+use asperity_cli::{available_memory, memory_of_machine, this_process};
+
+/// An error on all ranks if a machine has not the memory for its ranks, or a rank not for itself. If the fields are `collected` at the
+/// end, the first rank takes those of all.
+pub(crate) fn check(case: &Case, ranks: &dyn Ranks, collected: bool) -> Result<(), Error> {
+    let DemandOfRank { steady, making, collecting, .. } = demand_on_ranks(case, ranks.count())?;
+    let collecting = if collected { collecting } else { 0.0 };
+    let own = [machine(), steady, making, collecting, available_memory(), memory_of_machine()];
+    let all = ranks.gather(&own, &vec![own.len(); ranks.count()]);
+    let all: Vec<Rank> = all.chunks(own.len()).map(Rank::new).collect();
+    let short = all.iter().enumerate().find_map(|(rank, this)| {
+        let alone = this.steady.max(this.making).max(if rank == 0 { this.collecting } else { 0.0 });
+        let neighbours = all.iter().filter(|other| other.machine == this.machine);
+        let together: f64 = neighbours.map(|other| other.steady).sum();
+        [(alone, this.available), (together.max(alone), this.on_machine)]
+            .into_iter()
+            .find(|(needed, available)| needed > available)
+    });
+    match short {
+        None => Ok(()),
+        Some((needed, available)) => Err(Error::Memory { needed, available }),
+    }
+}
+
+/// An error if there is not the memory to collect the fields of the `results`.
+pub(crate) fn check_collecting(results: &Path) -> Result<(), Error> {
+    let (needed, available) = (demand_of_collecting(results)?, available_memory());
+    if needed <= available { Ok(()) } else { Err(Error::Memory { needed, available }) }
+}
+
+/// What a rank needs and has, bytes.
+struct Rank {
+    machine: f64,
+    steady: f64,
+    making: f64,
+    collecting: f64,
+    available: f64,
+    on_machine: f64,
+}
+
+impl Rank {
+    fn new(numbers: &[f64]) -> Self {
+        let [machine, steady, making, collecting, available, on_machine] = *numbers else {
+            unreachable!("each rank gives six numbers")
+        };
+        Self { machine, steady, making, collecting, available, on_machine }
+    }
+}
+
+/// Returns a number that the ranks of one machine share, and no others.
+fn machine() -> f64 {
+    use std::hash::{DefaultHasher, Hash, Hasher};
+    let mut hasher = DefaultHasher::new();
+    this_process().machine.hash(&mut hasher);
+    // As many binary digits as an `f64` holds exactly.
+    (hasher.finish() >> 12) as f64
+}

@@ -1,0 +1,125 @@
+//! The files that a study names, by the digests of what they held when its plan was made.
+
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::folder::Folder;
+use super::plan::Study;
+use crate::error::{Error, Result};
+use crate::io::{atomic, regular, sha256_of_file};
+use crate::study::given::Pinned;
+use crate::study::identity::FILES;
+use crate::study::results::Results;
+
+/// A file that a study names: its dotted key in the case, the text that names it in the study, where it lies as seen from here.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct NamedFile {
+    pub(super) key: String,
+    /// As an axis has it; none of a file of the base.
+    pub(super) value: Option<String>,
+    pub(super) path: PathBuf,
+}
+
+impl NamedFile {
+    /// What it is called among the digests, wherever the study lies: its key, of an axis with its value.
+    fn name(&self) -> String {
+        match &self.value {
+            None => self.key.clone(),
+            Some(value) => format!("{} = {value}", self.key),
+        }
+    }
+}
+
+/// Digests by the names of files.
+#[derive(Debug, Default)]
+pub(super) struct Files {
+    digests: BTreeMap<String, String>,
+}
+
+impl Files {
+    /// The digests that are kept at `path`; none where there is no such file.
+    pub(super) fn read(path: &Path) -> Result<Option<Self>> {
+        let failed = |source| Error::File { path: path.to_owned(), source };
+        let text = match regular::read(path, "the digests of a study's files", u64::MAX) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            text => text.map_err(failed)?,
+        };
+        let digests = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
+        Ok(Some(Self { digests }))
+    }
+
+    /// Keeps the digests of the files of a study that have none yet, in `folder`. A study that an earlier version has begun has none at
+    /// all: its finished cases say what they were computed from.
+    ///
+    /// # Errors
+    /// [`Error::SurfaceChanged`] where a finished case was computed from another content; [`Error::File`].
+    pub(super) fn keep(folder: &Folder, study: &Study) -> Result<()> {
+        let path = folder.files_path();
+        let named = study.files();
+        loop {
+            let known = Self::read(&path)?;
+            let is_first = known.is_none();
+            let mut files = known.unwrap_or_default();
+            let unknown: Vec<&NamedFile> =
+                named.iter().filter(|file| !files.digests.contains_key(&file.name())).collect();
+            let mut paths: Vec<&Path> = unknown.iter().map(|file| file.path.as_path()).collect();
+            paths.sort_unstable();
+            paths.dedup();
+            // A file that cannot be read has none: its cases will say why.
+            let digests: BTreeMap<&Path, String> =
+                paths.par_iter().filter_map(|path| Some((*path, sha256_of_file(path).ok()?))).collect();
+            let found = unknown
+                .iter()
+                .filter_map(|file| Some((file.name(), digests.get(file.path.as_path())?.clone())));
+            let before = files.digests.len();
+            files.digests.extend(found);
+            if files.digests.len() == before {
+                return Ok(());
+            }
+            let text = serde_json::to_vec_pretty(&files.digests).expect("texts can be written");
+            if !is_first {
+                return atomic::replace(&path, &text);
+            }
+            files.agree(folder, study)?;
+            if atomic::create(&path, &text)? {
+                return Ok(());
+            }
+            // Another process was first: what it has read holds.
+        }
+    }
+
+    /// What the files of a case must hold.
+    pub(super) fn pinned(&self, folder: &Folder, study: &Study, case: usize) -> Pinned {
+        let digest = |file: NamedFile| {
+            let digest = self.digests.get(&file.name())?.clone();
+            Some((file.key, (file.path, digest)))
+        };
+        let digests = study.files_of(case).into_iter().filter_map(digest).collect();
+        Pinned { directory: folder.path().to_owned(), digests }
+    }
+
+    /// An error if a case that is done was computed from files of other contents.
+    fn agree(&self, folder: &Folder, study: &Study) -> Result<()> {
+        for case in (1..=study.len()).filter(|case| folder.is_done(*case)) {
+            let Ok(done) = Results::open(&folder.case(case)).and_then(|results| results.case()) else {
+                continue;
+            };
+            let pinned = self.pinned(folder, study, case);
+            for table in FILES {
+                let key = format!("{}.file", table[1..].replace('/', "."));
+                let before =
+                    done.pointer(table).and_then(|table| table.get("sha256")).and_then(Value::as_str);
+                if let (Some(before), Some((file, now))) = (before, pinned.digests.get(&key))
+                    && before != now
+                {
+                    return Err(Error::SurfaceChanged { path: pinned.directory, file: file.clone() });
+                }
+            }
+        }
+        Ok(())
+    }
+}
