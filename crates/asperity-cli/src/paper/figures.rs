@@ -5,7 +5,7 @@ use std::path::Path;
 use asperity::grid::Grid;
 use asperity::kernel::{influence_matrix, influence_table};
 use asperity::motion::{
-    Contact, LoadControl, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy,
+    Contact, LoadControl, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
@@ -138,7 +138,8 @@ struct Pass {
 struct Keep(Vec<Pass>);
 
 impl Output for Keep {
-    fn pass(&mut self, report: &PassReport) -> Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.0.push(Pass { contacts: report.contacts.to_vec(), pair: report.pair.clone() });
         Ok(())
     }

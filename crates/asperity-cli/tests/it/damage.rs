@@ -35,7 +35,7 @@ fn kinds() -> Vec<(&'static str, String)> {
 
 /// Files that the page does without: what a run goes on from, pressures of single points, stresses of passes before the last.
 fn is_spare(name: &str) -> bool {
-    name.contains("warm-start") || name.contains("point-") || name.contains("subsurface-0001")
+    name.contains("state") || name.contains("point-") || name.contains("subsurface-0001")
 }
 
 /// The page and the figures of damaged results are made of the rest, with a word about the file, or refused with its name.
@@ -138,7 +138,7 @@ fn points_that_were_changed_by_hand_are_refused() {
     assert!(error.contains("out/sweep.csv has been changed since it was written"), "{error}");
     fs::write(&table, text).unwrap();
     ok(&asperity(&folder, "run case.toml --out out --resume --quiet"));
-    assert!(!folder.path().join("out/fields/sweep-state.json").exists());
+    assert!(!folder.path().join("out/fields/state-0002.h5").exists());
 }
 
 /// A pipe has no end, and a device none either: neither is read, wherever it stands in a results directory or in a study.
@@ -208,11 +208,11 @@ fn a_run_that_goes_on_has_the_digests_of_one_that_was_never_stopped() {
     let folder = folder_with(&motion(1, ""));
     ok(&asperity(&folder, "run case.toml --out out --quiet"));
     let before = contents(&folder.path().join("out"));
-    assert!(before.keys().any(|name| name == "fields/warm-start-0001.h5"));
+    assert!(before.keys().any(|name| name == "fields/state-0001.h5"));
     change(&folder.path().join("case.toml"), "passes = 1", "passes = 2");
     ok(&asperity(&folder, "run case.toml --out out --resume --quiet"));
     ok(&asperity(&folder, "run case.toml --out whole --quiet"));
     let [resumed, whole] = ["out", "whole"].map(|name| contents(&folder.path().join(name)));
     assert!(resumed["fields/pass-0002.h5"] == whole["fields/pass-0002.h5"]);
-    assert!(resumed["fields/warm-start-0002.h5"] == whole["fields/warm-start-0002.h5"], "digests of rows");
+    assert!(resumed["fields/state-0002.h5"] == whole["fields/state-0002.h5"], "digests of rows");
 }

@@ -282,7 +282,7 @@ fn numbers(folder: &Path) -> SeriesByName {
         let path = folder.join(&name);
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("csv") => add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series),
-            Some("h5") if !name.contains("warm-start") => add_fields(&name, &path, &mut series),
+            Some("h5") if !name.contains("state") => add_fields(&name, &path, &mut series),
             Some("json") if name == "summary.json" => {
                 let mut summary: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
                 summary.as_object_mut().unwrap().remove("case");

@@ -70,8 +70,7 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}")).into();
     expected.extend(
-        ["initial.h5", "pass-0001.h5", "pass-0002.h5", "warm-start-0002.h5"]
-            .map(|name| format!("fields/{name}")),
+        ["initial.h5", "pass-0001.h5", "pass-0002.h5", "state-0002.h5"].map(|name| format!("fields/{name}")),
     );
     expected.extend(
         [".lock", "case.json", "passes.csv", "report.html", "steps.csv", "summary.json"].map(str::to_owned),
@@ -998,7 +997,7 @@ fn a_motion_without_what_its_next_pass_begins_with_is_not_resumed() {
     change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     ok(&run(&folder, "case.toml --out other"));
     change(&folder.path().join("case.toml"), "21 mN", "20 mN");
-    let name = "fields/warm-start-0001.h5";
+    let name = "fields/state-0001.h5";
     let [path, other] = ["out", "other"].map(|results| folder.path().join(results).join(name));
     let whole = fs::read(&path).unwrap();
     // Nothing is left to do: what is not needed is not missed.
@@ -1099,12 +1098,11 @@ fn stopped_and_resumed(signal: &str, code: Option<i32>) {
     let next: Vec<String> =
         of_pass(done).map(|row| row.replacen(&done.to_string(), &(done + 1).to_string(), 1)).collect();
     fs::write(out.join("steps.csv"), kept.join("\n") + "\n" + &next.join("\n") + "\n").unwrap();
-    for name in ["pass", "warm-start"] {
+    for name in ["pass", "state"] {
         let [from, to] = [done, done + 1].map(|pass| out.join(format!("fields/{name}-{pass:04}.h5")));
         fs::copy(from, to).unwrap();
     }
-    fs::copy(out.join(format!("fields/warm-start-{done:04}.h5")), out.join("fields/warm-start-0000.h5"))
-        .unwrap();
+    fs::copy(out.join(format!("fields/state-{done:04}.h5")), out.join("fields/state-0000.h5")).unwrap();
     fs::write(out.join("fields/.asperity-half"), "half").unwrap();
 
     change(&folder.path().join("case.toml"), "passes = 100000", &format!("passes = {}", done + 2));

@@ -3,11 +3,12 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
+use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::flowed::{self, FlowSums, FlowedVolume};
 use crate::motion::loading::{Origin, Stage, shear_record, static_record};
 use crate::motion::pair::Pair;
 use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, StaticRecord};
-use crate::motion::watch::{AtRest, Progress, Watch};
+use crate::motion::watch::{AtRest, Watch};
 use crate::operator::Boundary;
 use crate::plasticity::{Facing, FlowParams, Interface, PlasticBody, PlasticContact};
 use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
@@ -73,6 +74,11 @@ impl FlowPath {
         Self { unloading: steps.into(), ..self }
     }
 
+    /// Increments in all, with those in which the load is taken off.
+    fn increments(&self) -> usize {
+        Stage::increments(&self.stages) + self.unloading.unwrap_or(0)
+    }
+
     /// The same with another measure of when a step is done.
     #[must_use]
     pub fn with_flow(self, flow: FlowParams) -> Self {
@@ -84,7 +90,7 @@ impl FlowPath {
 /// their surfaces, along a `path`; under `friction` they stick or slip.
 ///
 /// # Errors
-/// [`Error::AtIncrement`] with what is wrong there, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without contact.
+/// [`Error::AtIncrement`] with what is wrong there, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without contact; those of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -96,6 +102,7 @@ pub fn press_flowing(
     path: &FlowPath,
     params: &Params,
     watch: &dyn Watch,
+    outputs: &mut [&mut dyn Output],
 ) -> Result<FlowedContact> {
     let (operators, initial_gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
@@ -107,85 +114,118 @@ pub fn press_flowing(
         }
     };
     let facing = Facing { interface, initial_gap, seats: pair.seats(&pair.at_rest()) };
-    let mut contact = PlasticContact::new(facing, bodies, path.flow, *params);
-    let steps = path.stages.iter().map(|stage| stage.increments).chain(path.unloading).sum();
-    let mut course = Course {
-        watch,
-        steps,
+    let contact = PlasticContact::new(facing, bodies, path.flow, *params);
+    let mut flowing = Flowing {
+        contact,
+        path,
         increments: Vec::new(),
         sums: FlowSums::default(),
         slip: None,
         dissipation_error: 0.0,
+        origin: None,
+        loaded: None,
     };
-    for (stage, index) in path.stages.iter().zip(1..) {
-        course.walk(&mut contact, stage, index)?;
-    }
-    let solution =
-        contact.equilibrium().cloned().ok_or(Error::Unsupported("a contact without a load does not flow"))?;
-    let dissipation = course.increments.iter().map(|increment| increment.dissipation).sum();
-    let (slip, dissipation_error) = (course.slip.take(), course.dissipation_error);
-    let volumes = FlowedVolume::loaded(&mut contact);
-    let flow = FlowRecord::of(&volumes, &course.sums);
-    let (residual, left) = match path.unloading {
-        None => (Vec::new(), None),
-        Some(increments) => {
-            // The force of bodies that slide is all that friction holds, and so it is under each smaller load.
-            let slides = solution.frictional().filter(|solution| solution.stick.sum() == 0.0);
-            let tangential = match slides.map(FrictionalSolution::force) {
-                Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
-                _ => Tangential::Force([0.0; 2]),
-            };
-            let nothing = Loading { normal: Control::Load(0.0), tangential };
-            course.walk(&mut contact, &Stage { loading: nothing, increments }, path.stages.len() + 1)?;
-            let residual = FlowedVolume::unloaded(&mut contact);
-            let left = FlowRecord::of(&residual, &course.sums).into_residual();
-            (residual, Some(left))
-        }
-    };
-    let FlowSums { products, mismatch, .. } = course.sums;
-    let flow = FlowRecord { products, mismatch, residual: left, ..flow };
-    let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
-    let plastic = Field::zeros(shape);
-    let record = StaticRecord { flow: Some(flow), shear, ..static_record(&solution, &plastic) };
-    Ok(FlowedContact {
-        record,
-        solution,
-        slip,
-        dissipation_error,
-        flowed: Flowed { increments: course.increments, volumes, residual },
-    })
+    course::run(&mut flowing, watch, outputs)?;
+    flowing.finish()
 }
 
-/// The increments so far.
-struct Course<'a> {
-    watch: &'a dyn Watch,
-    /// Increments in all.
-    steps: usize,
+/// Bodies that flow, under way along their path.
+struct Flowing<'a> {
+    contact: PlasticContact,
+    path: &'a FlowPath,
     increments: Vec<IncrementRecord>,
     sums: FlowSums,
     slip: Option<[Field; 2]>,
     dissipation_error: Joule,
+    /// Where the stage under way began.
+    origin: Option<Origin>,
+    /// The contact under its last load, once that is reached.
+    loaded: Option<Loaded>,
 }
 
-impl Course<'_> {
-    /// Goes through a stage, which begins where the contact is.
-    fn walk(&mut self, contact: &mut PlasticContact, stage: &Stage, index: usize) -> Result<()> {
-        let origin = match contact.equilibrium() {
-            Some(equilibrium) => Origin::of(equilibrium),
-            None => Origin::apart(contact.first_touch()),
+/// A contact under its last load.
+struct Loaded {
+    solution: Equilibrium,
+    slip: Option<[Field; 2]>,
+    dissipation: Joule,
+    dissipation_error: Joule,
+    volumes: Vec<FlowedVolume>,
+    flow: FlowRecord,
+}
+
+impl Loaded {
+    /// The stage in which the load is taken off in so many steps.
+    fn unloading(&self, increments: usize) -> Stage {
+        // The force of bodies that slide is all that friction holds, and so it is under each smaller load.
+        let slides = self.solution.frictional().filter(|solution| solution.stick.sum() == 0.0);
+        let tangential = match slides.map(FrictionalSolution::force) {
+            Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
+            _ => Tangential::Force([0.0; 2]),
         };
-        for step in 1..=stage.increments {
-            let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
-            self.go(contact, loading, index)?;
+        Stage { loading: Loading { normal: Control::Load(0.0), tangential }, increments }
+    }
+}
+
+impl Course for Flowing<'_> {
+    type Solved = IncrementRecord;
+
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<IncrementRecord>> {
+        let Some((index, stage, step)) = self.stage()? else { return Ok(None) };
+        if step == 1 {
+            self.origin = Some(match self.contact.equilibrium() {
+                Some(equilibrium) => Origin::of(equilibrium),
+                None => Origin::apart(self.contact.first_touch()),
+            });
         }
-        Ok(())
+        let origin = self.origin.expect("a stage has begun");
+        let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
+        let watch = AtRest::new(watch, self.increments.len(), self.path.increments(), loading.normal);
+        self.increment(loading, index + 1, &watch).map(Some)
+    }
+
+    fn report<'a>(&'a self, record: &'a IncrementRecord) -> Step<'a> {
+        Step::Flow { record, of: self.path.increments() }
+    }
+
+    fn take(&mut self, record: IncrementRecord) {
+        self.increments.push(record);
+    }
+}
+
+impl Flowing<'_> {
+    /// The index of the stage under way, the stage, and the next step in it, from 1; none after the last.
+    fn stage(&mut self) -> Result<Option<(usize, Stage, usize)>> {
+        let (stages, done) = (&self.path.stages, self.increments.len());
+        if let Some((index, step)) = Stage::after(stages, done) {
+            return Ok(Some((index, stages[index], step)));
+        }
+        let unloading = done - Stage::increments(stages);
+        if unloading == 0 {
+            self.loaded = Some(self.under_the_last_load()?);
+        }
+        let (Some(loaded), Some(increments)) = (&self.loaded, self.path.unloading) else { return Ok(None) };
+        Ok((unloading < increments).then(|| (stages.len(), loaded.unloading(increments), unloading + 1)))
+    }
+
+    fn under_the_last_load(&mut self) -> Result<Loaded> {
+        let nothing = Error::Unsupported("a contact without a load does not flow");
+        let solution = self.contact.equilibrium().cloned().ok_or(nothing)?;
+        let volumes = FlowedVolume::loaded(&mut self.contact);
+        Ok(Loaded {
+            solution,
+            slip: self.slip.take(),
+            dissipation: self.increments.iter().map(|increment| increment.dissipation).sum(),
+            dissipation_error: self.dissipation_error,
+            flow: FlowRecord::of(&volumes, &self.sums),
+            volumes,
+        })
     }
 
     /// Goes on to what is prescribed.
-    fn go(&mut self, contact: &mut PlasticContact, loading: Loading, stage: usize) -> Result<()> {
-        let at_rest = AtRest::new(self.watch, self.increments.len(), self.steps, loading.normal);
+    fn increment(&mut self, loading: Loading, stage: usize, watch: &AtRest<'_>) -> Result<IncrementRecord> {
+        let contact = &mut self.contact;
         let before = contact.equilibrium().and_then(Equilibrium::frictional).cloned();
-        let increment = contact.load(loading, &at_rest)?;
+        let increment = contact.load(loading, watch)?;
         self.sums.add(&increment);
         let flow = FlowStepRecord::of(std::slice::from_ref(&increment), contact);
         let apart = || IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
@@ -201,9 +241,27 @@ impl Course<'_> {
             });
         }
         let increment = self.increments.len() + 1;
-        self.increments.push(IncrementRecord { increment, stage, dissipation, flow: Some(flow), ..record });
-        let (solved, positions, load) = (increment, self.steps, contact.normal_force());
-        self.watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
-        Ok(())
+        Ok(IncrementRecord { increment, stage, dissipation, flow: Some(flow), ..record })
+    }
+
+    /// The contact at the end of its path.
+    fn finish(mut self) -> Result<FlowedContact> {
+        let loaded = self.loaded.take().expect("the end of the path");
+        let Loaded { solution, slip, dissipation, dissipation_error, volumes, flow } = loaded;
+        let (residual, left) = match self.path.unloading {
+            None => (Vec::new(), None),
+            Some(_) => {
+                let residual = FlowedVolume::unloaded(&mut self.contact);
+                let left = FlowRecord::of(&residual, &self.sums).into_residual();
+                (residual, Some(left))
+            }
+        };
+        let FlowSums { products, mismatch, .. } = self.sums;
+        let flow = FlowRecord { products, mismatch, residual: left, ..flow };
+        let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
+        let plastic = Field::zeros(solution.normal().pressure.raw_dim());
+        let record = StaticRecord { flow: Some(flow), shear, ..static_record(&solution, &plastic) };
+        let flowed = Flowed { increments: self.increments, volumes, residual };
+        Ok(FlowedContact { record, solution, slip, dissipation_error, flowed })
     }
 }

@@ -5,9 +5,10 @@ use std::borrow::Cow;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
+use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
-use crate::motion::watch::{AtRest, Progress, Watch};
+use crate::motion::watch::{AtRest, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
     self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
@@ -73,22 +74,6 @@ pub struct Flattening {
     pub deepest: Field,
 }
 
-/// Takes the increments of a loading. An output that cannot be written ends the loading.
-pub trait LoadingOutput {
-    /// Takes the state after an increment.
-    ///
-    /// # Errors
-    /// What kept it from being written.
-    fn increment(&mut self, state: &LoadingState) -> Result<()>;
-}
-
-/// The output of a loading whose increments nobody takes.
-impl LoadingOutput for () {
-    fn increment(&mut self, _: &LoadingState) -> Result<()> {
-        Ok(())
-    }
-}
-
 /// Loads a pair whose bodies face each other with all their columns, stage after stage: from where they do not touch, or
 /// from a state `under_way`, from which it comes to the same as without the interruption, bit by bit.
 ///
@@ -101,7 +86,7 @@ impl LoadingOutput for () {
 /// increment w grows where p is at its cap, and nowhere shrinks.
 ///
 /// # Errors
-/// Those of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the output.
+/// Those of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -114,37 +99,73 @@ pub fn load_in_stages(
     params: &Params,
     under_way: Option<LoadingState>,
     watch: &dyn Watch,
-    output: &mut dyn LoadingOutput,
+    outputs: &mut [&mut dyn Output],
 ) -> Result<LoadedContact> {
-    let mut bodies = Bodies::new(pair, boundary, friction, params)?;
-    let positions = stages.iter().map(|stage| stage.increments).sum();
-    let done = under_way.as_ref().map_or(0, |state| state.increments.len());
-    let increments = stages
-        .iter()
-        .enumerate()
-        .flat_map(|(index, stage)| (1..=stage.increments).map(move |step| (index, stage, step)));
-    let mut state = under_way;
-    for (index, stage, step) in increments.skip(done) {
+    let bodies = Bodies::new(pair, boundary, friction, params)?;
+    let mut loading = InStages { bodies, stages, state: under_way };
+    course::run(&mut loading, watch, outputs)?;
+    let state = loading.state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
+    Ok(loading.bodies.finish(state))
+}
+
+/// A loading in stages.
+struct InStages<'a> {
+    bodies: Bodies<'a>,
+    stages: &'a [Stage],
+    /// What the last increment has left; none before the first.
+    state: Option<LoadingState>,
+}
+
+impl Course for InStages<'_> {
+    type Solved = LoadingState;
+
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<LoadingState>> {
+        let state = self.state.take();
+        let done = state.as_ref().map_or(0, |state| state.increments.len());
+        let Some((stage, step)) = Stage::after(self.stages, done) else {
+            self.state = state;
+            return Ok(None);
+        };
         if watch.stop() {
             return Err(Error::Interrupted);
         }
         let origin = match &state {
             Some(state) if step > 1 => state.origin,
             Some(state) => Origin::of(&state.contact),
-            None => Origin::apart(bodies.gap.iter().copied().fold(f64::INFINITY, f64::min)),
+            None => Origin::apart(self.bodies.gap.iter().copied().fold(f64::INFINITY, f64::min)),
         };
-        let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
-        let done = state.as_ref().map_or(0, |state| state.increments.len());
-        let at_rest = AtRest::new(watch, done, positions, loading.normal);
-        let next = bodies.load(index + 1, loading, origin, state, &at_rest)?;
-        let record = next.increments.last().expect("the increment just done");
-        let (solved, load) = (record.increment, record.load);
-        output.increment(&next)?;
-        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
-        state = Some(next);
+        let Stage { loading, increments } = self.stages[stage];
+        let loading = origin.towards(loading, step as f64 / increments as f64);
+        let watch = AtRest::new(watch, done, Stage::increments(self.stages), loading.normal);
+        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some)
     }
-    let state = state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
-    Ok(bodies.finish(state))
+
+    fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
+        Step::Increment { state, of: Stage::increments(self.stages) }
+    }
+
+    fn take(&mut self, state: LoadingState) {
+        self.state = Some(state);
+    }
+}
+
+impl Stage {
+    /// Increments of all `stages`.
+    pub(super) fn increments(stages: &[Self]) -> usize {
+        stages.iter().map(|stage| stage.increments).sum()
+    }
+
+    /// The index of the stage, and the step in it, from 1, after so many increments that are `done`; none after the last.
+    pub(super) fn after(stages: &[Self], done: usize) -> Option<(usize, usize)> {
+        let mut left = done;
+        for (index, stage) in stages.iter().enumerate() {
+            if left < stage.increments {
+                return Some((index, left + 1));
+            }
+            left -= stage.increments;
+        }
+        None
+    }
 }
 
 /// The steady state of a pair that rolls along x, see [`solver::solve_rolling`].

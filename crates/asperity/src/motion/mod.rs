@@ -3,6 +3,7 @@
 mod approach;
 mod body;
 mod contact;
+mod course;
 mod film;
 mod flowed;
 mod flowing;
@@ -32,6 +33,7 @@ mod wear;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
 #[cfg(feature = "study")]
+pub use course::{Course, Output, Step};
 pub(crate) use film::{
     ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES,
 };
@@ -41,9 +43,7 @@ pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};
 pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
-pub use loading::{
-    Flattening, LoadedContact, LoadingOutput, LoadingState, Origin, Stage, load_in_stages, roll,
-};
+pub use loading::{Flattening, LoadedContact, LoadingState, Origin, Stage, load_in_stages, roll};
 pub use pair::Pair;
 #[cfg(feature = "study")]
 pub(crate) use pair::{facing_values, initial_gap};
@@ -55,13 +55,13 @@ pub use record::{
     ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use regime::Regime;
-pub use report::{Output, PassReport};
+pub use report::PassReport;
 pub use rim::Interior;
-pub use simulation::{Simulation, SolvedPass};
-pub use sliding::{InPlace, Slide, SlidingOutput, SlidingState, WornContact};
+pub use simulation::{FinishedPass, Simulation, SolvedPass};
+pub use sliding::{InPlace, Slide, SlidingState, WornContact};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
-pub use sweep::{Point, SweepOutput, sweep};
+pub use sweep::{Point, sweep};
 #[cfg(feature = "study")]
 pub(crate) use together::memory_together;
 pub use warm_start::{Bearing, Guess, WarmStart};

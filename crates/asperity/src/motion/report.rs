@@ -1,6 +1,5 @@
 //! What a motion hands out, pass after pass.
 
-use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
 use crate::motion::contact::Contact;
@@ -13,6 +12,7 @@ use crate::solver::Bounds;
 use crate::units::Pascal;
 
 /// A finished pass.
+#[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct PassReport<'a> {
     /// The pass in numbers.
@@ -62,13 +62,4 @@ impl PassReport<'_> {
         }
         mean.map(|sum| sum / self.contacts.len() as f64)
     }
-}
-
-/// Takes what a motion yields. An output that cannot be written ends the motion.
-pub trait Output {
-    /// Takes a finished pass.
-    ///
-    /// # Errors
-    /// What kept it from being written.
-    fn pass(&mut self, report: &PassReport) -> Result<()>;
 }

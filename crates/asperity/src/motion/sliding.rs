@@ -4,6 +4,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::check_limit;
 use crate::motion::contact::{Contact, facing};
+use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::film::FILM;
 use crate::motion::law::{self, Heat, Law, Passage, Sums};
 use crate::motion::pair::{Pair, facing_values};
@@ -12,7 +13,7 @@ use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
-use crate::motion::watch::{AtRest, Progress, Watch};
+use crate::motion::watch::{AtRest, Watch};
 use crate::motion::wear::WEAR;
 use crate::motion::{Body, Strategy};
 use crate::operator::{Boundary, Compliant, Operator};
@@ -139,22 +140,6 @@ impl SlidingState {
     }
 }
 
-/// Takes the updates of a contact that slides. An output that cannot be written ends it.
-pub trait SlidingOutput {
-    /// Takes the state after an update.
-    ///
-    /// # Errors
-    /// What kept it from being written.
-    fn update(&mut self, state: &SlidingState) -> Result<()>;
-}
-
-/// The output of a contact whose updates nobody takes.
-impl SlidingOutput for () {
-    fn update(&mut self, _: &SlidingState) -> Result<()> {
-        Ok(())
-    }
-}
-
 /// A contact that has slid all its way.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -257,31 +242,22 @@ impl InPlace {
     /// interruption, bit by bit.
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; those of the output.
+    /// Those of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; those of the outputs.
     pub fn run(
-        mut self,
+        self,
         under_way: Option<SlidingState>,
         watch: &dyn Watch,
-        output: &mut dyn SlidingOutput,
+        outputs: &mut [&mut dyn Output],
     ) -> Result<WornContact> {
-        let mut state = match under_way {
-            Some(state) => {
-                state.updates.iter().for_each(|update| watch.update(update));
-                state
-            }
-            None => {
-                let state = self.begin(watch)?;
-                self.finish(&state, watch, output)?;
-                state
-            }
-        };
-        for index in state.updates.len() - 1..self.slide.ends.len() {
-            if watch.stop() {
-                return Err(Error::Interrupted);
-            }
-            self.advance(&mut state, index, watch)?;
-            self.finish(&state, watch, output)?;
-        }
+        under_way.iter().flat_map(|state| &state.updates).for_each(|update| watch.update(update));
+        let mut course = Updates { contact: self, state: under_way };
+        course::run(&mut course, watch, outputs)?;
+        let Updates { contact, state } = course;
+        contact.end(state.expect("the contact before it slides"), watch)
+    }
+
+    /// The contact of the bodies as the last update has left them.
+    fn end(mut self, state: SlidingState, watch: &dyn Watch) -> Result<WornContact> {
         let (solution, contact) =
             self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
         let flash = self.flash(&contact)?;
@@ -291,18 +267,6 @@ impl InPlace {
         let contact = Contact { temperature, ..contact };
         let temperature = contact.temperature_field(solution.pressure.ncols());
         Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
-    }
-
-    /// Hands an update on.
-    fn finish(&self, state: &SlidingState, watch: &dyn Watch, output: &mut dyn SlidingOutput) -> Result<()> {
-        let update = state.updates.last().expect("the update just done");
-        let at = |source| Error::AtUpdate { update: update.update, source };
-        let written = state.pair.check_finite().and_then(|()| output.update(state));
-        written.map_err(|error| error.if_not_finite(at))?;
-        let (solved, positions, load) = (update.update, self.slide.ends.len(), update.load);
-        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
-        watch.update(update);
-        Ok(())
     }
 
     /// The contact before it slides.
@@ -458,5 +422,38 @@ impl InPlace {
             convolutions: contact.stats.convolutions,
             residual: contact.residual,
         }
+    }
+}
+
+/// The updates of a contact that slides in place.
+struct Updates {
+    contact: InPlace,
+    /// What the last update has left; none before the contact is pressed.
+    state: Option<SlidingState>,
+}
+
+impl Course for Updates {
+    type Solved = SlidingState;
+
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<SlidingState>> {
+        let Some(mut state) = self.state.take() else { return self.contact.begin(watch).map(Some) };
+        let index = state.updates.len() - 1;
+        if index == self.contact.slide.ends.len() {
+            self.state = Some(state);
+            return Ok(None);
+        }
+        if watch.stop() {
+            return Err(Error::Interrupted);
+        }
+        self.contact.advance(&mut state, index, watch)?;
+        Ok(Some(state))
+    }
+
+    fn report<'a>(&'a self, state: &'a SlidingState) -> Step<'a> {
+        Step::Update { state, of: self.contact.slide.ends.len() }
+    }
+
+    fn take(&mut self, state: SlidingState) {
+        self.state = Some(state);
     }
 }

@@ -1,13 +1,15 @@
 //! A static contact under one load after another, each on virgin bodies.
 
 use crate::error::{Error, Result};
+use crate::grid::Field;
 use crate::motion::contact::facing;
+use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::loading::LoadedContact;
 use crate::motion::pair::Pair;
 use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
-use crate::motion::watch::{AtRest, Progress, Watch};
-use crate::operator::{Boundary, Operator};
+use crate::motion::watch::{AtRest, Watch};
+use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
 /// One point of a sweep, as it is prescribed.
@@ -19,22 +21,6 @@ pub struct Point {
     pub rolling: Option<Rolling>,
 }
 
-/// Takes the points of a sweep. An output that cannot be written ends the sweep.
-pub trait SweepOutput {
-    /// Takes the last of the points done so far, and all of them in numbers.
-    ///
-    /// # Errors
-    /// What kept it from being written.
-    fn point(&mut self, points: &[SweepRecord], contact: &LoadedContact) -> Result<()>;
-}
-
-/// The output of a sweep whose points nobody takes.
-impl SweepOutput for () {
-    fn point(&mut self, _: &[SweepRecord], _: &LoadedContact) -> Result<()> {
-        Ok(())
-    }
-}
-
 /// Presses a pair, whose bodies face each other with all their columns, together as each of the `points` prescribes, and
 /// gives each in numbers and the last as a whole; points `done` are not solved again, but for the last.
 ///
@@ -44,7 +30,7 @@ impl SweepOutput for () {
 ///
 /// # Errors
 /// [`Error::AtPoint`] with what [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`] says;
-/// [`Error::Unsupported`] without points; [`Error::Interrupted`]; those of the output.
+/// [`Error::Unsupported`] without points; [`Error::Interrupted`]; those of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes, or a point rolls without friction.
@@ -57,60 +43,91 @@ pub fn sweep(
     params: &Params,
     done: Vec<SweepRecord>,
     watch: &dyn Watch,
-    output: &mut dyn SweepOutput,
+    outputs: &mut [&mut dyn Output],
 ) -> Result<(Vec<SweepRecord>, LoadedContact)> {
     let (operators, gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
-    let mut normal = operators.on(shape);
     let rolls = points.iter().any(|point| point.rolling.is_some());
     if rolls {
         pair.check_shear()?;
     }
-    let mut coupled = rolls.then(|| operators.coupled_on(shape));
     let mut records = done;
     records.truncate(points.len().saturating_sub(1));
     records.iter().for_each(|record| watch.point(record));
-    let mut last = None;
-    for point in &points[records.len()..] {
+    let mut sweep = Sweep {
+        pair,
+        boundary,
+        friction,
+        points,
+        params,
+        gap,
+        normal: operators.on(shape),
+        coupled: rolls.then(|| operators.coupled_on(shape)),
+        records,
+        last: None,
+    };
+    course::run(&mut sweep, watch, outputs)?;
+    let last = sweep.last.ok_or(Error::Unsupported("a sweep has at least one point"))?;
+    Ok((sweep.records, last))
+}
+
+/// A sweep under way.
+struct Sweep<'a> {
+    pair: &'a Pair,
+    boundary: Boundary,
+    friction: Option<&'a Friction>,
+    points: &'a [Point],
+    params: &'a Params,
+    gap: Field,
+    normal: Box<dyn Operator>,
+    /// Of bodies that roll.
+    coupled: Option<Box<dyn CoupledOperator>>,
+    /// The points that are done.
+    records: Vec<SweepRecord>,
+    /// The last of them as a whole.
+    last: Option<LoadedContact>,
+}
+
+impl Sweep<'_> {
+    fn contact(&mut self, point: &Point, watch: &AtRest<'_>) -> Result<LoadedContact> {
+        let Self { pair, params, gap, .. } = self;
+        let Some((rolling, operator)) = point.rolling.zip(self.coupled.as_mut()) else {
+            return LoadedContact::pressed(pair, self.normal.as_mut(), gap, point.control, params, watch);
+        };
+        let friction = self.friction.expect("what rolls has friction");
+        LoadedContact::rolling(pair, operator.as_mut(), gap, friction, point.control, rolling, params, watch)
+    }
+}
+
+impl Course for Sweep<'_> {
+    type Solved = (SweepRecord, LoadedContact);
+
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<Self::Solved>> {
+        let done = self.records.len();
+        let Some(point) = self.points.get(done) else { return Ok(None) };
         if watch.stop() {
             return Err(Error::Interrupted);
         }
-        let index = records.len() + 1;
-        let at_rest = AtRest::new(watch, records.len(), points.len(), point.control);
-        let mut solve = || {
-            let contact = match (point.rolling, &mut coupled) {
-                (Some(rolling), Some(operator)) => {
-                    let friction = friction.expect("what rolls has friction");
-                    let operator = operator.as_mut();
-                    LoadedContact::rolling(
-                        pair,
-                        operator,
-                        &gap,
-                        friction,
-                        point.control,
-                        rolling,
-                        params,
-                        &at_rest,
-                    )?
-                }
-                _ => LoadedContact::pressed(pair, normal.as_mut(), &gap, point.control, params, &at_rest)?,
-            };
-            Ok((record(boundary, normal.as_mut(), index, &contact, params)?, contact))
-        };
-        let (record, contact) = solve().map_err(|source| match source {
+        let points = self.points.len();
+        let solved =
+            self.contact(point, &AtRest::new(watch, done, points, point.control)).and_then(|contact| {
+                let record = record(self.boundary, self.normal.as_mut(), done + 1, &contact, self.params)?;
+                Ok((record, contact))
+            });
+        solved.map(Some).map_err(|source| match source {
             Error::Interrupted => source,
-            source => Error::AtPoint { point: index, points: points.len(), source: Box::new(source) },
-        })?;
-        let (solved, positions, load) = (index, points.len(), record.load);
-        records.push(record);
-        let at = |source| Error::AtPoint { point: index, points: points.len(), source };
-        output.point(&records, &contact).map_err(|error| error.if_not_finite(at))?;
-        watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
-        watch.point(&records[index - 1]);
-        last = Some(contact);
+            source => Error::AtPoint { point: done + 1, points, source: Box::new(source) },
+        })
     }
-    let last = last.ok_or(Error::Unsupported("a sweep has at least one point"))?;
-    Ok((records, last))
+
+    fn report<'a>(&'a self, (record, contact): &'a Self::Solved) -> Step<'a> {
+        Step::Point { record, contact, of: self.points.len() }
+    }
+
+    fn take(&mut self, (record, contact): Self::Solved) {
+        self.records.push(record);
+        self.last = Some(contact);
+    }
 }
 
 /// A contact in numbers, with its stiffness.

@@ -5,13 +5,13 @@
 
 pub mod case; // case.toml, checked to the key
 mod estimate; // what a case will take, and what to be wary of
+mod finish; // what every run begins with and ends with
 mod flow; // bodies that flow below their surfaces, as a case has them
 mod given; // surfaces in memory that a case names
 mod identity; // what a run is known by, to resume it
 mod json; // records as JSON
 mod columns; // columns and numbers, each with its unit
 pub mod many; // many cases made of one, in folders of their own
-mod loading; // increments of a loading, kept one by one
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to the two surfaces that meet
 mod rest; // a static contact
@@ -19,19 +19,16 @@ mod results; // the results directory
 mod review; // what to be wary of in a result
 mod run; // from a case to its results
 mod slabs; // a contact at rest on ranks, each with a slab of it
-mod sliding; // updates of a contact that slides in place, kept one by one
+mod state; // what the next step of a course depends on, as a file
 mod subsurface; // the stress under the surface: where it is wanted, its file
 mod summary; // summary.json
-mod sweep; // points of a sweep, kept one by one
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
-mod warm_start; // where the next pass begins
 
 pub use case::Case;
 pub use columns::{COLUMN_UNITS, dimension_of_column, unit_of_column};
 pub use estimate::{Demand, Estimate, demand, estimate};
 pub use given::Given;
 pub use identity::resolved;
-pub use loading::LoadingWriter;
 pub use passes::Passes;
 pub use prepare::{
     Bodies, Made, Origin, Prepared, bodies, bodies_until, exact_pitch, grids, topography, topography_spec,
@@ -39,12 +36,10 @@ pub use prepare::{
 };
 pub use rest::{NamedField, Rest, RestFields, rest};
 pub use results::{
-    Existing, PassWriter, Results, Writer, cap_name, pressure_name, temperature_name, traction_name,
+    Existing, Results, StepWriter, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };
 pub use run::run;
 pub use slabs::{DemandOfRank, collect, demand_of_collecting, demand_on_ranks, run_on_ranks};
-pub use sliding::SlidingWriter;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
-pub use sweep::SweepWriter;
 pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};

@@ -9,13 +9,13 @@ use crate::error::{Error, Result};
 use crate::motion::{Body, FlowRecord, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
 use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
+use crate::study::finish::{Computed, conclude, pair, params};
 use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::identity;
 use crate::study::prepare::{bodies_until, fresh_heights};
-use crate::study::results::{Existing, PassWriter, Writer};
+use crate::study::results::{Existing, StepWriter, Writer};
 use crate::study::review;
-use crate::study::run::{Computed, conclude, pair, params};
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::{NEVER, Stop};
 
@@ -29,7 +29,7 @@ pub struct Passes {
     done: usize,
     represented: usize,
     writer: Writer,
-    output: PassWriter,
+    output: StepWriter,
     resolved: Value,
     warnings: Vec<String>,
     began: Instant,

@@ -3,21 +3,20 @@
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, check_finite};
 use crate::motion::{
-    FILM, Flowed, FlowedContact, FlowedVolume, InPlace, IncrementRecord, LoadedContact, Pair, SlidingState,
-    State, StaticContact, UpdateRecord, WEAR, Watch, WornContact, load_in_stages, press, press_flowing, roll,
-    sweep,
+    FILM, Flowed, FlowedContact, FlowedVolume, InPlace, IncrementRecord, LoadedContact, Output, Pair, Point,
+    Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch, WornContact,
+    load_in_stages, press, press_flowing, roll, sweep,
 };
-use crate::solver::{Equilibrium, Friction, Params, Solution};
-use crate::study::case::{Case, LoadingPath};
+use crate::operator::Boundary;
+use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
+use crate::study::case::{Case, LoadingPath, PlasticitySpec};
 use crate::study::estimate::estimate;
+use crate::study::finish::{pair, params};
 use crate::study::flow;
 use crate::study::given::Given;
-use crate::study::loading::LoadingWriter;
 use crate::study::prepare::bodies_until;
-use crate::study::results::Writer;
+use crate::study::results::{StepWriter, Writer};
 use crate::study::review;
-use crate::study::run::{pair, params};
-use crate::study::sliding::SlidingWriter;
 use crate::study::summary::Outcome;
 use crate::study::tables;
 use crate::subsurface::Tractions;
@@ -80,21 +79,25 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     let bodies = bodies_until(case, given, &|| watch.stop())?;
     let estimate = estimate(case, &bodies)?;
     let pair = pair(case, bodies)?;
-    let (mut solved, warnings) = solve(case, &pair, estimate.apparent_area, None, watch)?;
-    let increments = solved.increments().to_vec();
-    let flowed = solved.take_flowed();
-    let rest = Rest {
-        outcome: solved.outcome(),
-        increments,
-        updates: solved.updates().to_vec(),
-        fields: solved.into_fields(displaced(pair, flowed.as_ref())),
-        flowed,
-        warnings: [estimate.warnings, warnings].concat(),
-    };
+    let mut rest = solve(case, pair, estimate.apparent_area, None, watch)?;
+    rest.warnings.splice(0..0, estimate.warnings);
     rest.checked()
 }
 
 impl Rest {
+    /// An outcome with its fields, and nothing else.
+    fn of(outcome: impl Into<Outcome>, fields: RestFields) -> Self {
+        let outcome = outcome.into();
+        Self {
+            outcome,
+            increments: Vec::new(),
+            updates: Vec::new(),
+            fields,
+            flowed: None,
+            warnings: Vec::new(),
+        }
+    }
+
     /// The same contact, if each number of it is one, as the files of a run must be.
     fn checked(self) -> Result<Self> {
         self.outcome.check()?;
@@ -114,235 +117,202 @@ impl Rest {
     }
 }
 
-/// The `pair` with its surfaces where plastic strain below them has brought them.
-pub(super) fn displaced(pair: Pair, flowed: Option<&Flowed>) -> Pair {
-    match flowed {
-        Some(flowed) => flowed.displaced(pair),
-        None => pair,
-    }
-}
-
-/// A static contact with all that is known of it.
-pub(super) enum Solved {
-    /// In one step without friction.
-    Pressed(Box<StaticContact>),
-    /// In stages, or rolling.
-    Loaded(Box<LoadedContact>, Option<Box<LoadingWriter>>),
-    /// A sweep: its points, the last as a whole.
-    Swept(Outcome, Box<LoadedContact>),
-    /// Worn in place.
-    Slid(Box<WornContact>, Option<Friction>, Option<Box<SlidingWriter>>),
-    /// Of bodies that flow below their surfaces: the contact, and what has flowed until that is taken.
-    Flowed(Box<FlowedContact>),
-}
-
-/// What has kept the course of a contact.
-pub(super) enum UnderWay {
-    Loading(Box<LoadingWriter>),
-    Sliding(Box<SlidingWriter>),
-}
-
-impl UnderWay {
-    /// Removes what was kept to go on from.
-    pub(super) fn done(&self) -> Result<()> {
-        match self {
-            Self::Loading(writer) => writer.done(),
-            Self::Sliding(writer) => writer.done(),
-        }
-    }
-}
-
 /// Solves the static contact of `case`, whose bodies are a `pair`, and tells what to be wary of in the answer. What is kept on
 /// the way is kept by the `writer`, which begins as soon as something is.
 pub(super) fn solve(
     case: &Case,
-    pair: &Pair,
+    pair: Pair,
     apparent_area: SquareMetre,
     writer: Option<&Writer>,
     watch: &dyn Watch,
-) -> Result<(Solved, Vec<String>)> {
-    let (boundary, params): (_, &Params) = (case.contact.boundary, &params(case));
-    let control = case.contact.prescribed.control(apparent_area);
+) -> Result<Rest> {
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    let begin = || writer.map_or(Ok(()), Writer::begin);
-    let every = case.output.pressure_every;
+    let control = case.contact.prescribed.control(apparent_area);
+    let contact = AtRest { case, pair, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
-        let friction = slide.friction;
-        begin()?;
-        let mut kept = writer.map(|writer| Box::new(writer.sliding(slide.ends.len() + 1)));
-        let left = kept.as_ref().map(|kept| kept.under_way(pair)).transpose()?.flatten();
-        let from = left.as_ref().map_or(pair, |left| &left.pair).clone();
-        let contact = case.wearing(InPlace::new(from, boundary, slide, *params)?)?;
-        let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
-        let worn = match &mut kept {
-            None => contact.run(state, watch, &mut ())?,
-            Some(kept) => contact.run(state, watch, kept.as_mut())?,
-        };
-        let warnings = at_rest(&worn.state.pair, case, &worn.solution);
-        return Ok((Solved::Slid(Box::new(worn), friction, kept), warnings));
+        return contact.slide(slide);
     }
-    Ok(match (case.loading_path(apparent_area), law, &case.plasticity) {
-        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => {
-            let (bodies, path) = (flow::bodies(case, spec, pair)?, flow::path(spec, stages));
-            let contact = press_flowing(pair, boundary, law, bodies, &path, params, watch)?;
-            begin()?;
-            let of_answer = at_rest(pair, case, contact.solution.normal());
-            let warnings = [review::flowed(case, pair, &contact), of_answer].concat();
-            (Solved::Flowed(Box::new(contact)), warnings)
-        }
-        (Some(LoadingPath::Sweep(points)), law, _) => {
-            begin()?;
-            let (points, contact) = match writer {
-                None => sweep(pair, boundary, law, &points, params, Vec::new(), watch, &mut ())?,
-                Some(writer) => {
-                    let done = writer.results().sweep()?;
-                    let mut output = writer.sweep(pair, every);
-                    sweep(pair, boundary, law, &points, params, done, watch, &mut output)?
-                }
-            };
-            let warnings = review::sweep(&points, &contact);
-            (Solved::Swept(Outcome::Sweep(points), Box::new(contact)), warnings)
-        }
-        (Some(LoadingPath::Rolling(rolling)), Some(law), _) => {
-            let contact = roll(pair, boundary, law, control, rolling, params, watch)?;
-            begin()?;
-            let warnings =
-                [review::loaded(&contact), at_rest(pair, case, contact.solution.normal())].concat();
-            (Solved::Loaded(Box::new(contact), None), warnings)
-        }
+    match (case.loading_path(apparent_area), law, &case.plasticity) {
+        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.flow(spec, stages),
+        (Some(LoadingPath::Sweep(points)), ..) => contact.sweep(&points),
+        (Some(LoadingPath::Rolling(rolling)), Some(friction), _) => contact.roll(friction, rolling),
         (Some(LoadingPath::Stages(stages)), law, _) if law.is_some() || stages.len() > 1 => {
-            begin()?;
-            let increments = stages.iter().map(|stage| stage.increments).sum();
-            let mut loading = writer.map(|writer| Box::new(writer.loading(pair, increments)));
-            let contact = match &mut loading {
-                None => load_in_stages(pair, boundary, law, &stages, params, None, watch, &mut ())?,
-                Some(loading) => {
-                    let done = loading.under_way()?;
-                    load_in_stages(pair, boundary, law, &stages, params, done, watch, loading.as_mut())?
-                }
-            };
-            let warnings =
-                [review::loaded(&contact), at_rest(pair, case, contact.solution.normal())].concat();
-            (Solved::Loaded(Box::new(contact), loading), warnings)
+            contact.load_in_stages(&stages)
         }
-        _ => {
-            let contact = press(pair, boundary, control, params, watch)?;
-            begin()?;
-            let warnings = at_rest(pair, case, &contact.solution);
-            (Solved::Pressed(Box::new(contact)), warnings)
-        }
-    })
+        _ => contact.press(),
+    }
 }
 
-fn at_rest(pair: &Pair, case: &Case, solution: &Solution) -> Vec<String> {
-    review::static_contact(pair, case.contact.boundary, &solution.pressure)
+/// A static contact that is to be solved.
+struct AtRest<'a> {
+    case: &'a Case,
+    pair: Pair,
+    law: Option<&'a Friction>,
+    control: Control,
+    params: Params,
+    writer: Option<&'a Writer>,
+    watch: &'a dyn Watch,
 }
 
-impl Solved {
-    /// The contact in numbers.
-    pub(super) fn outcome(&self) -> Outcome {
-        match self {
-            Self::Pressed(contact) => Outcome::Static(Box::new(contact.record.clone())),
-            Self::Loaded(contact, _) => Outcome::Static(Box::new(contact.record.clone())),
-            Self::Swept(outcome, _) => outcome.clone(),
-            Self::Slid(contact, ..) => Outcome::Static(Box::new(contact.record.clone())),
-            Self::Flowed(contact) => Outcome::Static(Box::new(contact.record.clone())),
-        }
+impl AtRest<'_> {
+    /// In one step without friction.
+    fn press(self) -> Result<Rest> {
+        let StaticContact { record, solution } =
+            press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
+        self.begin()?;
+        let warnings = self.review(&solution);
+        Ok(Rest { warnings, ..Rest::of(record, pressed(self.pair, solution)) })
     }
 
-    /// The last update of a contact that has slid in place.
-    pub(super) fn last_update(&self) -> Option<UpdateRecord> {
-        self.updates().last().cloned()
+    /// In steady rolling.
+    fn roll(self, friction: &Friction, rolling: Rolling) -> Result<Rest> {
+        let (boundary, control) = (self.boundary(), self.control);
+        let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
+        self.begin()?;
+        Ok(self.loaded(contact))
     }
 
-    fn updates(&self) -> &[UpdateRecord] {
-        match self {
-            Self::Slid(contact, ..) => &contact.state.updates,
-            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) | Self::Flowed(..) => &[],
-        }
+    /// Stage after stage.
+    fn load_in_stages(self, stages: &[Stage]) -> Result<Rest> {
+        self.begin()?;
+        let increments = stages.iter().map(|stage| stage.increments).sum();
+        let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, increments);
+        let left = self.writer.map(under_way).transpose()?.flatten();
+        let done = left.as_ref().map_or(&[][..], |left| &left.increments);
+        let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut kept));
+        let contact =
+            load_in_stages(&self.pair, boundary, self.law, stages, &self.params, left, self.watch, outputs)?;
+        Ok(self.loaded(contact))
     }
 
-    fn increments(&self) -> &[IncrementRecord] {
-        match self {
-            Self::Loaded(contact, _) => &contact.increments,
-            Self::Flowed(contact) => &contact.flowed.increments,
-            Self::Pressed(_) | Self::Swept(..) | Self::Slid(..) => &[],
-        }
+    /// Under one load, or at one creepage, after another.
+    fn sweep(self, points: &[Point]) -> Result<Rest> {
+        self.begin()?;
+        let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
+        done.truncate(points.len().saturating_sub(1));
+        let every = self.case.output.pressure_every;
+        let mut kept = self.writer.map(|writer| writer.points(&done, every)).transpose()?;
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut kept));
+        let (points, contact) =
+            sweep(&self.pair, boundary, self.law, points, &self.params, done, self.watch, outputs)?;
+        let warnings = review::sweep(&points, &contact);
+        let LoadedContact { solution, plastic, slip, .. } = contact;
+        let fields = fields(self.pair, solution, plastic, slip);
+        Ok(Rest { warnings, ..Rest::of(Outcome::Sweep(points), fields) })
     }
 
-    /// What has flowed below the surfaces.
-    pub(super) fn take_flowed(&mut self) -> Option<Flowed> {
-        match self {
-            Self::Flowed(contact) => Some(std::mem::take(&mut contact.flowed)),
-            Self::Pressed(_) | Self::Loaded(..) | Self::Swept(..) | Self::Slid(..) => None,
-        }
+    /// Slid in place.
+    fn slide(self, slide: Slide) -> Result<Rest> {
+        let friction = slide.friction;
+        self.begin()?;
+        let under_way = |writer: &Writer| writer.results().sliding_under_way(&self.pair);
+        let left = self.writer.map(under_way).transpose()?.flatten();
+        let done = left.as_ref().map_or(&[][..], |left| &left.updates);
+        let mut kept = self.writer.map(|writer| writer.updates(done)).transpose()?;
+        let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
+        let contact = self.case.wearing(InPlace::new(from, self.boundary(), slide, self.params)?)?;
+        let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
+        let worn = contact.run(state, self.watch, &mut outputs(&mut kept))?;
+        let warnings = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
+        let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
+        Ok(Rest { updates, warnings, ..Rest::of(record, worn_fields(worn, friction)) })
     }
 
-    /// What has kept the course of a loading, or of sliding in place.
-    pub(super) fn take_under_way(&mut self) -> Option<UnderWay> {
-        match self {
-            Self::Loaded(_, loading) => loading.take().map(UnderWay::Loading),
-            Self::Slid(_, _, sliding) => sliding.take().map(UnderWay::Sliding),
-            Self::Pressed(_) | Self::Swept(..) | Self::Flowed(..) => None,
-        }
+    /// In stages, with bodies that flow below their surfaces.
+    fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<Rest> {
+        let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
+        let (pair, boundary) = (&self.pair, self.boundary());
+        let contact =
+            press_flowing(pair, boundary, self.law, bodies, &path, &self.params, self.watch, &mut [])?;
+        self.begin()?;
+        let of_answer = self.review(contact.solution.normal());
+        let warnings = [review::flowed(self.case, &self.pair, &contact), of_answer].concat();
+        let FlowedContact { record, solution, slip, flowed, .. } = contact;
+        let nothing = self.pair.lower_grid().zeros();
+        let fields = fields(flowed.displaced(self.pair), solution, nothing, slip);
+        let increments = flowed.increments.clone();
+        Ok(Rest { increments, flowed: Some(flowed), warnings, ..Rest::of(record, fields) })
     }
 
-    /// The fields, with the surfaces of the `pair`.
-    pub(super) fn into_fields(self, pair: Pair) -> RestFields {
-        let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
-        let (solution, plastic, slip) = match self {
-            Self::Slid(contact, friction, _) => return worn_fields(*contact, friction),
-            Self::Pressed(contact) => {
-                let StaticContact { solution, .. } = *contact;
-                let plastic = solution.plastic_interference();
-                (Equilibrium::Frictionless(Box::new(solution)), plastic, None)
-            }
-            Self::Flowed(contact) => {
-                let FlowedContact { solution, slip, .. } = *contact;
-                (solution, grid.zeros(), slip)
-            }
-            Self::Loaded(contact, _) | Self::Swept(_, contact) => {
-                let LoadedContact { solution, plastic, slip, .. } = *contact;
-                (solution, plastic, slip)
-            }
-        };
-        let (normal, shear) = match solution {
-            Equilibrium::Frictionless(solution) => (*solution, None),
-            Equilibrium::Frictional(solution) => {
-                let solution = *solution;
-                (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
-            }
-        };
-        // Those of the bodies as they are prepared, whatever the course of a loading has left of them.
-        drop(normal.initial_gap);
-        let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
-        let mut fields = Vec::new();
-        let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
-        add("pressure", "Pa", normal.pressure);
-        add("displacement", "m", normal.displacement);
-        add("gap", "m", gap);
-        add("lower", "m", pair.lower.heights);
-        add("upper", "m", pair.upper.heights);
-        add("plastic", "m", plastic);
-        if let CellValues::Field(cap) = normal.bounds.upper() {
-            add("cap", "Pa", cap.clone());
-        }
-        let stick = shear.map(|([qx, qy], [ux, uy], stick)| {
-            add("traction_x", "Pa", qx);
-            add("traction_y", "Pa", qy);
-            add("displacement_x", "m", ux);
-            add("displacement_y", "m", uy);
-            stick
-        });
-        if let Some([x, y]) = slip {
-            add("slip_x", "m", x);
-            add("slip_y", "m", y);
-        }
-        if let Some(stick) = stick {
-            add("stick", "1", stick);
-        }
-        RestFields { grid, approach: normal.approach, hardness, fields }
+    /// At the end of a loading, or rolling.
+    fn loaded(self, contact: LoadedContact) -> Rest {
+        let warnings = [review::loaded(&contact), self.review(contact.solution.normal())].concat();
+        let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
+        let fields = fields(self.pair, solution, plastic, slip);
+        Rest { increments, warnings, ..Rest::of(record, fields) }
     }
+
+    fn boundary(&self) -> Boundary {
+        self.case.contact.boundary
+    }
+
+    /// Clears what the results replace, where there are any.
+    fn begin(&self) -> Result<()> {
+        self.writer.map_or(Ok(()), Writer::begin)
+    }
+
+    fn review(&self, solution: &Solution) -> Vec<String> {
+        review::static_contact(&self.pair, self.boundary(), &solution.pressure)
+    }
+}
+
+/// What keeps a course, as its outputs.
+fn outputs(kept: &mut Option<StepWriter>) -> Vec<&mut dyn Output> {
+    kept.iter_mut().map(|kept| kept as &mut dyn Output).collect()
+}
+
+impl From<StaticRecord> for Outcome {
+    fn from(record: StaticRecord) -> Self {
+        Self::Static(Box::new(record))
+    }
+}
+
+/// The fields of a contact of the `pair` in one step without friction.
+pub(super) fn pressed(pair: Pair, solution: Solution) -> RestFields {
+    let plastic = solution.plastic_interference();
+    fields(pair, Equilibrium::Frictionless(Box::new(solution)), plastic, None)
+}
+
+/// The fields of a contact of the `pair`, whose cells have taken up so much plastically.
+fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field; 2]>) -> RestFields {
+    let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
+    let (normal, shear) = match solution {
+        Equilibrium::Frictionless(solution) => (*solution, None),
+        Equilibrium::Frictional(solution) => {
+            let solution = *solution;
+            (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
+        }
+    };
+    // Those of the bodies as they are prepared, whatever the course of a loading has left of them.
+    drop(normal.initial_gap);
+    let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
+    let mut fields = Vec::new();
+    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    add("pressure", "Pa", normal.pressure);
+    add("displacement", "m", normal.displacement);
+    add("gap", "m", gap);
+    add("lower", "m", pair.lower.heights);
+    add("upper", "m", pair.upper.heights);
+    add("plastic", "m", plastic);
+    if let CellValues::Field(cap) = normal.bounds.upper() {
+        add("cap", "Pa", cap.clone());
+    }
+    let stick = shear.map(|([qx, qy], [ux, uy], stick)| {
+        add("traction_x", "Pa", qx);
+        add("traction_y", "Pa", qy);
+        add("displacement_x", "m", ux);
+        add("displacement_y", "m", uy);
+        stick
+    });
+    if let Some([x, y]) = slip {
+        add("slip_x", "m", x);
+        add("slip_y", "m", y);
+    }
+    if let Some(stick) = stick {
+        add("stick", "1", stick);
+    }
+    RestFields { grid, approach: normal.approach, hardness, fields }
 }
 
 /// Names of the fields of what laws keep of the lower and of the upper body.

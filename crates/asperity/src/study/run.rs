@@ -5,18 +5,17 @@ use std::path::Path;
 use web_time::Instant;
 
 use crate::error::Result;
-use crate::motion::{FlowRecord, Pair, UpdateRecord, Watch};
-use crate::solver::Params;
+use crate::motion::Watch;
 use crate::study::case::Case;
 use crate::study::estimate::{Estimate, estimate};
+use crate::study::finish::{Computed, conclude, pair};
 use crate::study::given::Given;
 use crate::study::identity;
 use crate::study::passes::Passes;
-use crate::study::prepare::{Bodies, bodies_until};
-use crate::study::rest;
+use crate::study::prepare::bodies_until;
+use crate::study::rest::{self, Rest};
 use crate::study::results::{Existing, Writer};
-use crate::study::subsurface::SubsurfaceRecord;
-use crate::study::summary::{Outcome, RunningIn, Summary};
+use crate::study::summary::Summary;
 
 /// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`, which is the writer's until
 /// that is dropped: figures may be added to them.
@@ -48,12 +47,9 @@ pub fn run(
     let resolved = identity::resolved(case, &bodies);
     let pair = pair(case, bodies)?;
     let writer = Writer::enter(directory, &resolved, existing)?;
-    let (mut solved, of_answer) = rest::solve(case, &pair, apparent_area, Some(&writer), watch)?;
+    let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
+    let Rest { outcome, updates, fields, flowed, warnings: of_answer, .. } = rest;
     warnings.extend(of_answer);
-    let (outcome, sliding) = (solved.outcome(), solved.last_update());
-    let under_way = solved.take_under_way();
-    let flowed = solved.take_flowed();
-    let fields = solved.into_fields(rest::displaced(pair, flowed.as_ref()));
     let below = subsurface.map(|plan| (plan, fields.tractions()));
     writer.write_rest(fields)?;
     let volumes = match &flowed {
@@ -65,64 +61,9 @@ pub fn run(
     };
     let stress =
         below.map(|(plan, tractions)| writer.write_subsurface(&plan, tractions, volumes)).transpose()?;
-    let computed = Computed { outcome, subsurface: stress.into_iter().collect(), sliding, flow: None };
+    let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
+    let computed = Computed { outcome, subsurface, sliding, flow: None };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
-    under_way.map_or(Ok(()), |under_way| under_way.done())?;
-    writer.results().forget_sweep()?;
+    writer.results().forget_state()?;
     Ok((summary, writer))
-}
-
-/// What a run has computed, in numbers.
-pub(super) struct Computed {
-    pub(super) outcome: Outcome,
-    pub(super) subsurface: Vec<SubsurfaceRecord>,
-    /// The last update of a contact that has slid in place.
-    pub(super) sliding: Option<UpdateRecord>,
-    /// What the passes of bodies that flow come to.
-    pub(super) flow: Option<FlowRecord>,
-}
-
-/// Writes what comes at the end of every run.
-pub(super) fn conclude(
-    case: &Case,
-    writer: &Writer,
-    resolved: serde_json::Value,
-    began: Instant,
-    Computed { outcome, subsurface, sliding, flow }: Computed,
-    mut warnings: Vec<String>,
-) -> Result<Summary> {
-    outcome.check()?;
-    warnings.extend(writer.warning().map(str::to_owned));
-    if case.output.paraview {
-        writer.write_for_paraview()?;
-    }
-    let running_in = match &outcome {
-        Outcome::Passes(passes) => RunningIn::of(passes),
-        Outcome::Static(_) | Outcome::Sweep(_) => None,
-    };
-    let summary = Summary {
-        running_in,
-        sliding,
-        plasticity: flow,
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        case: resolved,
-        outcome,
-        subsurface,
-        warnings,
-        wall_time_s: began.elapsed().as_secs_f64(),
-    };
-    writer.finish(&summary)?;
-    Ok(summary)
-}
-
-/// The `bodies` of `case`, face to face.
-pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
-    let Bodies { lower, upper } = bodies;
-    let materials = [&case.lower.material, &case.upper.material];
-    Pair::new(lower.topography, upper.topography, materials)?.with_hardness([lower.hardness, upper.hardness])
-}
-
-/// The solver that `case` asks for.
-pub(super) fn params(case: &Case) -> Params {
-    Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() }
 }

@@ -18,12 +18,12 @@ use web_time::Instant;
 
 use super::case::Case;
 use super::estimate::{Demand, cut_off, demand, spot, too_few_cells};
+use super::finish::{Computed, conclude, params};
 use super::given::Given;
 use super::identity::{self, Known};
 use super::prepare::{SlabBodies, grids, made_by_slabs, slab_bodies};
-use super::rest::Solved;
+use super::rest::pressed;
 use super::results::{Existing, Results, Writer};
-use super::run::{Computed, conclude, params};
 use super::summary::{self, Outcome, Summary};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -137,7 +137,7 @@ pub fn run_on_ranks(
     wait_for_all(&**ranks);
     let outcome = Outcome::Static(Box::new(contact.record.clone()));
     let Largest(softest) = slab.merged(Largest(-pair.min_hardness()));
-    let fields = Solved::Pressed(Box::new(contact)).into_fields(pair);
+    let fields = pressed(pair, contact.solution);
     let index = Index::new(&slab, case.contact.boundary, &fields, -softest, &identity);
     index.write_part(directory, &slab, fields)?;
     wait_for_all(&**ranks);

@@ -1,9 +1,8 @@
 //! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: a row per position, per pass, per increment of a loading, per
 //! point of a sweep.
 //!
-//! The tables of a motion grow by the rows of a pass when it is finished; a row counts once its line has an end, so that half a
-//! row, which a power cut may leave, is none. The others are written whole and atomically. Numbers are written so that they read
-//! back to the same bits.
+//! A table grows by the rows of a step when that is done; a row counts once its line has an end, so that half a row, which a power cut
+//! may leave, is none. Numbers are written so that they read back to the same bits.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
@@ -186,22 +185,6 @@ pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
     records.iter().map(row).collect()
 }
 
-/// Writes `sweep.csv`. A stiffness that there is not is an empty cell.
-///
-/// # Errors
-/// [`Error::File`], [`Error::NotFinite`].
-pub(super) fn write_sweep(path: &Path, points: &[SweepRecord]) -> Result<()> {
-    write_rows(path, &SWEEP_COLUMNS.map(str::to_owned), &checked(points)?)
-}
-
-/// Reads `sweep.csv`.
-///
-/// # Errors
-/// [`Error::File`], with the line where a row is damaged.
-pub(super) fn read_sweep(path: &Path) -> Result<Vec<SweepRecord>> {
-    read(path)
-}
-
 /// Writes `increments.csv`.
 ///
 /// # Errors
@@ -213,14 +196,6 @@ pub(super) fn write_increments(path: &Path, increments: &[IncrementRecord]) -> R
         None => INCREMENT_COLUMNS.map(str::to_owned).to_vec(),
     };
     write_rows(path, &columns, &rows)
-}
-
-/// Reads `increments.csv`.
-///
-/// # Errors
-/// [`Error::File`], with the line where a row is damaged.
-pub(super) fn read_increments(path: &Path) -> Result<Vec<IncrementRecord>> {
-    read(path)
 }
 
 /// Reads `steps.csv`, to resume.
@@ -247,7 +222,7 @@ pub(super) fn read_updates(path: &Path) -> Result<Vec<UpdateRecord>> {
     read_growing(path)
 }
 
-/// `steps.csv` or `passes.csv` of a motion, or `updates.csv` of a contact that slides in place, under way: rows are added to its end.
+/// A table under way: rows are added to its end.
 pub(super) struct GrowingTable {
     path: PathBuf,
     /// Its columns; none of a table without a row.
@@ -287,6 +262,18 @@ impl GrowingTable {
         self.columns = columns;
         Ok(())
     }
+}
+
+/// How many whole rows the table at `path` has; none where it is not there.
+///
+/// # Errors
+/// [`Error::File`].
+pub(super) fn rows_there(path: &Path) -> Result<usize> {
+    if !path.exists() {
+        return Ok(0);
+    }
+    let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
+    Ok(text.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1))
 }
 
 /// Writes a table of these columns.
@@ -344,7 +331,10 @@ fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
 }
 
 /// The rows of a table that may be growing: those whose line has an end.
-fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+///
+/// # Errors
+/// [`Error::File`], with the line where a row is damaged.
+pub(super) fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
     let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
     let ended = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
     rows(path, &text[..ended])
@@ -430,8 +420,11 @@ impl<'de> Deserialize<'de> for Row {
     }
 }
 
-/// Reads a table that is written as a whole.
-fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+/// Reads a table that is whole.
+///
+/// # Errors
+/// [`Error::File`], with the line where a row is damaged.
+pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
     let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
     if text.last() != Some(&b'\n') {
         let damaged = io::Error::new(ErrorKind::InvalidData, "it is damaged: its last row is not whole");
@@ -581,8 +574,8 @@ mod tests {
             "volumes of two laws"
         );
         let points = [point(None), point(Some(1.0 / 3.0 * 1e7))];
-        write_sweep(&path, &points).unwrap();
-        assert_eq!(read_sweep(&path).unwrap(), points);
+        write_new(&path, &points);
+        assert_eq!(read::<SweepRecord>(&path).unwrap(), points);
     }
 
     #[test]
@@ -656,7 +649,11 @@ mod tests {
             }
             let apart = IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
             write_increments(&directory.path().join("increments.csv"), std::slice::from_ref(&apart)).unwrap();
-            assert!(read_increments(&directory.path().join("increments.csv")).unwrap()[0].approach.is_nan());
+            assert!(
+                read::<IncrementRecord>(&directory.path().join("increments.csv")).unwrap()[0]
+                    .approach
+                    .is_nan()
+            );
             let wrong = IncrementRecord { increment: 7, load: value, ..apart };
             let error = write_increments(&directory.path().join("increments.csv"), &[wrong]).unwrap_err();
             assert_eq!(error.to_string(), "increment 7: `load` is not a finite number");
@@ -698,12 +695,12 @@ mod tests {
     fn a_table_that_is_cut_off_anywhere_is_damaged() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("sweep.csv");
-        write_sweep(&path, &[point(None), point(Some(1e7))]).unwrap();
+        write_new(&path, &[point(None), point(Some(1e7))]);
         let whole = std::fs::read(&path).unwrap();
         let header = whole.iter().position(|byte| *byte == b'\n').unwrap();
         for length in (0..whole.len()).filter(|length| whole[..*length].last() != Some(&b'\n')) {
             std::fs::write(&path, &whole[..length]).unwrap();
-            let message = read_sweep(&path).unwrap_err().to_string();
+            let message = read::<SweepRecord>(&path).unwrap_err().to_string();
             assert!(message.contains("sweep.csv"), "{length} of {header}: {message}");
         }
     }

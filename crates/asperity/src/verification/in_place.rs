@@ -108,7 +108,7 @@ fn amplitude(updates: usize, under: Option<(WearCoefficient, &Film)>, exact: f64
             contact.with_law(Wear::new([Some(coefficient); 2], films)?).with_law(law)
         }
     };
-    let worn = contact.run(None, &(), &mut ())?.state.pair;
+    let worn = contact.run(None, &(), &mut [])?.state.pair;
     let gap = &worn.upper.heights - &worn.lower.heights;
     let part = |wave: fn(f64) -> f64| -> f64 {
         let row = gap.row(0);
@@ -136,7 +136,7 @@ fn flat() -> Result<Vec<Check>> {
         let slide = Slide::to(ends, Control::Load(mean * grid.area()));
         let contact = InPlace::new(pair, Boundary::FREE, slide, PARAMS)?;
         let contact = contact.with_law(Wear::new([coefficient, None], [None, None])?);
-        let worn = contact.run(None, &(), &mut ())?;
+        let worn = contact.run(None, &(), &mut [])?;
         let mut shape = worn.state.pair.lower.heights.clone();
         shape -= shape.mean().unwrap_or(f64::NAN);
         Ok([relative_max(&worn.state.pressure, &pressure), relative_max(&shape, &even)])
@@ -175,7 +175,7 @@ fn worn_ball(stations: &[usize]) -> Result<Vec<[f64; 3]>> {
     slide.ends.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
     let contact = InPlace::new(pair, Boundary::FREE, slide, PARAMS)?;
     let contact = contact.with_law(Wear::new([None, coefficient], [None, None])?);
-    let WornContact { state, .. } = contact.run(None, &(), &mut ())?;
+    let WornContact { state, .. } = contact.run(None, &(), &mut [])?;
     let at = |distance: &Metre| {
         let near = |update: &&UpdateRecord| (update.distance - distance).abs() < 1e-9;
         let update = state.updates.iter().find(near).expect("an update ends at each station");

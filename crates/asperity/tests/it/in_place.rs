@@ -5,8 +5,8 @@ use std::path::Path;
 use asperity::grid::CellValues;
 use asperity::material::Material;
 use asperity::motion::{
-    FILM, Film, FilmLaw, FilmStress, Films, InPlace, Law, Pair, Progress, Slide, SlidingOutput, SlidingState,
-    State, Touching, UpdateRecord, WEAR, Watch, Wear, WearCoefficient, WornContact, press,
+    FILM, Film, FilmLaw, FilmStress, Films, InPlace, Law, Output, Pair, Progress, Slide, SlidingState, State,
+    Step, Touching, UpdateRecord, WEAR, Watch, Wear, WearCoefficient, WornContact, press,
 };
 use asperity::operator::{Boundary, Compliant, DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Coupling, Friction, Method, Params, Solution, solve_normal};
@@ -245,7 +245,7 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
         let coefficient = |k: f64| Some(WearCoefficient::archard(k).unwrap().with_film(0.1 * k).unwrap());
         let wear = Wear::new(ks.map(coefficient), [Some(frozen()), Some(frozen())]).unwrap();
         let contact = InPlace::new(pair, boundary, slide, EXACT).unwrap().with_law(wear);
-        let WornContact { state, solution, .. } = contact.run(None, &(), &mut ()).unwrap();
+        let WornContact { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
         // On the bodies that it leaves it presses as it did in the update.
         assert!(difference(&state.pressure, &solution.pressure) < 1e-6, "case {case}");
         let after =
@@ -301,7 +301,7 @@ fn everything(pair: Pair, updates: usize) -> InPlace {
 fn the_ledger_balances_and_friction_works() {
     let before = rough(2e9, [24, 20], 1);
     let WornContact { state, temperature, solution, .. } =
-        everything(before.clone(), 12).run(None, &(), &mut ()).unwrap();
+        everything(before.clone(), 12).run(None, &(), &mut []).unwrap();
     let last = state.updates.last().unwrap();
     assert_eq!((state.updates.len(), last.update, last.distance, last.time), (13, 12, 2.0, 4.0));
     let depths = [
@@ -340,7 +340,7 @@ fn the_volume_is_archards_whatever_the_updates() {
             Wear::new([4e-15, 1e-15].map(|k| Some(WearCoefficient::archard(k).unwrap())), [None, None]);
         let contact =
             InPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear.unwrap());
-        let state = contact.run(None, &(), &mut ()).unwrap().state;
+        let state = contact.run(None, &(), &mut []).unwrap().state;
         let last = state.updates.last().unwrap();
         for (body, k) in [4e-15, 1e-15].into_iter().enumerate() {
             let expected = k * 0.05 * 0.3;
@@ -356,9 +356,10 @@ fn the_volume_is_archards_whatever_the_updates() {
 /// Keeps the states, and stops after some.
 struct Kept(Vec<SlidingState>, usize);
 
-impl SlidingOutput for Kept {
-    fn update(&mut self, state: &SlidingState) -> Result<()> {
-        self.0.push(state.clone());
+impl Output for Kept {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Update { state, .. } = step else { return Ok(()) };
+        self.0.push((*state).clone());
         if self.0.len() == self.1 { Err(Error::Interrupted) } else { Ok(()) }
     }
 }
@@ -366,10 +367,10 @@ impl SlidingOutput for Kept {
 #[test]
 fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
     let pair = rough(2e9, [24, 20], 1);
-    let whole = everything(pair.clone(), 6).run(None, &(), &mut ()).unwrap();
+    let whole = everything(pair.clone(), 6).run(None, &(), &mut []).unwrap();
     for stop in [1, 3, 6] {
         let mut kept = Kept(Vec::new(), stop);
-        assert!(everything(pair.clone(), 6).run(None, &(), &mut kept).is_err());
+        assert!(everything(pair.clone(), 6).run(None, &(), &mut [&mut kept]).is_err());
         let state = kept.0.pop().unwrap();
         // From the heights and the films alone, as files keep them.
         let mut at = pair.clone();
@@ -379,7 +380,7 @@ fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
         }
         let contact = everything(at, 6);
         let state = SlidingState::resumed(&contact, state.updates, state.pressure);
-        let rest = contact.run(Some(state), &(), &mut ()).unwrap();
+        let rest = contact.run(Some(state), &(), &mut []).unwrap();
         assert_eq!(rest.state.updates, whole.state.updates);
         assert_eq!(rest.state.pair.upper.heights, whole.state.pair.upper.heights);
         assert_eq!(rest.solution.pressure, whole.solution.pressure);
@@ -393,7 +394,7 @@ fn at_an_approach_wear_takes_the_load_away() {
     let slide = Slide::graded(50.0, 20, Control::Approach(pressed.record.approach));
     let wear = Wear::new([Some(WearCoefficient::archard(1e-14).unwrap()), None], [None, None]).unwrap();
     let contact = InPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear);
-    let updates = contact.run(None, &(), &mut ()).unwrap().state.updates;
+    let updates = contact.run(None, &(), &mut []).unwrap().state.updates;
     assert!((updates[0].load / 0.05 - 1.0).abs() < 1e-6);
     assert!(updates.windows(2).all(|pair| pair[1].load < pair[0].load));
     assert!(updates[20].load < 0.1 * updates[0].load);
@@ -431,7 +432,7 @@ fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_sta
             true => contact.with_law(Wear::new([coefficient, None], [None, None]).unwrap()),
             false => contact.with_law(Blunt(k)),
         };
-        contact.run(None, &(), &mut ()).unwrap().state
+        contact.run(None, &(), &mut []).unwrap().state
     };
     let spread = |state: &SlidingState| {
         let p = &state.pressure;
@@ -551,7 +552,7 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
             .map(|results| results.static_fields().unwrap().read(name).unwrap().into_field().unwrap());
         assert_eq!(one, other, "{name}");
     }
-    assert!(!folder.path().join("cut/fields/update-state.h5").exists());
+    assert!(!folder.path().join("cut/fields").exists());
     let memory = study::rest(&case, Given::default(), &()).unwrap();
     assert_eq!(memory.updates, updates);
 }

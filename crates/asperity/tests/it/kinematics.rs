@@ -2,8 +2,8 @@
 
 use asperity::material::Material;
 use asperity::motion::{
-    Acceleration, Contact, FILM, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, PassReport,
-    Path, PlasticUpdate, Simulation, StepRecord, Strategy, Way, Wear, WearCoefficient,
+    Acceleration, Contact, FILM, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path,
+    PlasticUpdate, Simulation, Step, StepRecord, Strategy, Way, Wear, WearCoefficient,
 };
 use asperity::operator::{Boundary, Edge, Operators};
 use asperity::solver::{Bounds, Control, Friction, Method, Params, solve_normal};
@@ -26,7 +26,8 @@ struct Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend_from_slice(report.steps);
         self.contacts.push(report.contacts.to_vec());

@@ -2,8 +2,8 @@
 
 use asperity::material::Material;
 use asperity::motion::{
-    Acceleration, Law, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Simulation,
-    State, Strategy, Touching,
+    Acceleration, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate, Simulation, State, Step,
+    Strategy, Touching,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Friction, Params};
@@ -55,7 +55,8 @@ struct Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.pairs.push(report.pair.clone());
         self.work.push(report.contacts.iter().map(|contact| contact.load).sum::<f64>() * PITCH);
@@ -130,9 +131,10 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     };
     struct Warm(Kept, Option<asperity::motion::WarmStart>);
     impl Output for Warm {
-        fn pass(&mut self, report: &PassReport) -> Result<()> {
+        fn step(&mut self, step: &Step<'_>) -> Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
             self.1 = Some(report.warm.clone());
-            self.0.pass(report)
+            self.0.step(step)
         }
     }
     let mut first = Warm(Kept::default(), None);

@@ -210,7 +210,8 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
         .with_friction(None);
     struct Kept(Vec<motion::Contact>);
     impl motion::Output for Kept {
-        fn pass(&mut self, report: &motion::PassReport) -> asperity::Result<()> {
+        fn step(&mut self, step: &motion::Step<'_>) -> asperity::Result<()> {
+            let motion::Step::Pass(report) = step else { return Ok(()) };
             self.0 = report.contacts.to_vec();
             Ok(())
         }

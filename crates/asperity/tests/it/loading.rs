@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity::material::{Compliances, Material};
 use asperity::motion::{
-    LoadedContact, LoadingOutput, LoadingState, Pair, Progress, Stage, Watch, load_in_stages,
+    LoadedContact, LoadingState, Output, Pair, Progress, Stage, Step, Watch, load_in_stages,
 };
 use asperity::operator::{Boundary, CoupledSum};
 use asperity::solver::{Control, Coupling, Equilibrium, Friction, Loading, Method, Params, Tangential};
@@ -35,9 +35,9 @@ fn load(
     friction: Option<&Friction>,
     stages: &[Stage],
     params: &Params,
-    output: &mut dyn LoadingOutput,
+    outputs: &mut [&mut dyn Output],
 ) -> Result<LoadedContact, Error> {
-    load_in_stages(pair, Boundary::FREE, friction, stages, params, None, &(), output)
+    load_in_stages(pair, Boundary::FREE, friction, stages, params, None, &(), outputs)
 }
 
 /// A steel ball of 1 mm on steel of some hardness.
@@ -64,15 +64,15 @@ fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
     for friction in [None, Some(&friction)] {
         for increments in [1, 5] {
             let stages = [to(0.2, 0.0, 1), to(0.05, 0.0, increments)];
-            let contact = load(&pair, friction, &stages, &Params::default(), &mut ()).unwrap();
+            let contact = load(&pair, friction, &stages, &Params::default(), &mut []).unwrap();
             let record = &contact.record;
             assert!((record.contact_area / 242e-12 - 1.0).abs() < 2e-3, "{record:?}");
             assert!((record.max_pressure / 281e6 - 1.0).abs() < 2e-3, "{record:?}");
             assert!((record.approach / 63.9e-9 - 1.0).abs() < 1e-3, "{record:?}");
             // Back at the largest load it is as it was, and beyond it as if it had never been unloaded.
-            let virgin = load(&pair, friction, &[to(0.3, 0.0, 1)], &Params::default(), &mut ()).unwrap();
+            let virgin = load(&pair, friction, &[to(0.3, 0.0, 1)], &Params::default(), &mut []).unwrap();
             let stages = [to(0.2, 0.0, 1), to(0.05, 0.0, increments), to(0.3, 0.0, increments)];
-            let again = load(&pair, friction, &stages, &Params::default(), &mut ()).unwrap();
+            let again = load(&pair, friction, &stages, &Params::default(), &mut []).unwrap();
             let most = virgin.record.max_pressure;
             let difference = &again.solution.normal().pressure - &virgin.solution.normal().pressure;
             assert!(difference.iter().all(|e| e.abs() < 1e-5 * most));
@@ -84,7 +84,7 @@ fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
 #[test]
 fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
     let pair = ball(48, 0.6e-6, 0.7e9);
-    let whole = load(&pair, None, &[to(0.25, 0.0, 1)], &Params::default(), &mut ()).unwrap();
+    let whole = load(&pair, None, &[to(0.25, 0.0, 1)], &Params::default(), &mut []).unwrap();
     let asperity::motion::StaticContact { record, solution, .. } =
         asperity::motion::press(&pair, Boundary::FREE, Control::Load(0.25), &Params::default(), &()).unwrap();
     assert_eq!(whole.record, record);
@@ -92,7 +92,7 @@ fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
     let mut states = Kept::default();
     let stages = [to(0.1, 0.0, 4), to(0.25, 0.05, 6)];
     let friction = Friction::coulomb(0.3).unwrap();
-    load(&pair, Some(&friction), &stages, &Params::default(), &mut states).unwrap();
+    load(&pair, Some(&friction), &stages, &Params::default(), &mut [&mut states]).unwrap();
     assert!(states.0.iter().all(|state| state.flattening.kept.is_none()));
 }
 
@@ -100,9 +100,10 @@ fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
 #[derive(Default)]
 struct Kept(Vec<LoadingState>);
 
-impl LoadingOutput for Kept {
-    fn increment(&mut self, state: &LoadingState) -> Result<(), Error> {
-        self.0.push(state.clone());
+impl Output for Kept {
+    fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        let Step::Increment { state, .. } = step else { return Ok(()) };
+        self.0.push((*state).clone());
         Ok(())
     }
 }
@@ -176,7 +177,7 @@ impl Case {
     fn run(&self, params: &Params) -> Result<Vec<LoadingState>, Error> {
         let mut states = Kept::default();
         let pair = pair(self.grid, self.gap.clone(), self.materials);
-        load(&pair, self.friction.as_ref(), &self.stages, params, &mut states)?;
+        load(&pair, self.friction.as_ref(), &self.stages, params, &mut [&mut states])?;
         Ok(states.0)
     }
 
@@ -342,7 +343,7 @@ fn contacts_example_of_a_shift_has_its_work_of_friction_in_one_increment() {
     let (w, q) = (9.1954, -0.875 * 0.4 * 9.1954);
     for increments in [1, 4] {
         let stages = [to(w, 0.0, 1), to(w, q, increments)];
-        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut []).unwrap();
         let shear = contact.record.shear.as_ref().unwrap();
         let area = pair.cell_area();
         for (what, found, expected) in [
@@ -365,7 +366,7 @@ fn a_push_and_a_full_reversal_take_the_same_in_one_increment_as_in_many() {
     let friction = Friction::coulomb(0.3).unwrap();
     let losses = [1, 20].map(|increments| {
         let stages = [to(1.0, 0.0, 1), to(1.0, 0.18, increments), to(1.0, -0.18, increments)];
-        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut []).unwrap();
         assert!(contact.dissipation_error < 1e-9 * contact.record.shear.as_ref().unwrap().dissipation);
         let rows = &contact.increments;
         let of = |stage| rows.iter().filter(|row| row.stage == stage).map(|row| row.dissipation).sum::<f64>();
@@ -387,7 +388,7 @@ fn where_load_and_push_grow_together_the_error_of_the_loss_is_bounded() {
     let friction = Friction::coulomb(0.3).unwrap();
     let [coarse, fine, finest] = [2, 8, 64].map(|increments| {
         let stages = [to(0.2, 0.0, 1), to(1.0, 0.28, increments), to(0.4, 0.1, increments)];
-        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap();
+        let contact = load(&pair, Some(&friction), &stages, &Params::default(), &mut []).unwrap();
         (contact.record.shear.unwrap().dissipation, contact.dissipation_error)
     });
     for (loss, error) in [coarse, fine] {
@@ -403,7 +404,7 @@ fn a_coefficient_of_friction_is_that_of_what_slides() {
     let under = |tangential| {
         let loading = Loading { normal: Control::Load(1.0), tangential };
         let stages = [Stage { loading, increments: 1 }];
-        load(&pair, Some(&friction), &stages, &Params::default(), &mut ()).unwrap().record.shear.unwrap()
+        load(&pair, Some(&friction), &stages, &Params::default(), &mut []).unwrap().record.shear.unwrap()
     };
     let held = under(Tangential::Force([0.1, 0.0]));
     assert_eq!(held.friction_coefficient, None);
@@ -527,11 +528,13 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
             let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
             assert_eq!(rows, stopped + 1);
             if stopped + 2 < increments {
-                // Killed after the row of an increment was written, before its state was.
-                let state = directory.join("fields/increment-state.h5");
-                let kept = fs::read(&state).unwrap();
+                // Killed after the state of an increment was written, before its row was.
+                let state = directory.join(format!("fields/state-{stopped:04}.h5"));
+                let [kept, rows] =
+                    [&state, &directory.join("increments.csv")].map(|path| fs::read(path).unwrap());
                 assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
                 fs::write(&state, kept).unwrap();
+                fs::write(directory.join("increments.csv"), rows).unwrap();
             }
             study::run(&case, asperity::study::Given::default(), &directory, Existing::Resume, &()).unwrap();
             assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");

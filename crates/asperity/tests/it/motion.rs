@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use asperity::error::LoadLimit;
 use asperity::material::Material;
 use asperity::motion::{
-    Contact, LoadControl, Motion, Output, Pair, PassRecord, PassReport, PlasticUpdate, Progress, Simulation,
+    Contact, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate, Progress, Simulation, Step,
     StepRecord, Strategy, WarmStart, Watch,
 };
 use asperity::operator::Boundary;
@@ -468,7 +468,7 @@ fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bit
 fn an_output_that_fails_ends_the_motion() {
     struct Full;
     impl Output for Full {
-        fn pass(&mut self, _: &PassReport) -> asperity::Result<()> {
+        fn step(&mut self, _: &Step<'_>) -> asperity::Result<()> {
             Err(Error::Unsupported("no space left"))
         }
     }
@@ -717,7 +717,8 @@ impl Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> asperity::Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         let loads: Vec<f64> = report.contacts.iter().map(|c: &Contact| c.load).collect();
         assert_eq!(loads, report.steps.iter().map(|s| s.load).collect::<Vec<_>>());
         self.passes.push(report.record.clone());

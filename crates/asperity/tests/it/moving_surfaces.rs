@@ -4,7 +4,7 @@
 //! 1e-12.
 
 use asperity::material::Material;
-use asperity::motion::{Contact, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy};
+use asperity::motion::{Contact, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy};
 use asperity::operator::{Boundary, DirectSum, Operator};
 use asperity::solver::{Method, Params};
 use asperity::surface::Topography;
@@ -64,7 +64,8 @@ struct Keep {
 }
 
 impl Output for Keep {
-    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> asperity::Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.contacts.push(report.contacts.to_vec());
         self.approach.push(report.record.approach);
         self.lost.push([report.record.lost("plastic")[0], report.record.lost("plastic")[1]]);

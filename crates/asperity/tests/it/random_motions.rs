@@ -5,8 +5,8 @@
 use asperity::error::LoadLimit;
 use asperity::material::{Coating, Material};
 use asperity::motion::{
-    LoadControl, Motion, OffsetY, Output, Pair, PassRecord, PassReport, Path, PlasticUpdate, Position,
-    Simulation, StepRecord, Strategy,
+    LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path, PlasticUpdate, Position, Simulation, Step,
+    StepRecord, Strategy,
 };
 use asperity::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity::solver::{
@@ -219,7 +219,8 @@ struct Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> asperity::Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend_from_slice(report.steps);
         self.pairs.push(report.pair.clone());

@@ -149,7 +149,7 @@ fn what_is_not_known_of_a_response_is_refused() {
     let loading = Loading { normal: load, tangential: Tangential::Force([0.01, 0.0]) };
     let stages = [Stage { loading, increments: 1 }];
     let loaded =
-        load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut ());
+        load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut []);
     unsupported(loaded.map(|_| ()).unwrap_err(), "shear");
     let rolling = Rolling { creep: Creep::Creepage([0.001, 0.0]), spin: 0.0 };
     let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params, &());

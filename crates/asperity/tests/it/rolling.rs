@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::material::Material;
 use asperity::motion::{
-    LoadControl, Motion, Output, Pair, PassRecord, PassReport, Progress, Regime, Simulation, StepRecord,
-    Strategy, Watch,
+    LoadControl, Motion, Output, Pair, PassRecord, Progress, Regime, Simulation, Step, StepRecord, Strategy,
+    Watch,
 };
 use asperity::operator::Boundary;
 use asperity::plasticity::{FlowParams, Hardening, J2, Layers, PlasticBody, PlasticState, Volume};
@@ -63,7 +63,8 @@ struct Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> asperity::Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend(report.steps.iter().cloned());
         self.states = report.flowed.iter().map(|volume| volume.state.clone()).collect();

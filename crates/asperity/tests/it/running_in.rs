@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use asperity::material::Material;
 use asperity::motion::{
     Acceleration, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output, Pair, PassRecord,
-    PassReport, Simulation, Strategy, Touching, Wear, WearCoefficient,
+    Simulation, Step, Strategy, Touching, Wear, WearCoefficient,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
@@ -25,7 +25,8 @@ struct Kept {
 }
 
 impl Output for Kept {
-    fn pass(&mut self, report: &PassReport) -> Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.pair = Some(report.pair.clone());
         self.work.push(report.contacts.iter().map(|contact| contact.load).sum());
@@ -314,7 +315,8 @@ fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
 fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     struct Warm(Vec<bool>);
     impl Output for Warm {
-        fn pass(&mut self, report: &PassReport) -> Result<()> {
+        fn step(&mut self, step: &Step<'_>) -> Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
             self.0.push(report.warm.jump.is_some());
             Ok(())
         }
@@ -397,7 +399,8 @@ fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_w
 fn an_interrupted_run_goes_on_with_the_same_jumps() {
     struct Warm(Option<asperity::motion::WarmStart>, usize);
     impl Output for Warm {
-        fn pass(&mut self, report: &PassReport) -> Result<()> {
+        fn step(&mut self, step: &Step<'_>) -> Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
             self.0 = Some(report.warm.clone());
             self.1 += 1;
             if self.1 == 6 { Err(asperity::Error::Interrupted) } else { Ok(()) }

@@ -1,7 +1,7 @@
 //! Bodies that slide over each other: each position against the same contact solved alone, and what symmetry asks for.
 
 use asperity::material::Material;
-use asperity::motion::{Contact, Motion, Output, Pair, PassReport, PlasticUpdate, Simulation, Strategy};
+use asperity::motion::{Contact, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy};
 use asperity::operator::{Boundary, Operators};
 use asperity::solver::{Bounds, Control, Friction, Loading, Method, Params, Tangential, solve_frictional};
 use asperity::surface::{Amplitude, Generator, SelfAffine, Topography};
@@ -109,7 +109,8 @@ fn slide(
 ) -> Vec<Contact> {
     struct Kept(Vec<Contact>);
     impl Output for Kept {
-        fn pass(&mut self, report: &PassReport) -> asperity::Result<()> {
+        fn step(&mut self, step: &Step<'_>) -> asperity::Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
             self.0.extend_from_slice(report.contacts);
             Ok(())
         }

@@ -56,7 +56,7 @@ fn swept(
     points: &[Point],
     params: &Params,
 ) -> (Vec<SweepRecord>, LoadedContact) {
-    sweep(pair, boundary, None, points, params, Vec::new(), &(), &mut ()).unwrap()
+    sweep(pair, boundary, None, points, params, Vec::new(), &(), &mut []).unwrap()
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling) });
     let params = Params::default().with_tolerance(1e-4);
     let (records, _) =
-        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut ()).unwrap();
+        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut []).unwrap();
     for (record, point) in records.iter().zip(&points) {
         let alone =
             roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params, &()).unwrap().record;
@@ -187,10 +187,10 @@ fn a_point_without_an_answer_is_named() {
     let pair = rough([16, 16], 1e9, 1);
     let limit = pair.lower_grid().area() * 1e9;
     let points = [0.1, 1.1, 0.2].map(|share| at(Control::Load(share * limit)));
-    let error = sweep(&pair, Boundary::FREE, None, &points, &FINE, Vec::new(), &(), &mut ()).unwrap_err();
+    let error = sweep(&pair, Boundary::FREE, None, &points, &FINE, Vec::new(), &(), &mut []).unwrap_err();
     assert!(error.to_string().starts_with("point 2 of 3: load"), "{error}");
     assert!(matches!(
-        sweep(&pair, Boundary::FREE, None, &[], &FINE, Vec::new(), &(), &mut ()),
+        sweep(&pair, Boundary::FREE, None, &[], &FINE, Vec::new(), &(), &mut []),
         Err(Error::Unsupported(_))
     ));
 }

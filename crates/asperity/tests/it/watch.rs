@@ -82,7 +82,7 @@ fn friction_and_rolling_stop_within_an_increment() {
     };
     let params = Params::default();
     let staged = |watch: &Patience| {
-        load_in_stages(&pair, Boundary::FREE, Some(&friction), &[stage], &params, None, watch, &mut ())
+        load_in_stages(&pair, Boundary::FREE, Some(&friction), &[stage], &params, None, watch, &mut [])
             .map(|_| ())
     };
     let rolling = Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 };
@@ -114,7 +114,7 @@ fn motions_and_sweeps_that_stop_within_a_solution_say_so_alone() {
     };
     let points = [Point { control: load, rolling: None }; 2];
     let swept = |watch: &Patience| {
-        sweep(&pair, Boundary::FREE, None, &points, &params, Vec::new(), watch, &mut ()).map(|_| ())
+        sweep(&pair, Boundary::FREE, None, &points, &params, Vec::new(), watch, &mut []).map(|_| ())
     };
     let run = |n: usize, watch: &Patience| if n == 0 { moved(watch) } else { swept(watch) };
     for n in [0, 1] {
@@ -154,7 +154,7 @@ fn what_was_interrupted_goes_on_from_the_rows_that_it_has_written_and_from_no_ot
     for (case, state, table) in [
         (
             ball("", "[contact]\nload = 5e-3\n[friction]\ncoefficient = 0.3\nforce = 1e-3\nincrements = 4\n"),
-            "fields/increment-state.h5",
+            "fields/state-0002.h5",
             "increments.csv",
         ),
         (
@@ -162,7 +162,7 @@ fn what_was_interrupted_goes_on_from_the_rows_that_it_has_written_and_from_no_ot
                 "wear = { coefficient = 1e-13 }\n",
                 "[contact]\nload = 5e-3\n[friction]\ncoefficient = 0.1\n[sliding]\ndistance = 0.01\nupdates = 4\n",
             ),
-            "fields/update-state.h5",
+            "fields/state-0002.h5",
             "updates.csv",
         ),
         (ball("", "[contact]\nloads = [1e-3, 2e-3, 5e-3]\n"), "sweep.csv", "sweep.csv"),

@@ -88,7 +88,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
 
         let slide = Slide::to(vec![1e-3, 2e-3, 3e-3], Control::Load(1e-3));
         let contact = InPlace::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
-        let error = contact.with_law(law(3)).run(None, &(), &mut ()).unwrap_err();
+        let error = contact.with_law(law(3)).run(None, &(), &mut []).unwrap_err();
         let AtUpdate { update: 3, source } = &error else { panic!("{error:?}") };
         assert!(matches!(&**source, NotFinite { field: found, .. } if found == field), "{error:?}");
     }

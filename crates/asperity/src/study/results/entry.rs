@@ -10,6 +10,7 @@ use std::time::Duration;
 use serde_json::Value;
 use web_time::Instant;
 
+use super::step::is_kept;
 use super::{Results, has_every_position};
 use crate::error::{Error, Result};
 use crate::io::fields::{Attribute, Fields};
@@ -17,7 +18,6 @@ use crate::io::{atomic, regular};
 use crate::motion::SweepRecord;
 use crate::study::case::Keep;
 use crate::study::identity;
-use crate::study::sweep::is_kept;
 use crate::study::tables;
 
 /// What to do about results that are there already.
@@ -83,10 +83,8 @@ pub(super) enum Kept {
     Nothing,
     /// A number of finished passes.
     Passes(usize),
-    /// A loading, or a contact that slides in place, under way.
-    Increments,
-    /// Points of a sweep.
-    Points,
+    /// Increments, updates or points of a contact at rest.
+    Steps,
 }
 
 /// Locks `directory`, made where it is missing, for the results of `case`; what is kept of what is there. Nothing is
@@ -157,16 +155,27 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
 fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     identity::compare(results.directory(), &results.case()?, case)?;
     let identity = identity::of(case);
-    for state in [results.increment_state_path(), results.update_state_path()] {
-        if state.exists() {
-            whole(&state, &identity, None)?;
-            return Ok(Kept::Increments);
-        }
+    if case.get("motion").is_some_and(Value::is_object) {
+        return resumable_passes(results, case, &identity);
     }
     let points = results.points_there()?;
     if !points.is_empty() {
         return kept_points(results, case, &identity, &points);
     }
+    for (rows, first, table) in [
+        (tables::rows_there(&results.increments_path())?, 1, results.increments_path()),
+        (tables::rows_there(&results.updates_path())?, 0, results.updates_path()),
+    ] {
+        if let Some(state) = results.last_state(rows, first, &table)? {
+            whole(&results.state_path(state), &identity, None)?;
+            return Ok(Kept::Steps);
+        }
+    }
+    Ok(Kept::Nothing)
+}
+
+/// The finished passes, if they are whole.
+fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<Kept> {
     let passes = results.passes_there()?;
     if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
         let path = results.passes_path();
@@ -187,28 +196,28 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     }
     unlike_summary(results, &passes, &results.passes_path())?;
     for pass in 0..=passes.len() {
-        whole(&results.fields_path(pass), &identity, Some(pass))?;
+        whole(&results.fields_path(pass), identity, Some(pass))?;
         if pass > 0 && case.get("subsurface").is_some() {
-            whole(&results.subsurface_path(Some(pass)), &identity, Some(pass))?;
+            whole(&results.subsurface_path(Some(pass)), identity, Some(pass))?;
         }
     }
     // Of bodies that flow the last pass is asked for what it has left, and more passes where all are kept.
     match case.pointer("/plasticity/keep").and_then(Value::as_str) {
         Some("passes") => {
             for pass in 1..=passes.len() {
-                whole(&results.flow_path(Some(pass)), &identity, Some(pass))?;
+                whole(&results.flow_path(Some(pass)), identity, Some(pass))?;
             }
         }
-        Some(_) => whole(&results.flow_path(Some(passes.len())), &identity, Some(passes.len()))?,
+        Some(_) => whole(&results.flow_path(Some(passes.len())), identity, Some(passes.len()))?,
         None => {}
     }
     // Where nothing is left to do it is not missed.
     let wanted = case.pointer("/motion/passes").and_then(Value::as_u64);
     if wanted.is_some_and(|wanted| wanted > passes.len() as u64) {
-        whole(&results.warm_start_path(passes.len()), &identity, Some(passes.len()))?;
+        whole(&results.state_path(passes.len()), identity, Some(passes.len()))?;
     }
     let digest = tables::digest_of_passes(&passes, &positions);
-    same_rows(&results.warm_start_path(passes.len()), &digest, &results.passes_path())?;
+    same_rows(&results.state_path(passes.len()), &digest, &results.passes_path())?;
     Ok(Kept::Passes(passes.len()))
 }
 
@@ -219,12 +228,14 @@ fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepR
         return Err(Error::NotResumable { path, reason: "does not number its points 1, 2, 3 …" });
     }
     unlike_summary(results, points, &results.sweep_path())?;
-    same_points(results, points)?;
+    if let Some(done) = results.last_state(points.len(), 1, &results.sweep_path())? {
+        same_rows(&results.state_path(done), &tables::digest("", &points[..done]), &results.sweep_path())?;
+    }
     let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
     for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
         whole(&results.point_path(point), identity, None)?;
     }
-    Ok(Kept::Points)
+    Ok(Kept::Steps)
 }
 
 /// An error unless `path` holds the undamaged fields of that run, of a motion those of that pass.
@@ -263,23 +274,6 @@ fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
     }
 }
 
-/// An error if a point is not the one that was written.
-fn same_points(results: &Results, points: &[SweepRecord]) -> Result<()> {
-    let path = results.sweep_state_path();
-    if !path.exists() {
-        return Ok(());
-    }
-    let failed = |source| Error::File { path: path.clone(), source };
-    let text = regular::read(&path, "the state of a sweep", u64::MAX).map_err(failed)?;
-    let written: Vec<String> = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
-    let now = points.iter().map(|point| tables::digest("", std::slice::from_ref(point)));
-    // The state is written before the row: it may have one more.
-    if written.len() < points.len() || now.zip(&written).any(|(now, written)| now != *written) {
-        return Err(Error::NotResumable { path: results.sweep_path(), reason: ALTERED });
-    }
-    Ok(())
-}
-
 /// An error if a row of a table is not the one that the summary has, where all was done.
 fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Path) -> Result<()> {
     // Without a summary that can be read it is made anew.
@@ -315,19 +309,19 @@ pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
             Ok(())
         }
         Kept::Passes(passes) => clear_later(results, passes, keep),
-        Kept::Increments | Kept::Points => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
+        Kept::Steps => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
     }
 }
 
 /// The fields of a static contact.
 const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti", "plasticity.h5"];
 
-/// The fields of passes that were not finished, and the warm starts of all but the last that was; of its volumes those that are
+/// The fields of passes that were not finished, and the states of all but the last that was; of its volumes those that are
 /// to be kept.
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
-    names.push(results.warm_start_path(passes));
+    names.push(results.state_path(passes));
     let first = if keep == Keep::Last { passes } else { 1 };
     names.extend((first..=passes).map(|pass| results.flow_path(Some(pass))));
     let folder = results.fields_folder();

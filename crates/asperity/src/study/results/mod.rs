@@ -5,17 +5,14 @@
 //!     steps.csv passes.csv a motion: a row per position, a row per pass
 //!     fields/initial.h5    the surfaces before the first pass
 //!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
-//!     fields/warm-start-0001.h5    where the next pass begins; of the last pass only
+//!     fields/state-0001.h5 where the step after that many goes on, of the last step only; of a motion it stays once all is done
 //!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
 //!     fields/plasticity-0001.h5    what has flowed below the surfaces of bodies that do; of the last pass, or of each
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     updates.csv          a contact that slides in place: a row per update
-//!     fields/update-state.h5      what the next update goes on from, until all is done
 //!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
-//!     fields/sweep-state.json     digests of the rows of a sweep, until all is done
-//!     fields/increment-state.h5   what the next increment goes on from, until all is done
 //!     subsurface.h5        the stress under its surface, where it is wanted
 //!     plasticity.h5        what has flowed below the surfaces of bodies that do
 //!     *.vti                beside the fields, for ParaView, where they are wanted
@@ -25,10 +22,10 @@
 //!     .lock                locked while a run writes here
 //! ```
 //!
-//! A pass is there once its row stands in `passes.csv`, which is written last; the warm start of the pass before is then
-//! removed.
+//! A step is there once its row stands in its table, which is written last; the state of the step before is then removed.
 
 mod entry; // what a run may find and clear, the lock
+mod step; // a course, step after step
 mod write; // what a run leaves
 
 use std::collections::BTreeMap;
@@ -38,19 +35,25 @@ use std::path::{Path, PathBuf};
 
 pub use entry::Existing;
 pub(super) use entry::{ALTERED, CASE_FILE, NO_LOCKS, ROWS};
+pub use step::StepWriter;
+pub use write::Writer;
 pub(super) use write::add_bodies;
-pub use write::{PassWriter, Writer};
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{summary, tables, warm_start};
+use super::{state, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::regular;
-use crate::motion::{IncrementRecord, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart};
+use crate::motion::{
+    IncrementRecord, LoadingState, Pair, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart,
+};
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
+use crate::study::state::Stored;
+use crate::study::state::update::UnderWay;
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 
@@ -160,7 +163,7 @@ impl Results {
     /// [`Error::File`], also where a finished contact that was loaded in stages has none.
     pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
         let path = self.increments_path();
-        let increments = if path.exists() { tables::read_increments(&path)? } else { Vec::new() };
+        let increments = self.rows_at_rest(&path)?;
         if increments.is_empty() && self.summary_path().exists() && was_loaded_in_stages(&self.summary()?) {
             return Err(self.incomplete(&path));
         }
@@ -193,8 +196,16 @@ impl Results {
 
     /// The rows of the table of a sweep, whatever the summary says.
     pub(super) fn points_there(&self) -> Result<Vec<SweepRecord>> {
-        let path = self.sweep_path();
-        if path.exists() { tables::read_sweep(&path) } else { Ok(Vec::new()) }
+        self.rows_at_rest(&self.sweep_path())
+    }
+
+    /// The rows of the table of a contact at rest; those that are whole, where it is under way.
+    fn rows_at_rest<T: DeserializeOwned>(&self, path: &Path) -> Result<Vec<T>> {
+        match (path.exists(), self.summary_path().exists()) {
+            (false, _) => Ok(Vec::new()),
+            (true, false) => tables::read_growing(path),
+            (true, true) => tables::read(path),
+        }
     }
 
     /// An error unless the table at `path` has so many `rows` as the summary tells, where there is one and it does.
@@ -280,7 +291,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn warm_start_after(&self, passes: usize) -> Result<WarmStart> {
-        warm_start::read(&self.warm_start_path(passes))
+        state::pass::read(&self.state_path(passes))
     }
 
     fn passes_path(&self) -> PathBuf {
@@ -299,17 +310,8 @@ impl Results {
         self.directory.join("updates.csv")
     }
 
-    pub(super) fn update_state_path(&self) -> PathBuf {
-        self.fields_folder().join("update-state.h5")
-    }
-
     pub(super) fn sweep_path(&self) -> PathBuf {
         self.directory.join("sweep.csv")
-    }
-
-    /// What a sweep under way has written, by digests.
-    pub(super) fn sweep_state_path(&self) -> PathBuf {
-        self.fields_folder().join("sweep-state.json")
     }
 
     pub(super) fn point_path(&self, point: usize) -> PathBuf {
@@ -334,12 +336,62 @@ impl Results {
         self.fields_folder().join(name)
     }
 
-    fn warm_start_path(&self, passes: usize) -> PathBuf {
-        self.fields_folder().join(format!("warm-start-{passes:04}.h5"))
+    /// The state from which the step after so many goes on.
+    fn state_path(&self, steps: usize) -> PathBuf {
+        self.fields_folder().join(format!("state-{steps:04}.h5"))
     }
 
-    pub(super) fn increment_state_path(&self) -> PathBuf {
-        self.fields_folder().join("increment-state.h5")
+    /// The number of the last step whose state is there, and which has its row: there are so many `rows`, the first of which has the
+    /// number `first`. None where there is no state.
+    ///
+    /// # Errors
+    /// [`Error::NotResumable`] where the rows up to the state are not there in `table`.
+    pub(super) fn last_state(&self, rows: usize, first: usize, table: &Path) -> Result<Option<usize>> {
+        let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(None) };
+        let number = |entry: std::io::Result<fs::DirEntry>| {
+            let name = entry.ok()?.file_name().into_string().ok()?;
+            name.strip_prefix("state-")?.strip_suffix(".h5")?.parse::<usize>().ok()
+        };
+        let states: Vec<usize> = entries.filter_map(number).collect();
+        let last = states.iter().copied().filter(|state| *state < rows + first).max();
+        match last {
+            None if rows > 0 && !states.is_empty() => {
+                let reason = "does not have the rows of all that is done";
+                Err(Error::NotResumable { path: table.to_owned(), reason })
+            }
+            last => Ok(last),
+        }
+    }
+
+    /// The loading of the `pair` in so many `increments` that was interrupted, if one was.
+    ///
+    /// # Errors
+    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
+    pub(super) fn loading_under_way(&self, pair: &Pair, increments: usize) -> Result<Option<LoadingState>> {
+        let (mut rows, table) = (self.increments()?, self.increments_path());
+        let Some(done) = self.last_state(rows.len(), 1, &table)? else { return Ok(None) };
+        let path = self.state_path(done);
+        let stored = Stored::open(&path)?;
+        let [nx, ny] = pair.lower_grid().shape;
+        if done >= increments || stored.field("pressure")?.dim() != (nx, ny) {
+            return Err(Error::NotResumable { path, reason: "is of another loading" });
+        }
+        rows.truncate(done);
+        stored.has_rows(&tables::digest("", &rows), &table)?;
+        state::increment::read(&stored, pair, rows).map(Some)
+    }
+
+    /// The contact of the `pair` that slid in place and was interrupted, if one was.
+    ///
+    /// # Errors
+    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
+    pub(super) fn sliding_under_way(&self, pair: &Pair) -> Result<Option<UnderWay>> {
+        let (mut rows, table) = (self.updates()?, self.updates_path());
+        let Some(done) = self.last_state(rows.len(), 0, &table)? else { return Ok(None) };
+        let stored = Stored::open(&self.state_path(done))?;
+        rows.truncate(done + 1);
+        stored.has_rows(&tables::digest("", &rows), &table)?;
+        state::update::read(&stored, pair, rows).map(Some)
     }
 
     /// Removes a file if it is there.
@@ -352,17 +404,15 @@ impl Results {
         }
     }
 
-    /// Removes the state of a static contact under way, and its folder, unless somebody has put something there.
-    pub(super) fn remove_state(&self, state: &Path) -> Result<()> {
-        self.remove(state)?;
-        let _ = state.parent().map(fs::remove_dir);
+    /// Removes the state of a static contact, of which all is done, and its folder, unless something else is there.
+    pub(super) fn forget_state(&self) -> Result<()> {
+        let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(()) };
+        let states = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        for path in states.filter(|path| is_state(path)) {
+            self.remove(&path)?;
+        }
+        let _ = fs::remove_dir(self.fields_folder());
         Ok(())
-    }
-
-    /// Removes what a sweep under way has kept of its rows.
-    pub(super) fn forget_sweep(&self) -> Result<()> {
-        let state = self.sweep_state_path();
-        if state.exists() { self.remove_state(&state) } else { Ok(()) }
     }
 
     /// What has flowed below the surfaces: of a static contact, or after the pass, from 1, of a motion.
@@ -471,6 +521,11 @@ pub(super) fn has_every_position(steps: &[StepRecord], passes: usize) -> bool {
     let positions = steps.len() / passes;
     let expected = (1..=passes).flat_map(|pass| (1..=positions).map(move |step| (pass, step)));
     positions > 0 && steps.iter().map(|step| (step.pass, step.step)).eq(expected)
+}
+
+/// Whether a file holds the state of a course.
+fn is_state(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("state-"))
 }
 
 /// The bodies, by the names of the fields of their heights.

@@ -1,32 +1,27 @@
 //! What a run writes into its results directory.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::entry::{self, Existing, Kept, Lock, ROWS};
-use super::{
-    BODIES, Results, cap_name, depths_attribute, pressure_name, state_name, states_attribute,
-    temperature_name, tensor_name, traction_name,
-};
+use super::entry::{self, Existing, Kept, Lock};
+use super::step::StepWriter;
+use super::{BODIES, Results, depths_attribute, state_name, states_attribute, tensor_name};
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::grid::{CellValues, Field, Grid, Seat};
+use crate::grid::{CellValues, Grid, Seat};
 use crate::io::fields::FieldFile;
 use crate::io::{atomic, vti};
-use crate::motion::{Flowed, FlowedVolume, Output, Pair, PassReport, State};
+use crate::motion::{Flowed, FlowedVolume, IncrementRecord, Pair, State, SweepRecord, UpdateRecord};
 use crate::plasticity::TensorField;
 use crate::solver::Friction;
 use crate::stress::Component;
 use crate::study::case::Keep;
-use crate::study::loading::LoadingWriter;
 use crate::study::rest::{NamedField, RestFields};
-use crate::study::sliding::SlidingWriter;
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
-use crate::study::sweep::SweepWriter;
 use crate::study::tables::GrowingTable;
-use crate::study::{identity, summary, tables, warm_start};
+use crate::study::{identity, summary, tables};
 use crate::subsurface::Tractions;
 use crate::units::Pascal;
 
@@ -116,21 +111,6 @@ impl Writer {
         tables::write_increments(&self.results.increments_path(), &contact.increments)
     }
 
-    /// What keeps each increment of a loading of so many `increments` here.
-    pub fn loading(&self, pair: &Pair, increments: usize) -> LoadingWriter {
-        LoadingWriter::new(&self.results, &self.identity, pair, increments)
-    }
-
-    /// What keeps each update of a contact that slides in place here, of so many, the one before it slides included.
-    pub fn sliding(&self, updates: usize) -> SlidingWriter {
-        SlidingWriter::new(&self.results, &self.identity, updates)
-    }
-
-    /// The output that keeps each point of a sweep here, with the fields of every `fields_every`-th (0: of none).
-    pub fn sweep(&self, pair: &Pair, fields_every: usize) -> SweepWriter {
-        SweepWriter::new(&self.results, &self.identity, pair, fields_every)
-    }
-
     /// Computes and writes the stress under the surface of a static contact, whose lower body bears `tractions`, and in whose bodies
     /// this has flowed.
     ///
@@ -161,23 +141,57 @@ impl Writer {
         file.write()
     }
 
-    /// The output that writes each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
+    /// The output that keeps each increment of a loading here, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn increments(&self, done: &[IncrementRecord]) -> Result<StepWriter> {
+        self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
+    }
+
+    /// The output that keeps each update of a contact that slides in place here, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn updates(&self, done: &[UpdateRecord]) -> Result<StepWriter> {
+        self.steps(self.results.updates_path(), done.len(), tables::digest("", done))
+    }
+
+    /// The output that keeps each point of a sweep here, after those that are `done`, with the fields of every `fields_every`-th (0: of
+    /// none).
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn points(&self, done: &[SweepRecord], fields_every: usize) -> Result<StepWriter> {
+        let writer = self.steps(self.results.sweep_path(), done.len(), tables::digest("", done))?;
+        Ok(StepWriter { fields_every, ..writer })
+    }
+
+    /// The output that keeps each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
     /// surface, where there is a plan for it, and the volumes of bodies that flow.
     ///
     /// # Errors
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
-    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<PassWriter> {
+    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<StepWriter> {
         let passes = self.results.passes()?;
         let steps = self.results.steps()?;
-        Ok(PassWriter {
-            digest: tables::digest_of_passes(&passes, &steps),
-            steps: GrowingTable::open(self.results.steps_path(), steps.len())?,
-            passes: GrowingTable::open(self.results.passes_path(), passes.len())?,
+        let digest = tables::digest_of_passes(&passes, &steps);
+        let writer = self.steps(self.results.passes_path(), passes.len(), digest)?;
+        let positions = Some(GrowingTable::open(self.results.steps_path(), steps.len())?);
+        Ok(StepWriter { positions, fields_every: pressure_every, plan, keep: self.keep(), ..writer })
+    }
+
+    /// The output that keeps each step here, after so many `rows` of that digest.
+    fn steps(&self, table: PathBuf, rows: usize, digest: String) -> Result<StepWriter> {
+        Ok(StepWriter {
             results: self.results.clone(),
             identity: self.identity.clone(),
-            pressure_every,
-            plan,
-            keep: self.keep(),
+            rows: GrowingTable::open(table, rows)?,
+            digest,
+            positions: None,
+            fields_every: 0,
+            plan: None,
+            keep: Keep::Last,
         })
     }
 
@@ -208,100 +222,8 @@ impl Writer {
     }
 }
 
-/// Writes passes as they are finished: fields, then positions, then the pass itself.
-pub struct PassWriter {
-    results: Results,
-    identity: String,
-    steps: GrowingTable,
-    passes: GrowingTable,
-    /// Digest of the rows of both.
-    digest: String,
-    pressure_every: usize,
-    plan: Option<Plan>,
-    keep: Keep,
-}
-
-impl PassWriter {
-    /// The stress under the surface in each of so many passes; none without a plan.
-    ///
-    /// # Errors
-    /// [`crate::Error::File`].
-    pub fn subsurface(&self, passes: usize) -> Result<Vec<SubsurfaceRecord>> {
-        let wanted = self.plan.iter().flat_map(|_| 1..=passes);
-        wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
-    }
-}
-
-impl Output for PassWriter {
-    fn pass(&mut self, report: &PassReport) -> Result<()> {
-        let pair = report.pair;
-        let results = &self.results;
-        let mut file = FieldFile::of_run(&self.identity, &results.fields_path(report.record.pass));
-        file.set("pass", report.record.pass);
-        set_caps(&mut file, report.min_hardness(), report.motion.friction.as_ref());
-        add_bodies(&mut file, pair);
-        let [lower, upper] = report.mean_pressure();
-        file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
-        file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
-        for (index, contact) in report.contacts.iter().enumerate() {
-            if self.pressure_every > 0 && index % self.pressure_every == 0 {
-                let pressure: Field = contact.pressure_field(pair.lower.width());
-                let corner = [contact.position.places()[0] * pair.pitch()[0], 0.0];
-                let grid = pair.grid(contact.position.columns);
-                file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
-                if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
-                    file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
-                }
-                if let CellValues::Field(cap) = report.bounds(contact).upper() {
-                    file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
-                }
-                if let Some(sliding) = report.motion.sliding(contact.position.way) {
-                    let traction = pressure.mapv(|p| sliding.shear(p)[0]);
-                    file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
-                }
-            }
-        }
-        file.write()?;
-        if let Some(plan) = &self.plan {
-            let pass = Some(report.record.pass);
-            let contact = &report.contacts[plan.index];
-            let pressure = contact.pressure_field(pair.lower.width());
-            let sliding = report.motion.sliding(contact.position.way);
-            let path = results.subsurface_path(pass);
-            let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
-            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
-            let plan = plan.at(&contact.position, &pair.lower_grid());
-            let seats = pair.seats(&contact.position);
-            let looked_at = report.flowed.iter().zip(report.looked_at);
-            let flowed = looked_at.into_iter().find(|(volume, _)| volume.body == plan.side());
-            let flowed = flowed.map(|(_, state)| (state, &seats[plan.side()]));
-            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, flowed)?;
-        }
-        let passes = report.record.pass;
-        if !report.flowed.is_empty() {
-            let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
-            file.set("pass", passes);
-            add_volumes(&mut file, report.flowed, report.flowed);
-            file.write()?;
-        }
-        let record = std::slice::from_ref(report.record);
-        let digest = tables::digest(&tables::digest(&self.digest, report.steps), record);
-        let mut file = FieldFile::of_run(&self.identity, &results.warm_start_path(passes));
-        file.set(ROWS, digest.as_str());
-        let grids = [pair.lower_grid(), pair.upper_grid()];
-        warm_start::write(file, passes, &grids, report.warm)?;
-        self.steps.add(report.steps)?;
-        self.passes.add(record)?;
-        self.digest = digest;
-        if self.keep == Keep::Last {
-            results.remove(&results.flow_path(Some(passes - 1)))?;
-        }
-        results.remove(&results.warm_start_path(passes - 1))
-    }
-}
-
 /// What has flowed below the surfaces, and what of it is `left` once the load is taken off.
-fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
+pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
     for FlowedVolume { body, grid, faces, state, displacement, .. } in volumes {
         let body = BODIES[*body];
         file.set(&depths_attribute(body), faces.clone());
@@ -335,7 +257,7 @@ fn layers_last(values: ndarray::ArrayView3<f64>) -> ndarray::Array3<f64> {
 }
 
 /// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
-fn set_caps(file: &mut FieldFile, hardness: Pascal, friction: Option<&Friction>) {
+pub(super) fn set_caps(file: &mut FieldFile, hardness: Pascal, friction: Option<&Friction>) {
     file.set("hardness", hardness);
     file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
 }

@@ -1,4 +1,4 @@
-//! Where a motion begins its next pass: the file from which a run goes on with the same bits.
+//! Where a motion begins its next pass.
 //!
 //! ```text
 //! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed);
@@ -21,11 +21,8 @@ use crate::grid::Grid;
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use crate::motion::{Bearing, Guess, Jump, WarmStart};
 
-/// Writes where the pass after `pass` begins into `file`, which says of which run it is.
-///
-/// # Errors
-/// [`Error::File`].
-pub(super) fn write(mut file: FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) -> Result<()> {
+/// Adds where the pass after `pass` begins.
+pub(in crate::study) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) {
     file.set("pass", pass).set("represented", warm.represented);
     if let Some(jump) = &warm.jump {
         file.set("jump", jump.passes);
@@ -56,7 +53,6 @@ pub(super) fn write(mut file: FieldFile, pass: usize, grids: &[Grid; 2], warm: &
             file.add_series(name, unit, axis, 1.0, 0.0, &values);
         }
     }
-    file.write()
 }
 
 /// Name of the field of a sum of one of the laws that repeat over the last computed pass of a body; all are counted from 0.
@@ -64,11 +60,11 @@ fn sum_name(law: usize, body: usize, index: usize) -> String {
     format!("sum_{}_{}_{}", ["lower", "upper"][body], law + 1, index + 1)
 }
 
-/// Reads what [`write`] wrote.
+/// Reads what [`add`] added.
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn read(path: &Path) -> Result<WarmStart> {
+pub(in crate::study) fn read(path: &Path) -> Result<WarmStart> {
     let fields = Fields::open(path)?;
     let attributes = fields.attributes()?;
     let number = |name: &str| match attributes.get(name) {

@@ -1,0 +1,201 @@
+//! What the laws make of the bodies after a pass.
+
+use super::Simulation;
+use crate::error::Result;
+use crate::grid::Field;
+use crate::motion::body::Body;
+use crate::motion::film::FILM;
+use crate::motion::heat::PassHeat;
+use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
+use crate::motion::law::{self, Heat, Law, Sums, Warmth};
+use crate::motion::pass::Pass;
+use crate::motion::plastic::PlasticFlow;
+use crate::motion::record::{RunningRecord, StepRecord};
+use crate::motion::watch::Watch;
+use crate::motion::wear::WEAR;
+use crate::units::CubicMetre;
+
+/// What changes the bodies after a pass, and by how many passes at once.
+pub(super) struct Changes {
+    /// The laws, in their order.
+    pub(super) laws: Vec<Box<dyn Law>>,
+    pub(super) acceleration: Acceleration,
+    /// How far single cells give way; known once a law repeats.
+    softness: Option<Softness>,
+    /// The flash temperature over a pass, where it is wanted.
+    pub(super) heat: Option<PassHeat>,
+}
+
+impl Changes {
+    /// Plastic flow alone.
+    pub(super) fn new() -> Self {
+        let laws: Vec<Box<dyn Law>> = vec![Box::new(PlasticFlow)];
+        Self { laws, acceleration: Acceleration::NONE, softness: None, heat: None }
+    }
+
+    /// Adds a law to those that there are.
+    pub(super) fn add(&mut self, law: Box<dyn Law>, softness: impl FnOnce() -> Softness) {
+        if law.repeats() {
+            self.softness.get_or_insert_with(softness);
+            self.laws.push(law);
+        } else {
+            // What a pass does once comes first: how many passes it stands for depends on it.
+            self.laws.insert(self.once(), law);
+        }
+    }
+
+    /// How many of the laws, the first, act once in a computed pass; the others do again in the passes that it stands for.
+    fn once(&self) -> usize {
+        self.laws.iter().take_while(|law| !law.repeats()).count()
+    }
+}
+
+/// How much the laws that repeat take in a pass.
+pub(super) struct PassWear {
+    softness: Softness,
+    /// Passes of such wear at which a chequered pattern of pressures would not decay if each were solved without it.
+    stable: f64,
+    /// The depths that the pass would have taken without its wear, where it was solved with that.
+    explicit: Option<Vec<[Field; 2]>>,
+}
+
+impl Simulation {
+    /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging: its contacts take
+    /// the place of those of the `outcome`. None where no law repeats.
+    pub(super) fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<PassWear>> {
+        let Some(softness) = self.changes.softness.filter(|_| !outcome.has_changed) else { return Ok(None) };
+        let passage = self.motion.passage(self.pair.pitch()[0]);
+        let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+        let laws = &self.changes.laws[self.changes.once()..];
+        let relaxation = jump::relaxation(&outcome.pair, &outcome.contacts, laws, friction, passage.distance);
+        let stable = softness.chequered / relaxation;
+        if stable > 0.5 {
+            return Ok(Some(PassWear { softness, stable, explicit: None }));
+        }
+        let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
+        // The way back wears as much again under the same pressures.
+        let distance = passage.distance * (self.positions.len() / self.distinct) as f64;
+        let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
+        let explicit = Some(law::tried(laws, &outcome.pair, &sums, 1));
+        outcome.contacts.truncate(self.distinct);
+        outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
+        self.come_back(&mut outcome.contacts);
+        Ok(Some(PassWear { softness, stable, explicit }))
+    }
+
+    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for.
+    pub(super) fn advance(
+        &self,
+        pass: &mut Pass,
+        steps: &mut [StepRecord],
+        wear: Option<&PassWear>,
+    ) -> Result<(Option<RunningRecord>, Option<Jump>)> {
+        let passage = self.motion.passage(self.pair.pitch()[0]);
+        let mut heat =
+            self.changes.heat.as_ref().map(|heat| heat.of_pass(self.passes_done, &pass.pair, passage.bulk));
+        let step = heat.as_deref_mut().map(|heat| heat as &mut Heat);
+        let (mut sums, warm) = law::sums(&self.changes.laws, &pass.pair, &pass.contacts, &passage, step)?;
+        drop(heat);
+        for ((step, contact), Warmth { record, temperature }) in
+            steps.iter_mut().zip(&mut pass.contacts).zip(warm)
+        {
+            step.heat = Some(record);
+            contact.temperature = Some(temperature);
+        }
+        if let Some(heat) = &self.changes.heat {
+            heat.remember(self.passes_done, &mut pass.pair, &pass.contacts, passage.bulk);
+        }
+        let once = self.changes.once();
+        let (flow, laws) = self.changes.laws.split_at(once);
+        let repeated = sums.split_off(once);
+        let mut lost = std::mem::take(&mut pass.lost);
+        law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
+        if laws.is_empty() && self.changes.heat.is_none() {
+            pass.lost = lost;
+            return Ok((None, None));
+        }
+        let flown = lost.iter().flat_map(|lost| lost.whole).sum();
+        let Leap { passes, mean, error } = match wear {
+            // Euler's implicit and explicit steps err by as much, to either side.
+            Some(PassWear { explicit: Some(explicit), .. }) => {
+                let taken = law::tried(laws, &pass.pair, &repeated, 1);
+                Leap { error: 0.5 * law::difference(explicit, &taken), ..Leap::ONE }
+            }
+            Some(wear) => self.jump(pass, laws, &repeated, flown, wear),
+            None => Leap::ONE,
+        };
+        let mean = mean.as_deref().unwrap_or(&repeated);
+        let taken =
+            law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
+        pass.lost = lost;
+        let wear =
+            laws.iter().position(|law| law.name() == WEAR).map(|index| law::deepest(&taken[index..=index]));
+        let [max_wear_lower, max_wear_upper] = wear.unwrap_or_default();
+        let film = |body: &Body| body.state.get(FILM).map_or(0.0, |film| film.values.mean().unwrap_or(0.0));
+        let positions = self.positions.len() as f64;
+        let done = (self.represented() + passes) as f64;
+        let rubbed = pass.contacts.iter().map(|contact| contact.tangential_force.abs()).sum::<f64>();
+        let running = RunningRecord {
+            represents: passes,
+            time: done * positions * passage.time,
+            distance: done * positions * passage.distance,
+            max_wear_lower,
+            max_wear_upper,
+            mean_film_lower: film(&pass.pair.lower),
+            mean_film_upper: film(&pass.pair.upper),
+            friction_work: passes as f64 * rubbed * passage.distance,
+            max_flash_temperature: match steps
+                .iter()
+                .filter_map(|step| step.heat)
+                .map(|heat| heat.max_flash_temperature)
+                .reduce(f64::max)
+            {
+                Some(warmest) => warmest,
+                None => passage.bulk[0].max(passage.bulk[1]),
+            },
+            error_estimate: error,
+        };
+        let jump = (self.changes.acceleration.max_jump > 1).then_some(Jump { passes, sums: repeated });
+        Ok((Some(running), jump))
+    }
+
+    /// How many passes a solved one stands for, by what its `laws` have summed and the volume that has flown.
+    fn jump(
+        &self,
+        pass: &Pass,
+        laws: &[Box<dyn Law>],
+        sums: &[Sums],
+        flown: CubicMetre,
+        wear: &PassWear,
+    ) -> Leap {
+        let Some(before) = self.warm.jump.as_ref().filter(|_| self.changes.acceleration.max_jump > 1) else {
+            return Leap::ONE;
+        };
+        let one = law::tried(laws, &pass.pair, sums, 1);
+        let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
+        let bounds = Bounds {
+            left: self.motion.passes - self.represented(),
+            volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
+            deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
+            stable: wear.stable,
+        };
+        let mut passes = self.changes.acceleration.most(&bounds, before);
+        let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
+        let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
+        let allowed = self.changes.acceleration.tolerance * wear.softness.single * highest;
+        while passes > 1 {
+            let mean = jump::extrapolated(sums, before, passes);
+            let error = law::difference(
+                &law::tried(laws, &pass.pair, sums, passes),
+                &law::tried(laws, &pass.pair, &mean, passes),
+            );
+            if error <= allowed {
+                return Leap { passes, mean: Some(mean), error };
+            }
+            // The error of wear grows as the square.
+            let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
+            passes = fewer.clamp(1, passes - 1);
+        }
+        Leap::ONE
+    }
+}

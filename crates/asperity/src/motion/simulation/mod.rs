@@ -1,0 +1,518 @@
+//! The motion itself: pass after pass.
+
+mod changes; // what laws make of the bodies
+mod search; // the approach of a pass
+mod solved; // a pass that is solved
+
+use std::borrow::Cow;
+
+use web_time::Instant;
+
+use crate::error::{Error, Result, check, check_in};
+use crate::motion::body::Body;
+use crate::motion::contact::Contact;
+use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::flowed::FlowedVolume;
+use crate::motion::heat::PassHeat;
+use crate::motion::jump::{Acceleration, Softness};
+use crate::motion::law::Law;
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Pass, Solver};
+use crate::motion::path::{OffsetY, Position};
+use crate::motion::record::{RunningRecord, StepRecord};
+use crate::motion::rim::Interior;
+use crate::motion::together::memory_together;
+use crate::motion::volumes::Volumes;
+use crate::motion::warm_start::WarmStart;
+use crate::motion::watch::{Progress, Watch};
+use crate::motion::{Motion, PlasticUpdate, Strategy, check_limit};
+use crate::operator::{Boundary, Operators};
+use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
+use crate::solver::{Control, Coupling, Params};
+use crate::temperature::{FlashTemperature, Thermal};
+use crate::units::{Dimension, Newton};
+
+use changes::Changes;
+pub use solved::{FinishedPass, SolvedPass};
+
+/// Two bodies that pass over each other.
+pub struct Simulation {
+    pair: Pair,
+    motion: Motion,
+    params: Params,
+    /// The positions of the next pass.
+    positions: Vec<Position>,
+    /// How many of them, the first ones, are solved; the others are the same contacts on the way back.
+    distinct: usize,
+    operators: Operators,
+    boundary: Boundary,
+    interiors: [Interior; 2],
+    /// What changes the bodies after a pass.
+    changes: Changes,
+    /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
+    together: bool,
+    /// What gives the upper body of each pass after the first, where they are not the same.
+    counter: Option<Counter>,
+    /// What flows below the surfaces, where bodies do.
+    volumes: Option<Volumes>,
+    /// Passes that are computed.
+    passes_done: usize,
+    /// The state in which the next pass begins.
+    warm: WarmStart,
+}
+
+/// What gives the upper body of a pass.
+type Counter = Box<dyn Fn(usize) -> Result<Body> + Send + Sync>;
+
+impl Simulation {
+    /// A motion from its beginning.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], [`Error::Unsupported`] or [`Error::GridMismatch`] for input without meaning,
+    /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
+    pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
+        let positions = positions(&pair, boundary, &motion)?;
+        let bearable: Vec<Newton> = positions.iter().map(|p| bearable(&pair, &motion, p)).collect();
+        check_limit(motion.control, motion.load_control.plastic_limit(&bearable))?;
+        let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
+        let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
+        let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
+        let operators = pair.operators(largest, boundary)?;
+        if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
+            pair.check_shear()?;
+        }
+        let together =
+            memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
+        Ok(Self {
+            together,
+            boundary,
+            interiors: interiors(&pair, boundary, &motion, 0.0),
+            changes: Changes::new(),
+            pair,
+            motion,
+            params,
+            positions,
+            distinct,
+            operators,
+            counter: None,
+            volumes: None,
+            passes_done: 0,
+            warm: WarmStart::default(),
+        })
+    }
+
+    /// The same motion with so many computed `passes` already done; the pair has the heights after them and the hardness of
+    /// before, and `warm` is what they left ([`PassReport::warm`]). It goes on as if it had not stopped, to the last bit.
+    ///
+    /// # Panics
+    /// If `warm` has not as many positions as are solved of a pass, or any where passes do not repeat.
+    pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
+        let kept = if self.repeats() && self.volumes.is_none() { self.distinct } else { 0 };
+        assert_eq!(warm.positions.len(), kept, "positions of the warm start");
+        let mut resumed = Self { passes_done: passes, warm, ..self };
+        resumed.positions = resumed.next_positions();
+        resumed
+    }
+
+    /// The same motion, in which each pass after the first has an upper body of its own: the one that the `counter` gives for the
+    /// number of the pass, on the grid of the first and prepared as that one is, with the states that laws keep of it. The upper body
+    /// of [`Simulation::pair`] is that of the last pass.
+    ///
+    /// Passes do not repeat then. What a pass does to an upper body is gone with it.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where a computed pass stands for others.
+    pub fn with_counter(
+        self,
+        counter: impl Fn(usize) -> Result<Body> + Send + Sync + 'static,
+    ) -> Result<Self> {
+        let simulation = Self { counter: Some(Box::new(counter)), ..self };
+        let acceleration = simulation.changes.acceleration;
+        simulation.with_acceleration(acceleration)
+    }
+
+    /// Whether the next pass meets what this one does.
+    fn repeats(&self) -> bool {
+        self.motion.repeats() && self.counter.is_none()
+    }
+
+    /// The positions of the pass after those that are done.
+    fn next_positions(&self) -> Vec<Position> {
+        let columns = [self.pair.lower.columns(), self.pair.upper.columns()];
+        self.motion.positions(columns, self.pair.lower.width(), self.represented() + 1)
+    }
+
+    /// The bodies of the next pass.
+    fn next_pair(&self) -> Result<Cow<'_, Pair>> {
+        let (Some(counter), pass @ 2..) = (&self.counter, self.represented() + 1) else {
+            return Ok(Cow::Borrowed(&self.pair));
+        };
+        let upper = counter(pass)?;
+        assert_eq!(upper.heights.dim(), self.pair.upper.heights.dim(), "shape of the upper body");
+        upper.validate()?;
+        let mut pair = self.pair.clone();
+        pair.upper = upper;
+        Ok(Cow::Owned(pair))
+    }
+
+    /// The same motion, whose records tell what is in the interior of the bodies: farther than the part `rim` of their
+    /// length, 0 ≤ rim < ½, from their free ends. Without it, the interior is the whole body.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn with_rim(self, rim: f64) -> Result<Self> {
+        check("rim", rim, (0.0..0.5).contains(&rim), "a part of the length from 0, below a half")?;
+        Ok(Self { interiors: interiors(&self.pair, self.boundary, &self.motion, rim), ..self })
+    }
+
+    /// The same motion, after whose passes a `law` changes the bodies, too: after those that do already, of which plastic flow
+    /// is the first; a law that does not repeat before those that do. The contacts of a pass are solved on the bodies as they
+    /// were before it, or under [`crate::motion::PlasticUpdate::Step`] before its position.
+    pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
+        law.prepare(&mut self.pair);
+        self.changes.add(Box::new(law), || Softness::of(&self.pair, self.boundary));
+        self
+    }
+
+    /// The same motion, whose computed passes stand for several.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], and [`Error::Unsupported`] where passes do not repeat, or change the bodies position by position.
+    pub fn with_acceleration(mut self, acceleration: Acceleration) -> Result<Self> {
+        let acceleration = acceleration.checked()?;
+        if acceleration.max_jump > 1 {
+            if !self.repeats() {
+                return Err(Error::Unsupported(
+                    "surfaces that meet anew in each pass have none that stands for others",
+                ));
+            }
+            if self.changes_at_every_step() {
+                return Err(Error::Unsupported(
+                    "a pass that changes the bodies position by position stands for itself",
+                ));
+            }
+        }
+        self.changes.acceleration = acceleration;
+        Ok(self)
+    }
+
+    /// Whether the bodies change position by position.
+    fn changes_at_every_step(&self) -> bool {
+        let by_laws = self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields();
+        by_laws || self.volumes.is_some()
+    }
+
+    /// The same motion of bodies that flow below their surfaces: those that are given, lower one first. Plastic strain stays with the
+    /// material, position after position; each pass ends with the load taken off. No other law changes such bodies, and
+    /// [`Simulation::pair`] has their surfaces as flow has left them.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for bodies that have a hardness, heat, a pass that stands for others, an upper body that flows and is another
+    /// in each pass, and a shift under a boundary that is free along x.
+    ///
+    /// # Panics
+    /// If none is given, or one has another grid than its surface.
+    pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
+        let refused = if self.pair.yields() {
+            "bodies that flow below their surfaces have no hardness"
+        } else if self.changes.laws.len() > 1 {
+            "bodies that flow below their surfaces neither wear nor grow films"
+        } else if self.changes.heat.is_some() {
+            "a flash temperature is that of bodies that stay as they are in a pass"
+        } else if self.changes.acceleration.max_jump > 1 {
+            "a pass in which bodies flow stands for itself"
+        } else if self.counter.is_some() && bodies[1].is_some() {
+            "an upper body that is another in each pass does not keep what has flowed"
+        } else if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
+            "plastic strain goes round with the surfaces of a shift: their boundary is periodic along x"
+        } else {
+            ""
+        };
+        if !refused.is_empty() {
+            return Err(Error::Unsupported(refused));
+        }
+        let Self { pair, operators, positions, params, boundary, .. } = &self;
+        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (flow, *params));
+        Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
+    }
+
+    /// The same motion, in which so much has flowed in the passes that are done, of each body that may flow, lower one first; the
+    /// surfaces of the pair are those that it has left.
+    ///
+    /// # Panics
+    /// If the bodies do not flow.
+    pub fn with_flowed(self, states: Vec<PlasticState>) -> Self {
+        let volumes = self.volumes.expect("bodies that flow").with_states(states);
+        Self { volumes: Some(volumes), ..self }
+    }
+
+    /// The same motion, whose reports say what has flowed under the load at a position, by its index, of each pass.
+    ///
+    /// # Panics
+    /// If the bodies do not flow.
+    pub fn looking_at(self, position: usize) -> Self {
+        let volumes = self.volumes.expect("bodies that flow").looked_at(position);
+        Self { volumes: Some(volumes), ..self }
+    }
+
+    /// What has flowed in the passes that are done; nothing in bodies that do not.
+    pub fn flowed(&self) -> Vec<FlowedVolume> {
+        self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
+    }
+
+    /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
+    /// cells in contact, which begin each pass at that of the bodies. It is computed in the first and in every `every`-th computed
+    /// pass, ≥ 1; in those between the cells are as warm as they were in the mean over their contacts of the last such pass.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, where these change position by position, and
+    /// for a shift under a boundary that is free along x; those of [`FlashTemperature::new`].
+    pub fn with_heat(mut self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
+        check("every", every as f64, every > 0, "at least each computed pass")?;
+        let time = self.motion.step_time(self.pair.pitch()[0]);
+        let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
+            return Err(Error::Unsupported(
+                "a flash temperature is that of bodies with friction, a speed and temperatures",
+            ));
+        };
+        if self.changes_at_every_step() {
+            return Err(Error::Unsupported(
+                "a flash temperature is that of bodies that stay as they are in a pass",
+            ));
+        }
+        if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
+            return Err(Error::Unsupported(
+                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+            ));
+        }
+        let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
+        let heat = FlashTemperature::new(grids, thermal, self.boundary, self.positions.len(), time, bulk)?;
+        self.changes.heat = Some(PassHeat::new(heat, every));
+        Ok(self)
+    }
+
+    /// Passes of the motion that are done: those that the computed ones stand for.
+    pub fn represented(&self) -> usize {
+        self.warm.represented
+    }
+
+    /// The interiors of the lower and of the upper body.
+    pub fn interiors(&self) -> &[Interior; 2] {
+        &self.interiors
+    }
+
+    /// The bodies as they are now.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// How the bodies move.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// The positions of the next pass.
+    pub fn positions(&self) -> &[Position] {
+        &self.positions
+    }
+
+    /// Runs the passes that are left.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::solve`], and those of the outputs.
+    pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
+        course::run(self, watch, outputs)
+    }
+
+    /// Solves the next pass and lets the laws change its bodies. It counts once it is [finished](Simulation::finish).
+    ///
+    /// # Errors
+    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
+        let began = Instant::now();
+        let pass = self.passes_done + 1;
+        if self.volumes.is_some() && self.changes.laws.len() > 1 {
+            return Err(Error::Unsupported(
+                "bodies that flow below their surfaces neither wear nor grow films",
+            ));
+        }
+        let before = self.next_pair()?;
+        let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
+        let hardness = [&before.lower, &before.upper].map(|body| body.hardness.clone());
+        drop(before);
+        self.come_back(&mut outcome.contacts);
+        let wear = self.solve_with_wear(&mut outcome, watch)?;
+        let displaced = self.motion.offset_y != OffsetY::NONE;
+        let offset_y = |across: usize| displaced.then_some(across as f64 * self.pair.pitch()[1]);
+        let step = |(k, contact): (usize, &Contact)| {
+            let record = contact.record(&outcome.pair, &self.interiors, self.boundary, [pass, k + 1]);
+            StepRecord { offset_y: offset_y(contact.position.across), ..record }
+        };
+        let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
+        if let Some(flowed) = &outcome.flowed {
+            steps.iter_mut().zip(&flowed.steps).for_each(|(step, flow)| step.flow = Some(*flow));
+        }
+        let (running, jump) = match outcome.has_changed {
+            true => (None, None),
+            false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
+        };
+        let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
+        let interiors = self.interiors.clone();
+        let wall_time = began.elapsed().as_secs_f64();
+        Ok(SolvedPass {
+            outcome,
+            hardness,
+            steps,
+            guess,
+            trials,
+            wall_time,
+            interiors,
+            running,
+            jump,
+            represented,
+        })
+    }
+
+    /// Adds the contacts of the way back to those that are solved, if they are the same.
+    fn come_back(&self, contacts: &mut Vec<Contact>) {
+        let back = self.positions[self.distinct..].iter().zip(contacts.iter().rev());
+        let back: Vec<Contact> = back.map(|(position, contact)| contact.back(*position)).collect();
+        contacts.extend(back);
+    }
+
+    /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
+    ///
+    /// # Errors
+    /// Those of the outputs; the pass then does not count.
+    pub fn finish(
+        &mut self,
+        pass: SolvedPass,
+        watch: &dyn Watch,
+        outputs: &mut [&mut dyn Output],
+    ) -> Result<()> {
+        let finished = self.finished(pass);
+        course::finish(self, finished, watch, outputs)
+    }
+
+    /// A solved pass with what it leaves to the next one.
+    fn finished(&self, pass: SolvedPass) -> FinishedPass {
+        let record = pass.record();
+        let SolvedPass { outcome, hardness, steps, guess, jump, represented, .. } = pass;
+        // Bodies that meet elsewhere begin anew.
+        let (guess, again) = match self.repeats() {
+            // Each pass in which they flow begins with bodies that are apart.
+            true if self.volumes.is_some() => (guess, &[][..]),
+            true => (guess, &outcome.contacts[..self.distinct]),
+            false => (None, &[][..]),
+        };
+        let warm = WarmStart::new(guess, again, jump, represented, &self.warm);
+        FinishedPass { record, outcome, hardness, steps, warm }
+    }
+
+    /// The solver of the next pass.
+    fn solver<'a>(&'a self, watch: &'a dyn Watch) -> Solver<'a> {
+        let progress = Progress {
+            pass: self.represented() + 1,
+            passes: self.motion.passes,
+            trial: 1,
+            solved: 0,
+            positions: self.distinct,
+            load: 0.0,
+            together: None,
+        };
+        Solver {
+            operators: &self.operators,
+            positions: &self.positions[..self.distinct],
+            motion: &self.motion,
+            interiors: &self.interiors,
+            laws: &self.changes.laws,
+            watch,
+            progress,
+        }
+    }
+}
+
+impl Course for Simulation {
+    type Solved = FinishedPass;
+
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<FinishedPass>> {
+        match self.represented() < self.motion.passes {
+            true => self.solve(watch).map(|pass| Some(self.finished(pass))),
+            false => Ok(None),
+        }
+    }
+
+    fn report<'a>(&'a self, pass: &'a FinishedPass) -> Step<'a> {
+        Step::Pass(pass.report(&self.motion))
+    }
+
+    fn take(&mut self, pass: FinishedPass) {
+        let Pass { pair, flowed, .. } = pass.outcome;
+        if let (Some(volumes), Some(flowed)) = (&mut self.volumes, flowed) {
+            volumes.take(flowed.volumes);
+        }
+        self.warm = pass.warm;
+        self.pair = pair;
+        if !self.motion.repeats() {
+            self.positions = self.next_positions();
+        }
+        self.passes_done = pass.record.pass;
+    }
+}
+
+fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {
+    check("passes", motion.passes as f64, motion.passes > 0, "at least one pass")?;
+    check("stride", motion.stride as f64, motion.stride > 0, "at least one cell")?;
+    let tolerance = motion.load_tolerance;
+    check("load_tolerance", tolerance, tolerance > 0.0, "a relative tolerance above 0")?;
+    if let Control::Load(load) = motion.control {
+        check_in(Dimension::Force, "load", load, load > 0.0 && load.is_finite(), "a finite load above 0")?;
+    }
+    if let Some(friction) = motion.friction {
+        friction.checked()?;
+        if motion.strategy.direction() == 0.0 {
+            return Err(Error::Unsupported("bodies that roll at equal speeds do not slide over each other"));
+        }
+    }
+    if let Control::Approach(approach) = motion.control {
+        check_in(Dimension::Length, "approach", approach, approach.is_finite(), "a finite length")?;
+    }
+    let (lower, upper) = (pair.lower.columns(), pair.upper.columns());
+    match motion.strategy {
+        Strategy::Overlap if boundary.repeats(0) => {
+            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free along x"));
+        }
+        Strategy::Overlap => {}
+        Strategy::Shift { .. } if lower != upper => {
+            return Err(Error::GridMismatch {
+                what: "length of the two bodies, which a circular shift needs equal",
+                left: format!("{lower} cells along x"),
+                right: format!("{upper} cells along x"),
+            });
+        }
+        Strategy::Shift { speed_lower, speed_upper } => {
+            let fastest = speed_lower.abs().max(speed_upper.abs());
+            check("speed", fastest, fastest > 0.0 && fastest.is_finite(), "a surface that moves")?;
+        }
+    }
+    if motion.offset_y != OffsetY::NONE && !boundary.repeats(1) {
+        return Err(Error::Unsupported(
+            "bodies that are displaced along y continue over their edges there: their boundary is periodic along y",
+        ));
+    }
+    Ok(motion.positions([lower, upper], pair.lower.width(), 1))
+}
+
+/// The most load that the cells at a position bear together.
+fn bearable(pair: &Pair, motion: &Motion, position: &Position) -> Newton {
+    let bounds = pair.bounds(position, motion.friction.as_ref());
+    pair.cell_area() * bounds.upper().sum(pair.grid(position.columns).cells())
+}
+
+fn interiors(pair: &Pair, boundary: Boundary, motion: &Motion, rim: f64) -> [Interior; 2] {
+    let shapes = [pair.lower_grid().shape, pair.upper_grid().shape];
+    Interior::of_bodies(shapes, boundary, motion.strategy, rim)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,167 @@
+//! The approach of a pass.
+
+use super::{Simulation, bearable};
+use crate::error::{Error, LoadLimit, Result};
+use crate::grid::Field;
+use crate::motion::LoadControl;
+use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::Pass;
+use crate::motion::path::Position;
+use crate::motion::warm_start::Guess;
+use crate::motion::watch::Watch;
+use crate::solver::{Control, Params};
+use crate::units::{Metre, Newton};
+
+impl Simulation {
+    /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
+    pub(super) fn solve_pass(&self, pair: &Pair, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
+        let positions = &self.positions[..self.distinct];
+        let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
+        let mut solver = self.solver(watch);
+        let load = match (self.motion.control, self.motion.load_control, &self.volumes) {
+            (Control::Load(load), LoadControl::Pass, _) => load,
+            (control, _, Some(volumes)) => {
+                return Ok((solver.solve_flowing(volumes, pair, control)?, None, 1));
+            }
+            (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
+        };
+        // Flow takes most of the time of a trial: no contact is solved roughly beside it.
+        let roughest = if self.volumes.is_some() { self.params.tolerance } else { MAX_RESIDUAL };
+        let mut residual = roughest;
+        let mut guess = self.warm.guess;
+        if self.together {
+            let accuracy = self.motion.load_tolerance;
+            let start = earlier.first();
+            match solver.solve_together(pair, load, accuracy, &self.params, start) {
+                Ok(contacts) => {
+                    let slope = guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);
+                    guess = Some(Guess { approach: contacts[0].approach, slope });
+                    earlier = vec![contacts];
+                    residual = self.params.tolerance;
+                }
+                // The search that follows does without.
+                Err(Error::NotConverged { .. }) => {}
+                Err(other) => return Err(other),
+            }
+        }
+        let guess = match guess {
+            Some(guess) => guess,
+            None => self.first_guess(pair, load, watch)?,
+        };
+        let search = Search {
+            load,
+            tolerance: self.motion.load_tolerance,
+            residual: self.params.tolerance,
+            roughest,
+            touch: self.touch(pair),
+            resolution: resolution(pair),
+            limit: self.limit(pair),
+        };
+        let mut closed = false;
+        let found = search.run(guess, residual, |approach, residual| {
+            let control = Control::Approach(approach);
+            let outcome = match &self.volumes {
+                Some(volumes) => solver.solve_flowing(volumes, pair, control)?,
+                None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
+            };
+            solver.progress.trial += 1;
+            closed |= outcome.contacts.iter().any(|contact| self.leaves_mean_free(contact));
+            earlier.insert(0, outcome.contacts.clone());
+            earlier.truncate(2);
+            Ok((outcome.mean_load(), outcome))
+        });
+        let found = found.map_err(|error| match error {
+            // A load that jumps where a position comes into full contact with the pressure below the hardness.
+            Error::LoadNotReached { load, below: most, approach, .. } if most > 0.0 && closed => {
+                Error::BeyondPass { load, most, approach, cause: LoadLimit::FullContact }
+            }
+            other => other,
+        })?;
+        Ok((found.outcome, Some(found.guess), found.trials))
+    }
+
+    /// Whether the pressure of a contact determines no approach: all cells touch elastically, and their mean displacement is free.
+    fn leaves_mean_free(&self, contact: &Contact) -> bool {
+        let cells = self.pair.grid(contact.position.columns).cells();
+        self.boundary.leaves_mean_free() && contact.pressure.len() == cells && contact.plastic.is_empty()
+    }
+
+    /// The position with the most columns, at two loads near its share of the pass-mean load.
+    fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
+        let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
+        let share = fullest.columns as f64 / mean_columns(&self.positions);
+        let limit = bearable(pair, &self.motion, fullest);
+        let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
+        let solve = |load: Newton, start: Option<&Contact>| {
+            let start = start.map(|c| c.pressure_field(pair.lower.width()));
+            let control = Control::Load(load);
+            Contact::solve(pair, &self.operators, *fullest, None, control, start.as_ref(), &params, watch)
+        };
+        let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
+        let scale = height_scale(pair);
+        let solved =
+            solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
+        let (approach, further) = match solved {
+            Ok(approaches) => approaches,
+            // A guess that cannot be had is no guess: from the first touch.
+            Err(Error::NotConverged { .. }) => {
+                return Ok(Guess { approach: self.touch(pair) + scale, slope: 1.0 / scale });
+            }
+            Err(other) => return Err(other),
+        };
+        let slope = (more / less).ln() / (further - approach);
+        Ok(Guess { approach, slope: if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale } })
+    }
+
+    /// The approach at which some position of the pass first touches.
+    fn touch(&self, pair: &Pair) -> Metre {
+        let lowest = |position| pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
+        self.positions[..self.distinct].iter().map(lowest).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
+    /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
+    /// they are in full contact at all positions. Where some cells yield and others never do, there is none.
+    fn limit(&self, pair: &Pair) -> Limit {
+        let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
+        let hardness = cap(pair.max_hardness());
+        let largest = |value: fn(&Field) -> f64| {
+            let positions = self.positions[..self.distinct].iter();
+            positions.map(|p| value(&pair.initial_gap(p))).fold(f64::NEG_INFINITY, f64::max)
+        };
+        if hardness.is_finite() {
+            let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+            let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
+            // Of the hardness on all that faces; the shear of what slides adds less than μ times as much.
+            let sinks = self.operators.most_under_uniform([columns, pair.lower.width()]);
+            let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
+            let approach = highest + (1.0 + coefficient) * hardness * sinks;
+            Limit { approach, cause: LoadLimit::Yielded }
+        } else if self.boundary.leaves_mean_free() && !pair.yields() {
+            // Closer to it the load is less certain than the residual.
+            let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
+            let rough = largest(|gap| gap.std(0.0));
+            Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
+        } else {
+            Limit { approach: f64::INFINITY, cause: LoadLimit::FullContact }
+        }
+    }
+}
+
+/// The rounding of the heights, as a length.
+fn resolution(pair: &Pair) -> Metre {
+    let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
+    f64::EPSILON * highest(&pair.lower.heights).max(highest(&pair.upper.heights))
+}
+
+/// The length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
+fn height_scale(pair: &Pair) -> Metre {
+    let roughness = pair.lower.heights.std(0.0).hypot(pair.upper.heights.std(0.0));
+    if roughness > 0.0 { 0.1 * roughness } else { pair.pitch()[0] }
+}
+
+fn mean_columns(positions: &[Position]) -> f64 {
+    positions.iter().map(|p| p.columns).sum::<usize>() as f64 / positions.len() as f64
+}

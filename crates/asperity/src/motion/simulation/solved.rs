@@ -1,0 +1,139 @@
+//! A pass that is solved.
+
+use crate::grid::{CellValues, Field};
+use crate::motion::Motion;
+use crate::motion::contact::Contact;
+use crate::motion::flowed::FlowedVolume;
+use crate::motion::jump::Jump;
+use crate::motion::law;
+use crate::motion::pair::Pair;
+use crate::motion::pass::Pass;
+use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
+use crate::motion::report::PassReport;
+use crate::motion::rim::Interior;
+use crate::motion::warm_start::{Guess, WarmStart};
+use crate::units::Second;
+
+/// A pass that is solved, and not yet [finished](super::Simulation::finish).
+pub struct SolvedPass {
+    pub(super) outcome: Pass,
+    /// The hardness of the bodies in the pass, lower one first.
+    pub(super) hardness: [CellValues; 2],
+    pub(super) steps: Vec<StepRecord>,
+    pub(super) guess: Option<Guess>,
+    pub(super) trials: usize,
+    pub(super) wall_time: Second,
+    pub(super) interiors: [Interior; 2],
+    pub(super) running: Option<RunningRecord>,
+    pub(super) jump: Option<Jump>,
+    /// Passes of the motion that are done with this one.
+    pub(super) represented: usize,
+}
+
+impl SolvedPass {
+    /// The contacts of the pass, position by position.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.outcome.contacts
+    }
+
+    /// The positions of the pass in numbers.
+    pub fn steps(&self) -> &[StepRecord] {
+        &self.steps
+    }
+
+    /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
+    pub fn flowed(&self) -> &[FlowedVolume] {
+        self.outcome.flowed.as_ref().map_or(&[], |flowed| &flowed.volumes)
+    }
+
+    /// The bodies as the pass leaves them.
+    pub fn pair(&self) -> &Pair {
+        &self.outcome.pair
+    }
+
+    /// The pass in numbers, as they are now.
+    pub fn record(&self) -> PassRecord {
+        let record = summarise(&self.outcome, &self.interiors, &self.steps);
+        PassRecord {
+            outer_iterations: self.trials,
+            wall_time_s: self.wall_time,
+            running: self.running,
+            flow: self.outcome.flowed.as_ref().map(|flowed| flowed.record),
+            ..record
+        }
+    }
+
+    /// Takes a `depth` off each cell of the lower and of the upper body, m, below 0 where a cell grows; its volume is lost to
+    /// the law of that name, in snake case.
+    ///
+    /// # Panics
+    /// If a depth has another shape than its body.
+    pub fn remove(&mut self, law: &str, depth: &[Field; 2]) {
+        let Pass { pair, lost, .. } = &mut self.outcome;
+        let known = lost.iter().position(|lost| lost.law == law).unwrap_or_else(|| {
+            lost.push(LostVolume::nothing(law));
+            lost.len() - 1
+        });
+        law::remove(pair, depth, &self.interiors, &mut lost[known]);
+    }
+}
+
+/// A solved pass with what it leaves to the next one.
+pub struct FinishedPass {
+    pub(super) record: PassRecord,
+    pub(super) outcome: Pass,
+    pub(super) hardness: [CellValues; 2],
+    pub(super) steps: Vec<StepRecord>,
+    pub(super) warm: WarmStart,
+}
+
+impl FinishedPass {
+    /// What outputs take of it.
+    pub(super) fn report<'a>(&'a self, motion: &'a Motion) -> PassReport<'a> {
+        let Self { record, outcome, hardness: [lower, upper], steps, warm } = self;
+        let flowed = outcome.flowed.as_ref();
+        PassReport {
+            record,
+            steps,
+            contacts: &outcome.contacts,
+            pair: &outcome.pair,
+            hardness: [lower, upper],
+            motion,
+            warm,
+            flowed: flowed.map_or(&[], |flowed| &flowed.volumes),
+            looked_at: flowed.map_or(&[], |flowed| &flowed.looked_at),
+        }
+    }
+}
+
+/// The record of a pass, a row of `passes.csv`, but for the number of approaches tried and the time.
+fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) -> PassRecord {
+    let pair = &outcome.pair;
+    let mean_columns = steps.iter().map(|s| s.overlap_columns as f64).sum::<f64>() / steps.len() as f64;
+    let mean = |value: fn(&StepRecord) -> f64| steps.iter().map(value).sum::<f64>() / steps.len() as f64;
+    let most = |value: fn(&StepRecord) -> f64| steps.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+    PassRecord {
+        pass: steps[0].pass,
+        approach: mean(|s| s.approach),
+        mean_load: mean(|s| s.load),
+        mean_tangential_force: mean(|s| s.tangential_force),
+        friction_coefficient: mean(|s| s.tangential_force.abs()) / mean(|s| s.load),
+        min_load: -most(|s| -s.load),
+        max_load: most(|s| s.load),
+        mean_pressure: mean(|s| s.load) / (mean_columns * pair.grid(1).area()),
+        mean_contact_area: mean(|s| s.contact_area),
+        mean_contact_area_interior: mean(|s| s.contact_area_interior),
+        largest_spot_cells: steps.iter().map(|s| s.largest_spot_cells).max().unwrap_or(0),
+        max_pressure: most(|s| s.max_pressure),
+        lost: outcome.lost.clone(),
+        running: None,
+        flow: None,
+        sq_lower: pair.lower.heights.std(0.0),
+        sq_upper: pair.upper.heights.std(0.0),
+        sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),
+        sq_upper_interior: interiors[1].of(&pair.upper.heights).std(0.0),
+        outer_iterations: 1,
+        convolutions: steps.iter().map(|s| s.convolutions).sum(),
+        wall_time_s: 0.0,
+    }
+}

@@ -1,0 +1,68 @@
+//! What every run begins with and ends with.
+
+use serde_json::Value;
+use web_time::Instant;
+
+use crate::error::Result;
+use crate::motion::{FlowRecord, Pair, UpdateRecord};
+use crate::solver::Params;
+use crate::study::case::Case;
+use crate::study::prepare::Bodies;
+use crate::study::results::Writer;
+use crate::study::subsurface::SubsurfaceRecord;
+use crate::study::summary::{Outcome, RunningIn, Summary};
+
+/// What a run has computed, in numbers.
+pub(super) struct Computed {
+    pub(super) outcome: Outcome,
+    pub(super) subsurface: Vec<SubsurfaceRecord>,
+    /// The last update of a contact that has slid in place.
+    pub(super) sliding: Option<UpdateRecord>,
+    /// What the passes of bodies that flow come to.
+    pub(super) flow: Option<FlowRecord>,
+}
+
+/// Writes what comes at the end of every run.
+pub(super) fn conclude(
+    case: &Case,
+    writer: &Writer,
+    resolved: Value,
+    began: Instant,
+    Computed { outcome, subsurface, sliding, flow }: Computed,
+    mut warnings: Vec<String>,
+) -> Result<Summary> {
+    outcome.check()?;
+    warnings.extend(writer.warning().map(str::to_owned));
+    if case.output.paraview {
+        writer.write_for_paraview()?;
+    }
+    let running_in = match &outcome {
+        Outcome::Passes(passes) => RunningIn::of(passes),
+        Outcome::Static(_) | Outcome::Sweep(_) => None,
+    };
+    let summary = Summary {
+        running_in,
+        sliding,
+        plasticity: flow,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        case: resolved,
+        outcome,
+        subsurface,
+        warnings,
+        wall_time_s: began.elapsed().as_secs_f64(),
+    };
+    writer.finish(&summary)?;
+    Ok(summary)
+}
+
+/// The `bodies` of `case`, face to face.
+pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
+    let Bodies { lower, upper } = bodies;
+    let materials = [&case.lower.material, &case.upper.material];
+    Pair::new(lower.topography, upper.topography, materials)?.with_hardness([lower.hardness, upper.hardness])
+}
+
+/// The solver that `case` asks for.
+pub(super) fn params(case: &Case) -> Params {
+    Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() }
+}

@@ -1,0 +1,187 @@
+//! What keeps a course in a results directory, step after step.
+//!
+//! The fields of a step are written first, then the state from which the next one goes on, last its row: a step is done when its row
+//! stands. The state of the step before goes then; that of the last step is needed by a motion alone, which may be given more passes.
+
+use super::write::{add_bodies, add_volumes, set_caps};
+use super::{ROWS, Results, cap_name, pressure_name, temperature_name, traction_name};
+use crate::error::Result;
+use crate::grid::{CellValues, Field};
+use crate::io::fields::FieldFile;
+use crate::motion::{LoadedContact, Output, PassReport, Step, StepRecord};
+use crate::study::case::Keep;
+use crate::study::state::{increment, pass, update};
+use crate::study::subsurface::{Plan, SubsurfaceRecord};
+use crate::study::tables::{self, GrowingTable, Record};
+use crate::subsurface::Tractions;
+
+/// Keeps each step of a course on the disk.
+pub struct StepWriter {
+    pub(super) results: Results,
+    pub(super) identity: String,
+    /// The table with a row for each step.
+    pub(super) rows: GrowingTable,
+    /// Digest of all rows.
+    pub(super) digest: String,
+    /// The table of the positions of the passes of a motion.
+    pub(super) positions: Option<GrowingTable>,
+    /// The fields of every n-th point of a sweep, the pressure of every n-th position of a pass; 0: of none.
+    pub(super) fields_every: usize,
+    /// The stress under the surface that is wanted of each pass.
+    pub(super) plan: Option<Plan>,
+    /// Of which passes the volumes that flow are kept.
+    pub(super) keep: Keep,
+}
+
+impl Output for StepWriter {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let number = step.number();
+        match step {
+            Step::Increment { state, of } => {
+                let file = (number < *of).then(|| self.state(number, |file| increment::add(file, state)));
+                self.add(number, file, &[], &state.increments[number - 1..])
+            }
+            Step::Flow { record, .. } => self.rows.add(std::slice::from_ref(*record)),
+            Step::Update { state, of } => {
+                let file = (number < *of).then(|| self.state(number, |file| update::add(file, state)));
+                self.add(number, file, &[], &state.updates[number..])
+            }
+            Step::Point { record, contact, of } => {
+                if is_kept(number, self.fields_every) {
+                    self.write_point(number, contact)?;
+                }
+                let file = (number < *of).then(|| self.state(number, |_| ()));
+                self.add(number, file, &[], std::slice::from_ref(*record))
+            }
+            Step::Pass(report) => {
+                self.write_pass(report)?;
+                let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
+                let file = self.state(number, |file| pass::add(file, number, &grids, report.warm));
+                self.add(number, Some(file), report.steps, std::slice::from_ref(report.record))?;
+                match self.keep {
+                    Keep::Last => self.results.remove(&self.results.flow_path(Some(number - 1))),
+                    Keep::Passes => Ok(()),
+                }
+            }
+        }
+    }
+}
+
+impl StepWriter {
+    /// The stress under the surface in each of so many passes; none without a plan.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn subsurface(&self, passes: usize) -> Result<Vec<SubsurfaceRecord>> {
+        let wanted = self.plan.iter().flat_map(|_| 1..=passes);
+        wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
+    }
+
+    /// The state after a step.
+    fn state(&self, number: usize, add: impl FnOnce(&mut FieldFile)) -> FieldFile {
+        let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(number));
+        add(&mut file);
+        file
+    }
+
+    /// Writes the state after a step, if another one follows, and adds its rows: those of its `positions`, and its own.
+    fn add<T: Record>(
+        &mut self,
+        number: usize,
+        state: Option<FieldFile>,
+        positions: &[StepRecord],
+        record: &[T],
+    ) -> Result<()> {
+        let digest = tables::digest(&tables::digest(&self.digest, positions), record);
+        let goes_on = state.is_some();
+        if let Some(mut state) = state {
+            state.set(ROWS, digest.as_str());
+            state.write()?;
+        }
+        if let Some(table) = &mut self.positions {
+            table.add(positions)?;
+        }
+        self.rows.add(record)?;
+        self.digest = digest;
+        match number.checked_sub(1).filter(|_| goes_on) {
+            Some(before) => self.results.remove(&self.results.state_path(before)),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the fields of a point of a sweep.
+    fn write_point(&self, point: usize, contact: &LoadedContact) -> Result<()> {
+        let solution = contact.solution.normal();
+        let mut file = FieldFile::of_run(&self.identity, &self.results.point_path(point));
+        file.set("point", point).set("approach", solution.approach);
+        let mut add = |name: &str, unit: &str, field: &Field| {
+            file.add_field(name, unit, &solution.grid, [0.0, 0.0], field);
+        };
+        add("pressure", "Pa", &solution.pressure);
+        add("gap", "m", &solution.gap());
+        if solution.bounds.upper().min().is_finite() {
+            add("plastic", "m", &contact.plastic);
+        }
+        file.write()
+    }
+
+    /// Writes the fields of a pass.
+    fn write_pass(&self, report: &PassReport<'_>) -> Result<()> {
+        let pair = report.pair;
+        let results = &self.results;
+        let mut file = FieldFile::of_run(&self.identity, &results.fields_path(report.record.pass));
+        file.set("pass", report.record.pass);
+        set_caps(&mut file, report.min_hardness(), report.motion.friction.as_ref());
+        add_bodies(&mut file, pair);
+        let [lower, upper] = report.mean_pressure();
+        file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
+        file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
+        for (index, contact) in report.contacts.iter().enumerate() {
+            if self.fields_every > 0 && index % self.fields_every == 0 {
+                let pressure: Field = contact.pressure_field(pair.lower.width());
+                let corner = [contact.position.places()[0] * pair.pitch()[0], 0.0];
+                let grid = pair.grid(contact.position.columns);
+                file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
+                    file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
+                }
+                if let CellValues::Field(cap) = report.bounds(contact).upper() {
+                    file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
+                }
+                if let Some(sliding) = report.motion.sliding(contact.position.way) {
+                    let traction = pressure.mapv(|p| sliding.shear(p)[0]);
+                    file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
+                }
+            }
+        }
+        file.write()?;
+        if let Some(plan) = &self.plan {
+            let pass = Some(report.record.pass);
+            let contact = &report.contacts[plan.index];
+            let pressure = contact.pressure_field(pair.lower.width());
+            let sliding = report.motion.sliding(contact.position.way);
+            let path = results.subsurface_path(pass);
+            let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
+            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            let plan = plan.at(&contact.position, &pair.lower_grid());
+            let seats = pair.seats(&contact.position);
+            let looked_at = report.flowed.iter().zip(report.looked_at);
+            let flowed = looked_at.into_iter().find(|(volume, _)| volume.body == plan.side());
+            let flowed = flowed.map(|(_, state)| (state, &seats[plan.side()]));
+            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, flowed)?;
+        }
+        let passes = report.record.pass;
+        if !report.flowed.is_empty() {
+            let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
+            file.set("pass", passes);
+            add_volumes(&mut file, report.flowed, report.flowed);
+            file.write()?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether the fields of a point, from 1, are kept, if those of every n-th are.
+pub(super) fn is_kept(point: usize, every: usize) -> bool {
+    every > 0 && (point - 1).is_multiple_of(every)
+}

@@ -1,0 +1,74 @@
+//! The states of courses, as files: all that the next step depends on, so that a run that was interrupted comes to the same bits.
+
+pub(super) mod increment; // of a loading
+pub(super) mod pass; // of a motion
+pub(super) mod update; // of a contact that slides in place
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::io::fields::{Attribute, Fields};
+use crate::study::results::{ALTERED, ROWS};
+
+/// A state as it is read back.
+pub(in crate::study) struct Stored {
+    path: PathBuf,
+    pub(in crate::study) fields: Fields,
+    names: Vec<String>,
+    attributes: BTreeMap<String, Attribute>,
+}
+
+impl Stored {
+    pub(in crate::study) fn open(path: &Path) -> Result<Self> {
+        let fields = Fields::open(path)?;
+        let (names, attributes) = (fields.names()?, fields.attributes()?);
+        Ok(Self { path: path.to_owned(), fields, names, attributes })
+    }
+
+    pub(super) fn holds(&self, name: &str) -> bool {
+        self.names.iter().any(|held| held == name)
+    }
+
+    pub(in crate::study) fn field(&self, name: &str) -> Result<Field> {
+        self.fields.read(name)?.into_field().ok_or_else(|| self.damaged(name))
+    }
+
+    pub(super) fn both(&self, name: &str) -> Result<[Field; 2]> {
+        Ok([self.field(&format!("{name}_x"))?, self.field(&format!("{name}_y"))?])
+    }
+
+    pub(in crate::study) fn number(&self, name: &str) -> Result<f64> {
+        match self.attributes.get(name) {
+            Some(Attribute::Number(number)) => Ok(*number),
+            Some(Attribute::Integer(number)) => Ok(*number as f64),
+            _ => Err(self.damaged(name)),
+        }
+    }
+
+    pub(super) fn pair(&self, name: &str) -> Result<[f64; 2]> {
+        match self.attributes.get(name) {
+            Some(Attribute::Numbers(numbers)) => {
+                numbers.as_slice().try_into().map_err(|_| self.damaged(name))
+            }
+            _ => Err(self.damaged(name)),
+        }
+    }
+
+    /// An error if the state was written with rows of another digest, which are those of `table`.
+    pub(in crate::study) fn has_rows(&self, digest: &str, table: &Path) -> Result<()> {
+        match self.attributes.get(ROWS) {
+            Some(written) if *written != Attribute::from(digest) => {
+                Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn damaged(&self, name: &str) -> Error {
+        let source = io::Error::new(io::ErrorKind::InvalidData, format!("`{name}` is missing or damaged"));
+        Error::File { path: self.path.clone(), source }
+    }
+}
