@@ -6,50 +6,10 @@ use std::f64::consts::PI;
 use ndarray::Array2;
 
 use crate::grid::Field;
-use crate::kernel::CoupledResponse;
 use crate::kernel::cell::{asinh_term, integral, logarithm_term};
+use crate::kernel::{Coefficients, CoupledResponse};
 use crate::material::Compliances;
 use crate::units::Metre;
-
-/// The nine influence coefficients of one cell on another, m/Pa, of which six are independent:
-///
-/// ```text
-/// ⎡u_x⎤   ⎡xx   xy  −zx⎤ ⎡q_x⎤     u_x, u_y   lower minus upper body: the displacement against slip
-/// ⎢u_y⎥ = ⎢xy   yy  −zy⎥ ⎢q_y⎥     u_z        closure: what opens the gap
-/// ⎣u_z⎦   ⎣zx   zy   zz⎦ ⎣ p ⎦     q_x, q_y   on the lower body; the upper one bears the opposite
-/// ```
-///
-/// xx, yy, zz are even in x and in y, xy is odd in both, zx odd in x alone, zy in y alone: the matrix of all cells is
-/// symmetric, and positive definite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Coefficients {
-    /// u_x under q_x.
-    pub xx: f64,
-    /// u_x under q_y, and u_y under q_x.
-    pub xy: f64,
-    /// u_y under q_y.
-    pub yy: f64,
-    /// u_z under q_x, and the opposite of u_x under p.
-    pub zx: f64,
-    /// u_z under q_y, and the opposite of u_y under p.
-    pub zy: f64,
-    /// u_z under p.
-    pub zz: f64,
-}
-
-impl Coefficients {
-    /// The coefficients as a matrix: displacement `[i]` under traction `[j]`, in the order x, y, z.
-    pub fn matrix(&self) -> [[f64; 3]; 3] {
-        let Self { xx, xy, yy, zx, zy, zz } = *self;
-        [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
-    }
-
-    /// The coefficients at an offset of these signs, where `self` are those at an offset without any: what is odd
-    /// vanishes at 0.
-    fn at_offset(self, [x, y]: [f64; 2]) -> Self {
-        Self { xy: x * y * self.xy, zx: x * self.zx, zy: y * self.zy, ..self }
-    }
-}
 
 /// The coefficients of all pairs of cells of a grid.
 pub struct CoupledTable {

@@ -3,7 +3,8 @@
 use crate::grid::Field;
 use crate::kernel::spectral::{harmonic_displacement, harmonic_displacements};
 use crate::kernel::{
-    Coefficients, CoupledResponse, Influence, Line, Response, coupled_displacement, normal_displacement,
+    Coefficients, CoupledResponse, Influence, Line, Response, SharedResponse, coupled_displacement,
+    normal_displacement,
 };
 use crate::material::Compliances;
 use crate::units::{Metre, Pascal};
@@ -26,6 +27,18 @@ impl From<Pascal> for HalfSpaces {
 impl From<Compliances> for HalfSpaces {
     fn from(compliances: Compliances) -> Self {
         Self { modulus: compliances.modulus(), compliances: Some(compliances) }
+    }
+}
+
+impl From<Pascal> for SharedResponse {
+    fn from(modulus: Pascal) -> Self {
+        HalfSpaces::from(modulus).into()
+    }
+}
+
+impl From<Compliances> for SharedResponse {
+    fn from(compliances: Compliances) -> Self {
+        HalfSpaces::from(compliances).into()
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod cell;
 mod coated;
+mod coefficients;
 pub mod coupled;
 mod half_spaces;
 mod layering;
@@ -12,7 +13,8 @@ pub mod spectral;
 pub mod subsurface;
 
 pub use coated::{CoatedHalfSpace, response};
-pub use coupled::{Coefficients, CoupledTable, coupled_displacement, coupled_matrix};
+pub use coefficients::Coefficients;
+pub use coupled::{CoupledTable, coupled_displacement, coupled_matrix};
 pub use half_spaces::HalfSpaces;
 pub use layering::Layering;
 pub use line::Line;

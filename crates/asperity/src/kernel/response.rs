@@ -5,10 +5,9 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use crate::grid::Field;
-use crate::kernel::{Coefficients, HalfSpaces, Line};
-use crate::material::Compliances;
+use crate::kernel::{Coefficients, Line};
 use crate::math::parallel;
-use crate::units::{Metre, Pascal};
+use crate::units::Metre;
 
 /// What a normal pressure does to the surfaces of a pair of bodies in the normal direction.
 ///
@@ -75,7 +74,8 @@ impl<F: Fn(Metre, Metre) -> f64 + Send + Sync> Influence for F {
 }
 
 /// A response that all operators of a pair share. It is made of any [`Response`]; of a composite modulus E* or the
-/// [`Compliances`] of a pair it is that of [`HalfSpaces`].
+/// [`Compliances`](crate::material::Compliances) of a pair it is that of
+/// [`HalfSpaces`](crate::kernel::HalfSpaces).
 #[derive(Debug, Clone)]
 pub struct SharedResponse(Arc<dyn Response>);
 
@@ -90,17 +90,5 @@ impl Deref for SharedResponse {
 impl<R: Response + 'static> From<R> for SharedResponse {
     fn from(response: R) -> Self {
         Self(Arc::new(response))
-    }
-}
-
-impl From<Pascal> for SharedResponse {
-    fn from(modulus: Pascal) -> Self {
-        HalfSpaces::from(modulus).into()
-    }
-}
-
-impl From<Compliances> for SharedResponse {
-    fn from(compliances: Compliances) -> Self {
-        HalfSpaces::from(compliances).into()
     }
 }

@@ -1,10 +1,9 @@
 //! The course of a contact: the one loop of every computation that takes more than one step.
 
 use crate::error::{Error, Result};
-use crate::motion::loading::{LoadedContact, LoadingState};
 use crate::motion::record::{IncrementRecord, SweepRecord};
 use crate::motion::report::PassReport;
-use crate::motion::sliding::SlidingState;
+use crate::motion::state::{LoadedContact, LoadingState, SlidingState};
 use crate::motion::watch::{Progress, Watch};
 use crate::units::Newton;
 

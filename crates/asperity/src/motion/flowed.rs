@@ -32,6 +32,18 @@ pub struct FlowedVolume {
     pub stored_energy: Joule,
 }
 
+/// What a pass has made of bodies that flow.
+pub(super) struct FlowedPass {
+    /// What has flowed, once the load is taken off.
+    pub(super) volumes: Vec<FlowedVolume>,
+    /// The positions in numbers.
+    pub(super) steps: Vec<FlowStepRecord>,
+    /// The pass in numbers.
+    pub(super) record: PassFlowRecord,
+    /// What has flowed under the load at the position that is looked at; nothing where none is.
+    pub(super) looked_at: Vec<PlasticState>,
+}
+
 impl FlowedVolume {
     /// Those of the bodies of a contact under its load.
     pub(super) fn loaded(contact: &mut PlasticContact) -> Vec<Self> {

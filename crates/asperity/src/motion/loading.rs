@@ -1,20 +1,19 @@
 //! The history of a static contact: what it bears depends on how it came there.
 
-use std::borrow::Cow;
-
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
+use crate::motion::state::{Flattening, LoadedContact, LoadingState, Origin};
 use crate::motion::watch::{AtRest, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
     self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
     RollingSolution, Tangential, solve_frictional_watched, solve_normal_watched, solve_rolling_watched,
 };
-use crate::units::{Joule, Metre, Newton, SquareMetre};
+use crate::units::{Joule, Metre, SquareMetre};
 
 /// One stage of a loading: what is prescribed at its end, and in how many equal steps it is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,55 +22,6 @@ pub struct Stage {
     pub loading: Loading,
     /// Number of equal steps, ≥ 1.
     pub increments: usize,
-}
-
-/// A static contact at the end of its loading, with the history of it.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct LoadedContact {
-    /// The contact at the end of its loading, in numbers.
-    pub record: StaticRecord,
-    /// The increments of the loading; none of a rolling contact.
-    pub increments: Vec<IncrementRecord>,
-    /// The solution at the end of the loading.
-    pub solution: Equilibrium,
-    /// Plastic interference that both bodies have taken up together, m.
-    pub plastic: Field,
-    /// Slip of all increments together along x and y, m; in rolling, while the contact moves on by a cell; none without
-    /// friction.
-    pub slip: Option<[Field; 2]>,
-    /// How far the energy that friction took may be from what the record says, but for what the first increment brings:
-    /// see [`FrictionalSolution::dissipation_error`].
-    pub dissipation_error: Joule,
-}
-
-/// A loading under way: all that its next increment depends on.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct LoadingState {
-    /// The increments done so far.
-    pub increments: Vec<IncrementRecord>,
-    /// The contact at the end of the last increment.
-    pub contact: Equilibrium,
-    /// Load, approach, force and displacement where the stage of the last increment began.
-    pub origin: Origin,
-    /// The plastic interference that the cells have taken up.
-    pub flattening: Flattening,
-    /// Slip of all increments together along x and y, m; none without friction.
-    pub slip: Option<[Field; 2]>,
-    /// Sum over the increments of [`FrictionalSolution::dissipation_error`].
-    pub dissipation_error: Joule,
-}
-
-/// What the cells of a contact have taken up plastically in the course of its loading.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Flattening {
-    /// What plastic flow has taken away for good, m: both bodies are lowered by it together. None before plastic
-    /// cells are first unloaded.
-    pub kept: Option<Field>,
-    /// Largest plastic interference of each cell, m, on the surfaces so lowered.
-    pub deepest: Field,
 }
 
 /// Loads a pair whose bodies face each other with all their columns, stage after stage: from where they do not touch, or
@@ -394,58 +344,6 @@ impl Solver<'_> {
             }
         }
     }
-}
-
-impl Flattening {
-    /// The initial gap of the surfaces as they are lowered for good.
-    pub(crate) fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
-        match &self.kept {
-            None => Cow::Borrowed(gap),
-            Some(kept) => Cow::Owned(gap + kept),
-        }
-    }
-
-    /// Whether some cell has had a larger interference than `now`, by more than is `allowed`.
-    fn exceeds(&self, now: &Field, allowed: Metre) -> bool {
-        self.deepest.iter().zip(now).any(|(deepest, now)| deepest - now > allowed)
-    }
-
-    /// Lowers the surfaces by the largest interference of each cell.
-    fn keep(&mut self) {
-        let virgin = Field::zeros(self.deepest.raw_dim());
-        let deepest = std::mem::replace(&mut self.deepest, virgin);
-        self.kept = Some(match self.kept.take() {
-            None => deepest,
-            Some(kept) => kept + deepest,
-        });
-    }
-
-    /// Raises the largest interference of each cell to that of the present contact.
-    fn deepen(&mut self, now: &Field) {
-        self.deepest.zip_mut_with(now, |deepest, now| *deepest = deepest.max(*now));
-    }
-
-    /// All of the plastic interference taken up, that of the present contact being `now`.
-    fn whole(&self, now: Field) -> Field {
-        match &self.kept {
-            None => now,
-            Some(kept) => kept + &now,
-        }
-    }
-}
-
-/// The state in which a stage begins, in each quantity that it may prescribe.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Origin {
-    /// Normal force.
-    pub load: Newton,
-    /// Rigid-body approach.
-    pub approach: Metre,
-    /// Force of the upper body on the lower one along x and y.
-    pub force: [Newton; 2],
-    /// Rigid-body displacement of the upper body against the lower one along x and y.
-    pub displacement: [Metre; 2],
 }
 
 impl Origin {

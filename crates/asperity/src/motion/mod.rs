@@ -23,6 +23,7 @@ mod rim;
 mod simulation;
 mod sliding;
 mod spot;
+mod state;
 mod sweep;
 mod together;
 mod volumes;
@@ -43,7 +44,7 @@ pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};
 pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
-pub use loading::{Flattening, LoadedContact, LoadingState, Origin, Stage, load_in_stages, roll};
+pub use loading::{Stage, load_in_stages, roll};
 pub use pair::Pair;
 #[cfg(feature = "study")]
 pub(crate) use pair::{facing_values, initial_gap};
@@ -58,9 +59,10 @@ pub use regime::Regime;
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{FinishedPass, Simulation, SolvedPass};
-pub use sliding::{InPlace, Slide, SlidingState, WornContact};
+pub use sliding::{InPlace, Slide, WornContact};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
+pub use state::{Flattening, LoadedContact, LoadingState, Origin, SlidingState};
 pub use sweep::{Point, sweep};
 #[cfg(feature = "study")]
 pub(crate) use together::memory_together;

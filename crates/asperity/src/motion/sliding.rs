@@ -13,6 +13,7 @@ use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
+use crate::motion::state::SlidingState;
 use crate::motion::watch::{AtRest, Watch};
 use crate::motion::wear::WEAR;
 use crate::motion::{Body, Strategy};
@@ -119,18 +120,6 @@ impl Slide {
         }
         Ok(self)
     }
-}
-
-/// A contact after its updates so far: all that the next one depends on.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct SlidingState {
-    /// The bodies as they are now.
-    pub pair: Pair,
-    /// The updates so far, the first of which is the contact before it slides.
-    pub updates: Vec<UpdateRecord>,
-    /// Pressure of the last update, Pa.
-    pub pressure: Field,
 }
 
 impl SlidingState {

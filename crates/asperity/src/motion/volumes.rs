@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::flowed::{FlowedVolume, displace};
+use crate::motion::flowed::{FlowedPass, FlowedVolume, displace};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
@@ -32,18 +32,6 @@ pub(super) struct Volumes {
     boundary: Boundary,
     /// The position at which it is looked what has flowed.
     looked_at: Option<usize>,
-}
-
-/// What a pass has made of bodies that flow.
-pub(super) struct FlowedPass {
-    /// What has flowed, once the load is taken off.
-    pub(super) volumes: Vec<FlowedVolume>,
-    /// The positions in numbers.
-    pub(super) steps: Vec<FlowStepRecord>,
-    /// The pass in numbers.
-    pub(super) record: PassFlowRecord,
-    /// What has flowed under the load at the position that is looked at; nothing where none is.
-    pub(super) looked_at: Vec<PlasticState>,
 }
 
 impl Volumes {

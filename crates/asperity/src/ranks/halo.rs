@@ -21,9 +21,16 @@ pub(crate) struct Halo {
     received_counts: Vec<usize>,
 }
 
+impl Slab {
+    /// The rows of this rank with `reach` more on either side.
+    pub(crate) fn halo(&self, reach: usize) -> Halo {
+        Halo::new(self, reach)
+    }
+}
+
 impl Halo {
     /// The rows of a `slab` with `reach` more on either side.
-    pub(super) fn new(slab: &Slab, reach: usize) -> Self {
+    fn new(slab: &Slab, reach: usize) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
         let (rank, parts) = (slab.ranks().rank(), slab.parts());
         let with_halo = |own: Range<usize>| own.start.saturating_sub(reach)..(own.end + reach).min(rows);

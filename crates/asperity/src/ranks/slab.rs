@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Alone, Halo, Merged, Parts, Ranks};
+use super::{Alone, Merged, Parts, Ranks};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 
@@ -111,11 +111,6 @@ impl Slab {
         let numbers =
             self.ranks.gather(field.as_standard_layout().as_slice().expect("standard layout"), &counts);
         Field::from_shape_vec([rows, columns], numbers).expect("the rows of all ranks")
-    }
-
-    /// The rows of this rank with `reach` more on either side.
-    pub(crate) fn halo(&self, reach: usize) -> Halo {
-        Halo::new(self, reach)
     }
 }
 

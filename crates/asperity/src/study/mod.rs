@@ -5,6 +5,7 @@
 
 pub mod case; // case.toml, checked to the key
 mod estimate; // what a case will take, and what to be wary of
+mod fields; // the fields of a static contact
 mod finish; // what every run begins with and ends with
 mod flow; // bodies that flow below their surfaces, as a case has them
 mod given; // surfaces in memory that a case names
@@ -19,7 +20,6 @@ mod results; // the results directory
 mod review; // what to be wary of in a result
 mod run; // from a case to its results
 mod slabs; // a contact at rest on ranks, each with a slab of it
-mod state; // what the next step of a course depends on, as a file
 mod subsurface; // the stress under the surface: where it is wanted, its file
 mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
@@ -27,6 +27,7 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 pub use case::Case;
 pub use columns::{COLUMN_UNITS, dimension_of_column, unit_of_column};
 pub use estimate::{Demand, Estimate, demand, estimate};
+pub use fields::{NamedField, RestFields};
 pub use given::Given;
 pub use identity::resolved;
 pub use passes::Passes;
@@ -34,7 +35,7 @@ pub use prepare::{
     Bodies, Made, Origin, Prepared, bodies, bodies_until, exact_pitch, grids, topography, topography_spec,
     topography_until,
 };
-pub use rest::{NamedField, Rest, RestFields, rest};
+pub use rest::{Rest, rest};
 pub use results::{
     Existing, Results, StepWriter, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };

@@ -1,7 +1,7 @@
 //! A static contact of a case: solved in memory, or kept increment by increment and point by point in a results directory.
 
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid, check_finite};
+use crate::grid::{CellValues, Field, check_finite};
 use crate::motion::{
     FILM, Flowed, FlowedContact, FlowedVolume, InPlace, IncrementRecord, LoadedContact, Output, Pair, Point,
     Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch, WornContact,
@@ -11,6 +11,7 @@ use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
 use crate::study::case::{Case, LoadingPath, PlasticitySpec};
 use crate::study::estimate::estimate;
+use crate::study::fields::{NamedField, RestFields};
 use crate::study::finish::{pair, params};
 use crate::study::flow;
 use crate::study::given::Given;
@@ -19,8 +20,7 @@ use crate::study::results::{StepWriter, Writer};
 use crate::study::review;
 use crate::study::summary::Outcome;
 use crate::study::tables;
-use crate::subsurface::Tractions;
-use crate::units::{Metre, Pascal, SquareMetre};
+use crate::units::SquareMetre;
 
 /// A static contact as it was computed.
 #[derive(Debug, Clone)]
@@ -38,32 +38,6 @@ pub struct Rest {
     pub flowed: Option<Flowed>,
     /// What the user should know about the result.
     pub warnings: Vec<String>,
-}
-
-/// The fields of a static contact.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct RestFields {
-    /// The grid that all of them stand on.
-    pub grid: Grid,
-    /// Rigid-body approach δ.
-    pub approach: Metre,
-    /// The hardness of the pair, the least where it is a map.
-    pub hardness: Pascal,
-    /// The fields, in the order in which files have them.
-    pub fields: Vec<NamedField>,
-}
-
-/// A field by the name that it has in files.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct NamedField {
-    /// The name.
-    pub name: &'static str,
-    /// Unit of the values, SI.
-    pub unit: &'static str,
-    /// The values, `[ix, iy]`.
-    pub values: Field,
 }
 
 /// Computes the static contact of `case` and leaves nothing on the disk: the answer has the bits of that of
@@ -356,19 +330,4 @@ fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
         add("temperature", "K", temperature);
     }
     RestFields { grid, approach, hardness, fields }
-}
-
-impl RestFields {
-    /// The field of that name, which is taken out.
-    pub fn take(&mut self, name: &str) -> Option<Field> {
-        let at = self.fields.iter().position(|field| field.name == name)?;
-        Some(self.fields.swap_remove(at).values)
-    }
-
-    /// What acts on the lower body.
-    pub(super) fn tractions(&self) -> Tractions {
-        let of = |name| self.fields.iter().find(|field| field.name == name).map(|field| field.values.clone());
-        let shear = ["traction_x", "traction_y"].map(of);
-        Tractions { pressure: of("pressure").expect("every contact has a pressure"), shear }
-    }
 }

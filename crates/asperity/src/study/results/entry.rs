@@ -10,8 +10,8 @@ use std::time::Duration;
 use serde_json::Value;
 use web_time::Instant;
 
-use super::step::is_kept;
-use super::{Results, has_every_position};
+use super::state::{ALTERED, ROWS};
+use super::{Results, has_every_position, is_kept};
 use crate::error::{Error, Result};
 use crate::io::fields::{Attribute, Fields};
 use crate::io::{atomic, regular};
@@ -254,12 +254,6 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     }
     fields.verify()
 }
-
-/// What is wrong with a table whose rows are not those that were written.
-pub(in crate::study) const ALTERED: &str = "has been changed since it was written";
-
-/// Name of the attribute of a state with the digest of the rows that it stands for.
-pub(in crate::study) const ROWS: &str = "rows";
 
 /// An error if the state at `path` was written with rows of another digest; `table` has them, and it or a table beside it was
 /// changed since. States of earlier versions have no digest.

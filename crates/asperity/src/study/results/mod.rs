@@ -25,6 +25,8 @@
 //! A step is there once its row stands in its table, which is written last; the state of the step before is then removed.
 
 mod entry; // what a run may find and clear, the lock
+mod bodies; // bodies in files of fields
+mod state; // what the next step of a course depends on
 mod step; // a course, step after step
 mod write; // what a run leaves
 
@@ -34,15 +36,16 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub use entry::Existing;
-pub(super) use entry::{ALTERED, CASE_FILE, NO_LOCKS, ROWS};
+pub(super) use entry::{CASE_FILE, NO_LOCKS};
 pub use step::StepWriter;
 pub use write::Writer;
-pub(super) use write::add_bodies;
 
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use state::Stored;
+use state::update::UnderWay;
 
-use super::{state, summary, tables};
+use super::{summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
@@ -52,8 +55,6 @@ use crate::motion::{
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
-use crate::study::state::Stored;
-use crate::study::state::update::UnderWay;
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 
@@ -569,4 +570,9 @@ pub fn temperature_name(step: usize) -> String {
 /// Name of the shear traction along x of a position, which is counted from 1.
 pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")
+}
+
+/// Whether the fields of a point, from 1, are kept, if those of every n-th are.
+pub(super) fn is_kept(point: usize, every: usize) -> bool {
+    every > 0 && (point - 1).is_multiple_of(every)
 }

@@ -3,34 +3,39 @@
 //! The fields of a step are written first, then the state from which the next one goes on, last its row: a step is done when its row
 //! stands. The state of the step before goes then; that of the last step is needed by a motion alone, which may be given more passes.
 
-use super::write::{add_bodies, add_volumes, set_caps};
-use super::{ROWS, Results, cap_name, pressure_name, temperature_name, traction_name};
+use std::path::PathBuf;
+
+use super::bodies::{add_bodies, add_volumes, set_caps};
+use super::state::{ROWS, increment, pass, update};
+use super::write::Writer;
+use super::{Results, cap_name, is_kept, pressure_name, temperature_name, traction_name};
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
-use crate::motion::{LoadedContact, Output, PassReport, Step, StepRecord};
+use crate::motion::{
+    IncrementRecord, LoadedContact, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
+};
 use crate::study::case::Keep;
-use crate::study::state::{increment, pass, update};
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::tables::{self, GrowingTable, Record};
 use crate::subsurface::Tractions;
 
 /// Keeps each step of a course on the disk.
 pub struct StepWriter {
-    pub(super) results: Results,
-    pub(super) identity: String,
+    results: Results,
+    identity: String,
     /// The table with a row for each step.
-    pub(super) rows: GrowingTable,
+    rows: GrowingTable,
     /// Digest of all rows.
-    pub(super) digest: String,
+    digest: String,
     /// The table of the positions of the passes of a motion.
-    pub(super) positions: Option<GrowingTable>,
+    positions: Option<GrowingTable>,
     /// The fields of every n-th point of a sweep, the pressure of every n-th position of a pass; 0: of none.
-    pub(super) fields_every: usize,
+    fields_every: usize,
     /// The stress under the surface that is wanted of each pass.
-    pub(super) plan: Option<Plan>,
+    plan: Option<Plan>,
     /// Of which passes the volumes that flow are kept.
-    pub(super) keep: Keep,
+    keep: Keep,
 }
 
 impl Output for StepWriter {
@@ -64,6 +69,62 @@ impl Output for StepWriter {
                 }
             }
         }
+    }
+}
+
+impl Writer {
+    /// The output that keeps each increment of a loading here, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn increments(&self, done: &[IncrementRecord]) -> Result<StepWriter> {
+        self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
+    }
+
+    /// The output that keeps each update of a contact that slides in place here, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn updates(&self, done: &[UpdateRecord]) -> Result<StepWriter> {
+        self.steps(self.results.updates_path(), done.len(), tables::digest("", done))
+    }
+
+    /// The output that keeps each point of a sweep here, after those that are `done`, with the fields of every `fields_every`-th (0: of
+    /// none).
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub fn points(&self, done: &[SweepRecord], fields_every: usize) -> Result<StepWriter> {
+        let writer = self.steps(self.results.sweep_path(), done.len(), tables::digest("", done))?;
+        Ok(StepWriter { fields_every, ..writer })
+    }
+
+    /// The output that keeps each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
+    /// surface, where there is a plan for it, and the volumes of bodies that flow.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`] if the results of earlier passes cannot be read.
+    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<StepWriter> {
+        let passes = self.results.passes()?;
+        let steps = self.results.steps()?;
+        let digest = tables::digest_of_passes(&passes, &steps);
+        let writer = self.steps(self.results.passes_path(), passes.len(), digest)?;
+        let positions = Some(GrowingTable::open(self.results.steps_path(), steps.len())?);
+        Ok(StepWriter { positions, fields_every: pressure_every, plan, keep: self.keep(), ..writer })
+    }
+
+    /// The output that keeps each step here, after so many `rows` of that digest.
+    fn steps(&self, table: PathBuf, rows: usize, digest: String) -> Result<StepWriter> {
+        Ok(StepWriter {
+            results: self.results.clone(),
+            identity: self.identity.clone(),
+            rows: GrowingTable::open(table, rows)?,
+            digest,
+            positions: None,
+            fields_every: 0,
+            plan: None,
+            keep: Keep::Last,
+        })
     }
 }
 
@@ -179,9 +240,4 @@ impl StepWriter {
         }
         Ok(())
     }
-}
-
-/// Whether the fields of a point, from 1, are kept, if those of every n-th are.
-pub(super) fn is_kept(point: usize, every: usize) -> bool {
-    every > 0 && (point - 1).is_multiple_of(every)
 }

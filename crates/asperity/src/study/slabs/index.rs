@@ -15,8 +15,8 @@ use crate::io::sha256;
 use crate::io::{atomic, regular};
 use crate::operator::Boundary;
 use crate::ranks::Slab;
+use crate::study::fields::{NamedField, RestFields};
 use crate::study::identity;
-use crate::study::rest::{NamedField, RestFields};
 use crate::units::{Metre, Pascal};
 
 /// The rows of the fields that each file of a run on ranks holds.

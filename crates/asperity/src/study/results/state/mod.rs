@@ -11,7 +11,12 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::fields::{Attribute, Fields};
-use crate::study::results::{ALTERED, ROWS};
+
+/// What is wrong with a table whose rows are not those that were written.
+pub(in crate::study) const ALTERED: &str = "has been changed since it was written";
+
+/// Name of the attribute of a state with the digest of the rows that it stands for.
+pub(in crate::study) const ROWS: &str = "rows";
 
 /// A state as it is read back.
 pub(in crate::study) struct Stored {

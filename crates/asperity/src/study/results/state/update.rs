@@ -1,11 +1,12 @@
 //! What the next update of a contact that slides in place depends on.
 
+use super::super::Results;
+use super::super::bodies::add_bodies;
 use super::Stored;
 use crate::error::Result;
 use crate::grid::Field;
 use crate::io::fields::FieldFile;
 use crate::motion::{Pair, SlidingState, UpdateRecord};
-use crate::study::results::{Results, add_bodies};
 
 /// What an interrupted contact has left.
 pub(in crate::study) struct UnderWay {

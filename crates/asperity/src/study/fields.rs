@@ -1,0 +1,46 @@
+//! The fields of a static contact, by the names that they have in files.
+
+use crate::grid::{Field, Grid};
+use crate::subsurface::Tractions;
+use crate::units::{Metre, Pascal};
+
+/// The fields of a static contact.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct RestFields {
+    /// The grid that all of them stand on.
+    pub grid: Grid,
+    /// Rigid-body approach δ.
+    pub approach: Metre,
+    /// The hardness of the pair, the least where it is a map.
+    pub hardness: Pascal,
+    /// The fields, in the order in which files have them.
+    pub fields: Vec<NamedField>,
+}
+
+/// A field by the name that it has in files.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct NamedField {
+    /// The name.
+    pub name: &'static str,
+    /// Unit of the values, SI.
+    pub unit: &'static str,
+    /// The values, `[ix, iy]`.
+    pub values: Field,
+}
+
+impl RestFields {
+    /// The field of that name, which is taken out.
+    pub fn take(&mut self, name: &str) -> Option<Field> {
+        let at = self.fields.iter().position(|field| field.name == name)?;
+        Some(self.fields.swap_remove(at).values)
+    }
+
+    /// What acts on the lower body.
+    pub(super) fn tractions(&self) -> Tractions {
+        let of = |name| self.fields.iter().find(|field| field.name == name).map(|field| field.values.clone());
+        let shear = ["traction_x", "traction_y"].map(of);
+        Tractions { pressure: of("pressure").expect("every contact has a pressure"), shear }
+    }
+}

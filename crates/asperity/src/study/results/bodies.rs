@@ -1,0 +1,68 @@
+//! Bodies in files of fields: their heights, what laws keep of them, what has flowed below their surfaces.
+
+use super::{BODIES, depths_attribute, state_name, states_attribute, tensor_name};
+use crate::grid::{CellValues, Grid};
+use crate::io::fields::FieldFile;
+use crate::motion::{FlowedVolume, Pair, State};
+use crate::plasticity::TensorField;
+use crate::solver::Friction;
+use crate::stress::Component;
+use crate::units::Pascal;
+
+/// What has flowed below the surfaces, and what of it is `left` once the load is taken off.
+pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
+    for FlowedVolume { body, grid, faces, state, displacement, .. } in volumes {
+        let body = BODIES[*body];
+        file.set(&depths_attribute(body), faces.clone());
+        add_tensor(file, "strain", "1", body, grid, &state.strain);
+        let accumulated = layers_last(state.accumulated.view());
+        file.add_layers(&state_name("accumulated", body), "1", grid, &accumulated);
+        if let Some(back) = &state.back_stress {
+            add_tensor(file, "back_stress", "Pa", body, grid, back);
+        }
+        file.add_field(&state_name("displacement", body), "m", grid, [0.0, 0.0], displacement);
+    }
+    for FlowedVolume { body, grid, residual_stress, displacement, .. } in left {
+        let body = BODIES[*body];
+        add_tensor(file, "residual_stress", "Pa", body, grid, residual_stress);
+        file.add_field(&state_name("residual_displacement", body), "m", grid, [0.0, 0.0], displacement);
+    }
+}
+
+/// A tensor in the layers of a body: an array for each of its components.
+fn add_tensor(file: &mut FieldFile, name: &str, unit: &str, body: &str, grid: &Grid, tensor: &TensorField) {
+    for component in Component::ALL {
+        let layers = tensor.index_axis(ndarray::Axis(1), component as usize);
+        let name = tensor_name(name, component, body);
+        file.add_layers(&name, unit, grid, &layers_last(layers));
+    }
+}
+
+/// `[layer, ix, iy]` as `[ix, iy, layer]`.
+fn layers_last(values: ndarray::ArrayView3<f64>) -> ndarray::Array3<f64> {
+    values.permuted_axes([1, 2, 0]).as_standard_layout().into_owned()
+}
+
+/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
+pub(super) fn set_caps(file: &mut FieldFile, hardness: Pascal, friction: Option<&Friction>) {
+    file.set("hardness", hardness);
+    file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
+}
+
+/// The bodies: heights, and what laws keep of them, whose names stand in an attribute.
+pub(in crate::study) fn add_bodies(file: &mut FieldFile, pair: &Pair) {
+    let grids = [pair.lower_grid(), pair.upper_grid()];
+    for ((name, body), grid) in BODIES.into_iter().zip([&pair.lower, &pair.upper]).zip(grids) {
+        file.add_field(name, "m", &grid, [0.0, 0.0], &body.heights);
+        if let CellValues::Field(hardness) = &body.hardness {
+            file.add_field(&state_name("hardness", name), "Pa", &grid, [0.0, 0.0], hardness);
+        }
+        for (state, State { unit, values }) in &body.state {
+            file.add_field(&state_name(state, name), unit, &grid, [0.0, 0.0], values);
+        }
+        if !body.state.is_empty() {
+            let names: Vec<&str> = body.state.keys().map(String::as_str).collect();
+            file.set(&states_attribute(name), names.join(",").as_str());
+        }
+    }
+}
