@@ -147,7 +147,7 @@ class Study:
         """
     def states(self, /) -> list[tuple[str, str | None]]:
         """
-        How each case stands: "done", "failed", "claimed" by a process that lives, or "open"; and why it failed.
+        How each case stands: "done", "failed", "running" in some process, or "open"; and why it failed.
         """
     def table(self, /) -> tuple[list[int], list[tuple[str, str, Incomplete]], list[int], list[str | None]] | None:
         """

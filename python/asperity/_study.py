@@ -99,14 +99,14 @@ class Study(Comparable):
 
     @property
     def states(self) -> _State:
-        """How each case stands: ``"done"``, ``"failed"``, ``"claimed"`` by a process that is at it, or ``"open"``."""
+        """How each case stands: ``"done"``, ``"failed"``, ``"running"`` in some process, or ``"open"``."""
         return np.array([state for state, _ in self._core.states()])
 
     @property
     def left(self) -> NDArray[np.int64]:
         """The numbers of the cases that are neither done nor failed."""
         states = self.states
-        return np.flatnonzero((states == "open") | (states == "claimed")) + 1
+        return np.flatnonzero((states == "open") | (states == "running")) + 1
 
     @property
     def failures(self) -> dict[int, str]:

@@ -243,10 +243,6 @@ class NotThisStudy(FileProblem):
     """A directory that is to take a study holds something else: `path`, `what`."""
 
 
-class NotExclusive(FileProblem):
-    """A file system in which two processes can make one and the same file: `path`."""
-
-
 class NoResults(FileProblem):
     """A directory holds no results: `path`."""
 

@@ -173,7 +173,7 @@ def test_a_study_that_is_stopped_goes_on(folder: pathlib.Path, kind: signal.Sign
     while not passes.exists() or len(passes.read_text().splitlines()) < 3:
         assert process.poll() is None and time.monotonic() - began < 60
         time.sleep(0.005)
-    assert study.states.tolist() == ["done", "done", "claimed", "open", "open"]
+    assert study.states.tolist() == ["done", "done", "running", "open", "open"]
     process.send_signal(kind)
     printed, _ = process.communicate(timeout=60)
     assert printed == ("interrupted [3, 4, 5] ['done', 'done', 'open', 'open', 'open']\n" if kind == signal.SIGINT else "")
@@ -199,7 +199,7 @@ def test_an_exception_of_progress_stops_a_study(folder: pathlib.Path) -> None:
     with pytest.raises(LookupError, match="enough"):
         study.run(threads=1, progress=progress)
     done = int((study.states == "done").sum())
-    assert 0 < done < len(study) and "claimed" not in study.states
+    assert 0 < done < len(study) and "running" not in study.states
 
 
 def test_mistakes_are_told_with_their_place(folder: pathlib.Path) -> None:

@@ -1,6 +1,5 @@
 //! The machine: how much memory there is, and whether it suffices.
 
-use asperity::study::many::Worker;
 use asperity::study::{self, Case, Demand, Given};
 use asperity::{Error, Result};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
@@ -34,15 +33,6 @@ pub fn on_machine() -> f64 {
     let limits = system.and_then(|system| system.cgroup_limits());
     let contained = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
     [free, contained].into_iter().flatten().fold(f64::INFINITY, |least, bytes| least.min(bytes as f64))
-}
-
-/// This process, as other processes that work on a study know it.
-pub fn worker() -> Worker {
-    let host = System::host_name().unwrap_or_else(|| "unknown".to_owned());
-    // Containers of one name need not be one machine, nor is a machine after a new start.
-    let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id");
-    let boot = boot.unwrap_or_else(|_| System::boot_time().to_string());
-    Worker { machine: format!("{host} {}", boot.trim()), process: format!("{host}:{}", std::process::id()) }
 }
 
 /// What is left of the address space, where it is limited.

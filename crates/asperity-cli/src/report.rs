@@ -349,7 +349,6 @@ fn hint(error: &Error) -> Option<String> {
         Error::OtherCase { .. } | Error::SurfaceChanged { .. } | Error::NotResumable { .. } => {
             Some("--overwrite computes all of it anew, --out names another directory".to_owned())
         }
-        Error::NotExclusive { .. } => Some("--out names a directory on another file system".to_owned()),
         Error::InUse { .. } => Some("--out names another directory".to_owned()),
         Error::Threads { .. } => {
             Some("one needs none: `--threads 1`, or RAYON_NUM_THREADS=1 in the environment".to_owned())

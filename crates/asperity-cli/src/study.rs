@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::Error;
 use asperity::study::many::{self, Computed, Folder, Queue, State, Study, Table, Tally, Task};
-use asperity::units::format_time;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::report::{Failure, Outcome, clipped, note, print};
@@ -33,9 +32,8 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         return Err(Failure::usage(message, Some("`--yes` computes them, `--list` prints them")));
     }
     let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
-    compute(&Queue::new(&study, &folder, machine::worker(), task, arguments.retry)?, arguments.quiet)
-        .map_err(changed)?;
-    let tally = Tally::of(&folder.states(&study, &machine::worker())?);
+    compute(&Queue::new(&study, &folder, task, arguments.retry)?, arguments.quiet).map_err(changed)?;
+    let tally = Tally::of(&folder.states(&study)?);
     if tally.left() == 0 && folder.has_grown(&study)? {
         note(
             "the study has grown since this file was written: its tables are left as they are, and its present file makes them",
@@ -48,12 +46,12 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     } else {
         // The results are incomplete: no wish for quiet hides that.
         note(&format!(
-            "{} of {} cases are done, {} have failed, {} are under way elsewhere, {} are left; \
+            "{} of {} cases are done, {} have failed, {} are running, {} are left; \
              who finishes the last makes the tables, as --collect does",
             tally.done,
             tally.all(),
             tally.failed,
-            tally.claimed,
+            tally.running,
             tally.open
         ));
     }
@@ -128,7 +126,7 @@ fn tell(table: &Table, study: &Study, folder: &Folder) {
 /// Prints the cases of a task that have no results, and why not.
 fn list(study: &Study, directory: &Path, task: Task) -> Outcome {
     let states = match directory.join("study.json").exists() {
-        true => Folder::open(directory, study)?.states(study, &machine::worker())?,
+        true => Folder::open(directory, study)?.states(study)?,
         false => vec![State::Open; study.len()],
     };
     let listed = || states.iter().enumerate().filter(|(n, _)| task.has(n + 1));
@@ -138,23 +136,18 @@ fn list(study: &Study, directory: &Path, task: Task) -> Outcome {
         let told = match state {
             State::Done => continue,
             State::Failed(message) => format!("failed   {}", clipped(message).replace('\n', " ")),
-            State::Claimed(holder) => {
-                let process = holder.worker.as_ref().map_or("", |worker| &worker.process);
-                let age = format_time(holder.age.as_secs_f64());
-                let gone = if holder.is_stale { ", gone" } else { "" };
-                format!("claimed  {process}, {age} ago{gone}")
-            }
+            State::Running => "running".to_owned(),
             State::Open => format!("open     {}", study.text(case)),
         };
         let _ = writeln!(text, "{case:04}  {told}");
     }
     let tally = Tally::of(listed().map(|(_, state)| state));
     note(&format!(
-        "{} of {} cases are done, {} have failed, {} are claimed, {} are open",
+        "{} of {} cases are done, {} have failed, {} are running, {} are open",
         tally.done,
         tally.all(),
         tally.failed,
-        tally.claimed,
+        tally.running,
         tally.open
     ));
     print(&text)

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use asperity::motion::Watch;
-use asperity::study::unit_of_column;
 use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, Tally, Task};
-use asperity_cli::{available_memory, collect_study, this_process};
+use asperity::study::unit_of_column;
+use asperity_cli::{available_memory, collect_study};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -48,15 +48,15 @@ impl CoreStudy {
         indices.into_pyarray(py).reshape([self.study.len(), self.study.axes().len()])
     }
 
-    /// How each case stands: "done", "failed", "claimed" by a process that lives, or "open"; and why it failed.
+    /// How each case stands: "done", "failed", "running" in some process, or "open"; and why it failed.
     fn states(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Option<String>)>> {
         let states =
             work::run(py, 0, None, |_| self.folder()?.map(|folder| self.stand(&folder)).transpose())?;
         let told = |state| match state {
             State::Done => ("done", None),
             State::Failed(message) => ("failed", Some(message)),
-            State::Claimed(holder) if !holder.is_stale => ("claimed", None),
-            State::Claimed(_) | State::Open => ("open", None),
+            State::Running => ("running", None),
+            State::Open => ("open", None),
         };
         Ok(states.map_or_else(
             || vec![("open", None); self.study.len()],
@@ -76,7 +76,7 @@ impl CoreStudy {
         let [number, of] = task;
         work::run(py, threads, progress.as_ref(), |looking| {
             let folder = Folder::enter(&self.directory, &self.study)?;
-            let queue = Queue::new(&self.study, &folder, this_process(), Task { number, of }, retry)?;
+            let queue = Queue::new(&self.study, &folder, Task { number, of }, retry)?;
             let ended = |_: usize, _: &Computed| looking.over(queue.len());
             many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
             let states = self.stand(&folder)?;
@@ -115,7 +115,7 @@ impl CoreStudy {
     }
 
     fn stand(&self, folder: &Folder) -> asperity::Result<Vec<State>> {
-        folder.states(&self.study, &this_process())
+        folder.states(&self.study)
     }
 }
 

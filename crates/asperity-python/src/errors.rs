@@ -156,10 +156,6 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
             hint = Some("out= names another directory".to_owned());
             variant!(a, "NotThisStudy", path = path, what = what)
         }
-        Error::NotExclusive { path } => {
-            hint = Some("out= names a directory on another file system".to_owned());
-            variant!(a, "NotExclusive", path = path)
-        }
         Error::NoResults { path } => variant!(a, "NoResults", path = path),
         Error::File { path, source } => {
             variant!(a, "File", path = path, errno = source.raw_os_error(), reason = source.to_string())

@@ -401,12 +401,6 @@ pub enum Error {
         /// What it holds: "holds another study".
         what: &'static str,
     },
-    /// A file system in which two processes can make one and the same file.
-    #[error("{path}: this file system does not make files exclusively: two processes could compute one case")]
-    NotExclusive {
-        /// The directory.
-        path: PathBuf,
-    },
     /// A file could not be read or written.
     #[error("{path}: {source}")]
     File {

@@ -3,6 +3,8 @@
 pub(crate) mod atomic; // a file is there in full or not at all
 mod digest; // SHA-256
 pub mod fields; // HDF5: named fields with unit, axes, pitch
+#[cfg(feature = "study")]
+pub(crate) mod lock; // locks that die with their process
 pub(crate) mod regular; // regular files, to be read
 pub mod vti; // fields for ParaView
 

@@ -6,6 +6,7 @@ use serde_json::Value;
 use web_time::Instant;
 
 use crate::error::{Error, Result};
+use crate::io::lock::Lock;
 use crate::motion::{Body, FlowRecord, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
 use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
@@ -56,6 +57,17 @@ impl Passes {
         existing: Existing,
         stop: Stop<'_>,
     ) -> Result<Self> {
+        Self::enter_with(case, given, directory, (existing, None), stop)
+    }
+
+    /// As [`enter_until`](Self::enter_until), where the lock of the directory may be held already.
+    pub(super) fn enter_with(
+        case: &Case,
+        given: Given,
+        directory: &Path,
+        (existing, lock): (Existing, Option<Lock>),
+        stop: Stop<'_>,
+    ) -> Result<Self> {
         let began = Instant::now();
         let bodies = bodies_until(case, given, stop)?;
         let Estimate { apparent_area, subsurface, warnings, .. } = estimate(case, &bodies)?;
@@ -64,7 +76,7 @@ impl Passes {
         let resolved = identity::resolved(case, &bodies);
         let look = subsurface.as_ref().map(|plan| plan.index);
         let simulation = simulation(case, pair(case, bodies)?, motion, None, look)?;
-        let writer = Writer::enter(directory, &resolved, existing)?;
+        let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
         writer.begin()?;
         let output = writer.passes(case.output.pressure_every, subsurface)?;
         let passes = writer.results().passes()?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use web_time::Instant;
 
 use crate::error::Result;
+use crate::io::lock::Lock;
 use crate::motion::Watch;
 use crate::study::case::Case;
 use crate::study::estimate::{Estimate, estimate};
@@ -33,8 +34,19 @@ pub fn run(
     existing: Existing,
     watch: &dyn Watch,
 ) -> Result<(Summary, Writer)> {
+    run_with(case, given, directory, (existing, None), watch)
+}
+
+/// As [`run`], where the lock of the directory may be held already.
+pub(super) fn run_with(
+    case: &Case,
+    given: Given,
+    directory: &Path,
+    (existing, lock): (Existing, Option<Lock>),
+    watch: &dyn Watch,
+) -> Result<(Summary, Writer)> {
     if case.motion.is_some() {
-        let mut passes = Passes::enter_until(case, given, directory, existing, &|| watch.stop())?;
+        let mut passes = Passes::enter_with(case, given, directory, (existing, lock), &|| watch.stop())?;
         passes.done()?.iter().for_each(|pass| watch.pass(pass));
         while let Some(pass) = passes.solve(watch)? {
             passes.finish(pass, watch)?;
@@ -46,7 +58,7 @@ pub fn run(
     let Estimate { apparent_area, subsurface, mut warnings, .. } = estimate(case, &bodies)?;
     let resolved = identity::resolved(case, &bodies);
     let pair = pair(case, bodies)?;
-    let writer = Writer::enter(directory, &resolved, existing)?;
+    let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
     let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
     let Rest { outcome, updates, fields, flowed, warnings: of_answer, .. } = rest;
     warnings.extend(of_answer);

@@ -2,6 +2,7 @@
 
 mod bad_inputs;
 mod bounds;
+mod circles;
 mod closed_forms;
 mod convergence;
 mod documents;

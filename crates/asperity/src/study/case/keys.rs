@@ -22,7 +22,7 @@ pub(in crate::study) const ROOT: [&str; 13] = [
 ];
 
 /// The keys of a study file that a case file has not.
-const OF_A_STUDY: [&str; 5] = ["base", "axes", "table", "exclude", "stale_after"];
+const OF_A_STUDY: [&str; 4] = ["base", "axes", "table", "exclude"];
 
 /// The keys of each table, to tell where a misplaced one belongs.
 const TABLES: [(&str, &[&str]); 19] = [

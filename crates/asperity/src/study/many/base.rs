@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use toml::Value;
 
 use super::axis::Axis;
-use super::files::NamedFile;
+use super::named::NamedFile;
 use crate::error::{CaseError, Error};
 use crate::io::sha256;
 use crate::study::case::document::{Document, join};

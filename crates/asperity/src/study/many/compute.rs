@@ -53,7 +53,7 @@ pub fn compute(
 /// One case after the other.
 fn work(queue: &Queue<'_>, crew: &Crew<'_>) -> Result<()> {
     while !crew.stop() {
-        let Some(turn) = queue.claim()? else { return Ok(()) };
+        let Some(turn) = queue.take()? else { return Ok(()) };
         let case = turn.case();
         let computed = turn.compute(|case| crew.memory.take(case), crew)?;
         (crew.ended)(case, &computed);

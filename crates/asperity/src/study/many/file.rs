@@ -8,8 +8,8 @@ use toml::Value;
 
 use super::axis::{Axis, Stated, axes};
 use super::base::Base;
+use super::cell::unguarded;
 use super::filter::Exclusion;
-use super::plan::unguarded;
 use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::study::case::MAX_CASE_BYTES;
@@ -24,11 +24,6 @@ pub(super) struct StudyFile {
     pub(super) title: String,
     pub(super) document: Document,
     pub(super) base: Base,
-    /// The axes of the grid, then those of the table.
-    pub(super) axes: Vec<Axis>,
-    pub(super) rows: Option<Rows>,
-    pub(super) exclusions: Vec<Exclusion>,
-    pub(super) stale_after: Duration,
 }
 
 /// The rows of a table that is given: axes that change together.
@@ -41,11 +36,6 @@ pub(super) struct Rows {
     /// For each row the index of a value of each of its axes.
     pub(super) rows: Vec<Vec<u32>>,
 }
-
-/// Age of a claim from which its process is taken to be gone.
-const STALE_AFTER: Duration = Duration::from_secs(600);
-/// The largest table that is read, bytes.
-const MAX_TABLE_BYTES: u64 = 1 << 30;
 
 /// Reads a study file; the files that it names are looked for in its folder.
 pub(super) fn load(path: &Path) -> Result<StudyFile> {
@@ -65,7 +55,7 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
     let mut document = Document::of("the study", path.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    root.known(&["title", "base", "axes", "table", "exclude", "stale_after"], belongs)?;
+    root.known(&["title", "base", "axes", "table", "exclude"], belongs)?;
     let title = match root.get("title") {
         Some(title) => title.text()?.to_owned(),
         None => path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -80,14 +70,15 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
     let exclusions = root.get("exclude").map(|entry| entry.tables()).transpose()?.unwrap_or_default();
     let exclusions =
         exclusions.iter().map(|table| Exclusion::read(table, &all)).collect::<Result<Vec<_>>>()?;
-    let stale_after = root.get("stale_after").map(|entry| entry.positive(Dimension::Time)).transpose()?;
-    let stale_after = stale_after.map_or(STALE_AFTER, Duration::from_secs_f64);
-    Ok(StudyFile { title, document: document.clone(), base, axes: all, rows, exclusions, stale_after })
+    Ok(StudyFile { title, document: document.clone(), base, axes: all, rows, exclusions })
 }
 
 /// A table of a case that stands in a study file by mistake.
 fn belongs(key: &str) -> Option<(String, Option<String>)> {
     let unknown = |hint| Some((format!("unknown key '{key}' in the study"), Some(hint)));
+    if key == "stale_after" {
+        return unknown("leave it out: a case is free again as soon as its process has gone".to_owned());
+    }
     if ROOT.contains(&key) {
         return unknown(format!("a case that stands in the study file is its base: [base.{key}]"));
     }

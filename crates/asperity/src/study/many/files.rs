@@ -7,32 +7,13 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::folder::Folder;
+use super::named::NamedFile;
 use super::plan::Study;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular, sha256_of_file};
 use crate::study::given::Pinned;
 use crate::study::identity::FILES;
 use crate::study::results::Results;
-
-/// A file that a study names: its dotted key in the case, the text that names it in the study, where it lies as seen from here.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct NamedFile {
-    pub(super) key: String,
-    /// As an axis has it; none of a file of the base.
-    pub(super) value: Option<String>,
-    pub(super) path: PathBuf,
-}
-
-impl NamedFile {
-    /// What it is called among the digests, wherever the study lies: its key, of an axis with its value.
-    fn name(&self) -> String {
-        match &self.value {
-            None => self.key.clone(),
-            Some(value) => format!("{} = {value}", self.key),
-        }
-    }
-}
 
 /// Digests by the names of files.
 #[derive(Debug, Default)]
@@ -52,16 +33,15 @@ impl Files {
         Ok(Some(Self { digests }))
     }
 
-    /// Keeps the digests of the files of a study that have none yet, in `folder`. A study that an earlier version has begun has none at
-    /// all: its finished cases say what they were computed from.
+    /// Keeps the digests of the files of a study that have none yet, at `path`. A study that an earlier version has begun has none at
+    /// all: its finished cases, whose results are `done`, say what they were computed from.
     ///
     /// # Errors
     /// [`Error::SurfaceChanged`] where a finished case was computed from another content; [`Error::File`].
-    pub(super) fn keep(folder: &Folder, study: &Study) -> Result<()> {
-        let path = folder.files_path();
+    pub(super) fn keep(path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
         let named = study.files();
         loop {
-            let known = Self::read(&path)?;
+            let known = Self::read(path)?;
             let is_first = known.is_none();
             let mut files = known.unwrap_or_default();
             let unknown: Vec<&NamedFile> =
@@ -82,33 +62,31 @@ impl Files {
             }
             let text = serde_json::to_vec_pretty(&files.digests).expect("texts can be written");
             if !is_first {
-                return atomic::replace(&path, &text);
+                return atomic::replace(path, &text);
             }
-            files.agree(folder, study)?;
-            if atomic::create(&path, &text)? {
+            files.agree(path, study, done)?;
+            if atomic::create(path, &text)? {
                 return Ok(());
             }
             // Another process was first: what it has read holds.
         }
     }
 
-    /// What the files of a case must hold.
-    pub(super) fn pinned(&self, folder: &Folder, study: &Study, case: usize) -> Pinned {
+    /// What the files of a case must hold, of a study in that `directory`.
+    pub(super) fn pinned(&self, directory: &Path, study: &Study, case: usize) -> Pinned {
         let digest = |file: NamedFile| {
             let digest = self.digests.get(&file.name())?.clone();
             Some((file.key, (file.path, digest)))
         };
         let digests = study.files_of(case).into_iter().filter_map(digest).collect();
-        Pinned { directory: folder.path().to_owned(), digests }
+        Pinned { directory: directory.to_owned(), digests }
     }
 
     /// An error if a case that is done was computed from files of other contents.
-    fn agree(&self, folder: &Folder, study: &Study) -> Result<()> {
-        for case in (1..=study.len()).filter(|case| folder.is_done(*case)) {
-            let Ok(done) = Results::open(&folder.case(case)).and_then(|results| results.case()) else {
-                continue;
-            };
-            let pinned = self.pinned(folder, study, case);
+    fn agree(&self, path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
+        for (case, results) in (1..=study.len()).filter_map(|case| Some((case, done(case)?))) {
+            let Ok(done) = Results::open(&results).and_then(|results| results.case()) else { continue };
+            let pinned = self.pinned(path.parent().unwrap_or(Path::new("")), study, case);
             for table in FILES {
                 let key = format!("{}.file", table[1..].replace('/', "."));
                 let before =

@@ -1,6 +1,5 @@
 //! What is there of a study: its directory and its cases.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -8,11 +7,11 @@ use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
-use super::claims::{self, Holder, Worker};
 use super::files::Files;
-use super::plan::{Study, name};
+use super::plan::Study;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular};
+use crate::study::results::is_in_use;
 
 /// The directory of a study.
 #[derive(Debug, Clone)]
@@ -25,8 +24,8 @@ pub struct Folder {
 pub enum State {
     /// Nobody computes it.
     Open,
-    /// It is being computed, or was when its process was last heard of.
-    Claimed(Holder),
+    /// A process computes it.
+    Running,
     /// It has no results, for this reason.
     Failed(String),
     /// Its results are there.
@@ -40,8 +39,8 @@ pub struct Tally {
     pub done: usize,
     /// They have no results, and a reason.
     pub failed: usize,
-    /// They are being computed, or were.
-    pub claimed: usize,
+    /// Processes compute them.
+    pub running: usize,
     /// Nobody computes them.
     pub open: usize,
 }
@@ -54,7 +53,7 @@ impl Tally {
             *match state {
                 State::Done => &mut tally.done,
                 State::Failed(_) => &mut tally.failed,
-                State::Claimed(_) => &mut tally.claimed,
+                State::Running => &mut tally.running,
                 State::Open => &mut tally.open,
             } += 1;
         }
@@ -68,7 +67,7 @@ impl Tally {
 
     /// How many are not over.
     pub fn left(self) -> usize {
-        self.claimed + self.open
+        self.running + self.open
     }
 }
 
@@ -121,7 +120,8 @@ impl Folder {
         // Of several processes that begin one study the first writes.
         atomic::create(&folder.identity_path(), &text)?;
         folder.admit(study)?;
-        Files::keep(&folder, study)?;
+        let done = |case| folder.is_done(case).then(|| folder.case(case));
+        Files::keep(&folder.files_path(), study, &done)?;
         Ok(folder)
     }
 
@@ -143,24 +143,20 @@ impl Folder {
         &self.path
     }
 
-    /// The folder of a case, from 1, which is there once it was claimed.
+    /// The folder of a case, from 1, which is there once a process has had it.
     pub fn case(&self, case: usize) -> PathBuf {
-        self.path.join("cases").join(name(case))
+        self.path.join("cases").join(format!("{case:04}"))
     }
 
-    /// How each case stands, in their order, as `worker` sees the claims of others.
+    /// How each case stands, in their order.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn states(&self, study: &Study, worker: &Worker) -> Result<Vec<State>> {
-        let claims = self.claims();
-        let holders = claims::holders(&claims, worker, study.stale_after())
-            .map_err(|source| Error::File { path: claims, source })?;
-        let mut holders: BTreeMap<usize, Holder> = holders.into_iter().collect();
-        let state = |case: usize| match holders.remove(&case) {
+    pub fn states(&self, study: &Study) -> Result<Vec<State>> {
+        let state = |case: usize| match self.failure(case)? {
             _ if self.is_done(case) => Ok(State::Done),
-            Some(holder) => Ok(State::Claimed(holder)),
-            None => Ok(self.failure(case)?.map_or(State::Open, State::Failed)),
+            _ if is_in_use(&self.case(case)) => Ok(State::Running),
+            failure => Ok(failure.map_or(State::Open, State::Failed)),
         };
         (1..=study.len()).map(state).collect()
     }
@@ -194,10 +190,6 @@ impl Folder {
 
     pub(super) fn failure_path(&self, case: usize) -> PathBuf {
         self.case(case).join("failed.json")
-    }
-
-    pub(super) fn claims(&self) -> PathBuf {
-        self.path.join("claims")
     }
 
     /// Whether the plan that is there has cases beyond those of `study`: its file is an older one.
@@ -298,8 +290,7 @@ mod tests {
             assert_eq!(names, ["plan.csv", "study.json"]);
             assert_eq!(study.axes()[0].label(), "contact.load (N)");
         }
-        let worker = Worker { machine: "a".to_owned(), process: "1".to_owned() };
         let folder = Folder::open(&folder.path().join("0"), &study).unwrap();
-        assert_eq!(folder.states(&study, &worker).unwrap(), [State::Open, State::Open]);
+        assert_eq!(folder.states(&study).unwrap(), [State::Open, State::Open]);
     }
 }

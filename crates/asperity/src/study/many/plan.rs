@@ -8,8 +8,9 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::axis::Axis;
+use super::cell::{in_quotes, quoted};
 use super::file::{self, StudyFile};
-use super::files::NamedFile;
+use super::named::NamedFile;
 use crate::error::{CaseError, Error, Result};
 use crate::io::sha256;
 use crate::study::case::Case;
@@ -68,11 +69,6 @@ impl Study {
     #[expect(clippy::len_without_is_empty, reason = "a study without cases is refused")]
     pub fn len(&self) -> usize {
         self.indices.len() / self.axes().len()
-    }
-
-    /// Age from which a claim that was not renewed is another's to take.
-    pub fn stale_after(&self) -> Duration {
-        self.file.stale_after
     }
 
     /// The index of the value of each axis in a case, from 1.
@@ -237,36 +233,6 @@ impl Study {
 /// Whether a dotted key lies in a table.
 fn beneath(key: &str, table: &str) -> bool {
     key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
-}
-
-/// The name of the folder of a case, from 1.
-pub(super) fn name(case: usize) -> String {
-    format!("{case:04}")
-}
-
-/// What a spreadsheet takes for the beginning of a formula.
-const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
-
-/// A cell of a table of values separated by commas. A text that begins as a formula, which a spreadsheet would compute, has an
-/// apostrophe before it; a number has none.
-pub(super) fn quoted(text: &str) -> String {
-    match text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
-        true => in_quotes(&format!("'{text}")),
-        false => in_quotes(text),
-    }
-}
-
-/// The text of a cell without the apostrophe that guards it.
-pub(super) fn unguarded(cell: &str) -> &str {
-    cell.strip_prefix('\'').filter(|text| text.starts_with(FORMULAS)).unwrap_or(cell)
-}
-
-fn in_quotes(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
 }
 
 /// The indices of all cases that are not left out.

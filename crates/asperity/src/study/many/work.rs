@@ -1,5 +1,8 @@
-//! What is left of a study to a process: it claims one case after the other, and computes it.
+//! What is left of a study to a process: it takes one case after the other, and computes it.
+//!
+//! A case is a process's as long as it holds the lock of the folder of its results, which dies with the process.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -7,17 +10,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
-use super::claims::{Attempt, Claim, Claims, Worker};
 use super::files::Files;
 use super::folder::{Failed, Folder};
 use super::plan::Study;
 use crate::error::{Error, Result};
+use crate::io::lock::Lock;
 use crate::io::{atomic, regular};
-use crate::motion::{PassRecord, Progress, SweepRecord, UpdateRecord, Watch};
+use crate::motion::Watch;
 use crate::study::case::Case;
 use crate::study::given::Given;
-use crate::study::results::{CASE_FILE, Existing};
-use crate::study::run::run;
+use crate::study::results::{CASE_FILE, Existing, try_acquire};
+use crate::study::run::run_with;
 
 /// The cases of a process: every `of`-th, from the `number`-th on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,28 +41,27 @@ impl Task {
     }
 }
 
-/// The cases that are left to a process, which it claims one after the other.
+/// The cases that are left to a process, which it takes one after the other.
 #[derive(Debug)]
 pub struct Queue<'s> {
     study: &'s Study,
     folder: &'s Folder,
-    claims: Claims,
     cases: Vec<usize>,
     next: AtomicUsize,
-    /// Cases that were claimed by others when it was their turn.
+    /// Cases that others computed when it was their turn.
     others: Mutex<Vec<usize>>,
     /// What the files of the study held when its plan was made.
     files: Files,
-    /// Failures of before this time are open again.
-    retry_before: Option<SystemTime>,
+    /// Failures that are open again: when each was told.
+    retried: BTreeMap<usize, SystemTime>,
 }
 
-/// A case that this process has claimed.
+/// A case that this process has.
 #[derive(Debug)]
 pub struct Turn<'s> {
     queue: &'s Queue<'s>,
     case: usize,
-    claim: Claim,
+    lock: Lock,
 }
 
 /// What became of a case.
@@ -69,32 +71,22 @@ pub enum Computed {
     Done,
     /// There are none, for this reason, which `failed.json` tells.
     Failed(String),
-    /// Another process has it.
-    Elsewhere,
 }
 
 impl<'s> Queue<'s> {
     /// What is left of a study to a `task`; with `retry` also what has failed before now.
     ///
     /// # Errors
-    /// [`Error::NotExclusive`] on a file system in which two processes could claim one case; [`Error::File`].
-    pub fn new(
-        study: &'s Study,
-        folder: &'s Folder,
-        worker: Worker,
-        task: Task,
-        retry: bool,
-    ) -> Result<Self> {
-        let claims = Claims::enter(&folder.claims(), worker, study.stale_after())?;
-        let retry_before = retry.then(|| claims.now());
+    /// [`Error::File`].
+    pub fn new(study: &'s Study, folder: &'s Folder, task: Task, retry: bool) -> Result<Self> {
+        let failed = (1..=study.len()).filter(|_| retry);
         let queue = Self {
             study,
             folder,
-            claims,
             cases: Vec::new(),
             next: AtomicUsize::new(0),
             others: Mutex::default(),
-            retry_before,
+            retried: failed.filter_map(|case| Some((case, folder.failed_at(case)?))).collect(),
             files: Files::read(&folder.files_path())?.unwrap_or_default(),
         };
         let cases = (1..=study.len()).filter(|case| task.has(*case) && !queue.is_over(*case)).collect();
@@ -111,11 +103,11 @@ impl<'s> Queue<'s> {
         self.cases.is_empty()
     }
 
-    /// The next case; none where all are done, or claimed by others.
+    /// The next case; none where all are done, or others compute them.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn claim(&'s self) -> Result<Option<Turn<'s>>> {
+    pub fn take(&'s self) -> Result<Option<Turn<'s>>> {
         while let Some(case) = self.cases.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             match self.attempt(*case)? {
                 Some(turn) => return Ok(Some(turn)),
@@ -142,15 +134,17 @@ impl<'s> Queue<'s> {
         if self.is_over(case) {
             return Ok(None);
         }
-        let Attempt::Ours(claim) = self.claims.claim(case)? else { return Ok(None) };
+        let results = self.folder.case(case);
+        fs::create_dir_all(&results).map_err(|source| Error::File { path: results.clone(), source })?;
+        let Some(lock) = try_acquire(&results)? else { return Ok(None) };
         // It may have been finished since.
-        Ok((!self.is_over(case)).then_some(Turn { queue: self, case, claim }))
+        Ok((!self.is_over(case)).then_some(Turn { queue: self, case, lock }))
     }
 
     /// Whether nothing is left to do of a case.
     fn is_over(&self, case: usize) -> bool {
-        let counts = |at: SystemTime| self.retry_before.is_none_or(|before| at > before);
-        self.folder.is_done(case) || self.folder.failed_at(case).is_some_and(counts)
+        let counts = |at: &SystemTime| self.retried.get(&case) != Some(at);
+        self.folder.is_done(case) || self.folder.failed_at(case).as_ref().is_some_and(counts)
     }
 
     fn others(&self) -> std::sync::MutexGuard<'_, Vec<usize>> {
@@ -170,7 +164,6 @@ impl Turn<'_> {
     /// What is wrong with the case; [`Error::File`] where it cannot be written.
     pub fn load(&self) -> Result<Case> {
         let folder = self.queue.folder.case(self.case);
-        fs::create_dir_all(&folder).map_err(|source| Error::File { path: folder.clone(), source })?;
         let path = folder.join(CASE_FILE);
         let text = self.queue.study.case_file(self.case, Some(&folder))?;
         // Nobody else writes it, and half of it, after a power cut, is written again.
@@ -195,14 +188,16 @@ impl Turn<'_> {
     pub fn compute<T>(self, admit: impl FnOnce(&Case) -> Result<T>, watch: &dyn Watch) -> Result<Computed> {
         let folder = self.queue.folder.case(self.case);
         let failure = self.queue.folder.failure_path(self.case);
-        let watch = Watched { watch, claim: &self.claim };
         let computed = self.load().and_then(|case| {
             // Of an earlier attempt.
             let _ = fs::remove_file(&failure);
             let _admitted = admit(&case)?;
-            let pinned = self.queue.files.pinned(self.queue.folder, self.queue.study, self.case);
+            let pinned = self.queue.files.pinned(self.queue.folder.path(), self.queue.study, self.case);
             let given = Given { pinned: Some(pinned), ..Given::default() };
-            let go = |existing| run(&case, given.clone(), &folder, existing, &watch).map(drop);
+            let go = |existing| {
+                let lock = Some(self.lock.clone());
+                run_with(&case, given.clone(), &folder, (existing, lock), watch).map(drop)
+            };
             match go(Existing::Resume) {
                 Err(Error::NotResumable { .. } | Error::OtherCase { .. } | Error::SurfaceChanged { .. }) => {
                     go(Existing::Overwrite)
@@ -212,8 +207,6 @@ impl Turn<'_> {
         });
         match computed {
             Ok(()) => Ok(Computed::Done),
-            Err(Error::Interrupted) if self.claim.is_lost() => Ok(Computed::Elsewhere),
-            Err(Error::InUse { .. }) => Ok(Computed::Elsewhere),
             Err(error) if is_of_the_place(&error, self.queue.folder.path()) => Err(error),
             Err(error) => {
                 let message = error.to_string();
@@ -244,37 +237,5 @@ fn is_of_the_place(error: &Error, study: &Path) -> bool {
             path.starts_with(study) && full.contains(&source.kind())
         }
         _ => false,
-    }
-}
-
-/// A watch that also stops once the claim is lost.
-struct Watched<'w> {
-    watch: &'w dyn Watch,
-    claim: &'w Claim,
-}
-
-impl Watch for Watched<'_> {
-    fn at(&self, progress: &Progress) {
-        self.watch.at(progress);
-    }
-
-    fn solving(&self, progress: &Progress) {
-        self.watch.solving(progress);
-    }
-
-    fn pass(&self, record: &PassRecord) {
-        self.watch.pass(record);
-    }
-
-    fn point(&self, record: &SweepRecord) {
-        self.watch.point(record);
-    }
-
-    fn update(&self, record: &UpdateRecord) {
-        self.watch.update(record);
-    }
-
-    fn stop(&self) -> bool {
-        self.claim.is_lost() || self.watch.stop()
     }
 }

@@ -1,24 +1,22 @@
 //! A results directory that a run enters: what it may find there, what it clears, and the lock that keeps others out.
 
 use std::ffi::OsStr;
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::thread;
 use std::time::Duration;
-
-use serde_json::Value;
-use web_time::Instant;
 
 use super::state::{ALTERED, ROWS};
 use super::{Results, has_every_position, is_kept};
 use crate::error::{Error, Result};
+use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
-use crate::io::{atomic, regular};
+use crate::io::lock::{self, Lock};
 use crate::motion::SweepRecord;
 use crate::study::case::Keep;
 use crate::study::identity;
 use crate::study::tables;
+use serde_json::Value;
 
 /// What to do about results that are there already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,13 +27,6 @@ pub enum Existing {
     Overwrite,
     /// Go on from the last finished pass.
     Resume,
-}
-
-/// Held by the run that writes to a directory; it dies with its process.
-#[derive(Debug)]
-pub(super) struct Lock {
-    /// The locked file; none where the file system has no locks.
-    held: Option<File>,
 }
 
 /// The name of a case file that may lie beside its own results.
@@ -51,30 +42,31 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub(in crate::study) const NO_LOCKS: &str =
     "the file system of the results has no locks: a second run in their directory would go unnoticed";
 
-impl Lock {
-    fn acquire(directory: &Path) -> Result<Self> {
-        let path = directory.join(LOCK);
-        let failed = |source| Error::File { path: path.clone(), source };
-        if path.exists() {
-            regular::check(&path, "a file to be locked").map_err(failed)?;
-        }
-        let file = File::options().write(true).create(true).truncate(false).open(&path).map_err(failed)?;
-        let began = Instant::now();
-        loop {
-            match file.try_lock() {
-                Ok(()) => return Ok(Self { held: Some(file) }),
-                Err(TryLockError::Error(_)) => return Ok(Self { held: None }),
-                // A process that was just killed may take a moment to be gone.
-                Err(TryLockError::WouldBlock) if began.elapsed() < PATIENCE => thread::sleep(PATIENCE / 50),
-                Err(TryLockError::WouldBlock) => return Err(Error::InUse { path: directory.to_owned() }),
-            }
-        }
-    }
+/// Takes the lock of a results directory, held by the run that writes there.
+///
+/// # Errors
+/// [`Error::InUse`] while another run has it; [`Error::File`].
+fn acquire(directory: &Path) -> Result<Lock> {
+    let path = directory.join(LOCK);
+    // A process that was just killed may take a moment to be gone.
+    let lock = Lock::take(&path, PATIENCE).map_err(|source| Error::File { path, source })?;
+    lock.ok_or_else(|| Error::InUse { path: directory.to_owned() })
+}
 
-    /// What the user should know where nothing is locked.
-    pub(super) fn warning(&self) -> Option<&'static str> {
-        self.held.is_none().then_some(NO_LOCKS)
-    }
+/// Takes the lock of a results directory that is there, if nobody has it.
+///
+/// # Errors
+/// [`Error::File`].
+pub(in crate::study) fn try_acquire(directory: &Path) -> Result<Option<Lock>> {
+    /// Who only looks has it for a moment.
+    const MOMENT: Duration = Duration::from_millis(20);
+    let path = directory.join(LOCK);
+    Lock::take(&path, MOMENT).map_err(|source| Error::File { path, source })
+}
+
+/// Whether a run writes to a results directory.
+pub(in crate::study) fn is_in_use(directory: &Path) -> bool {
+    lock::is_taken(&directory.join(LOCK))
 }
 
 /// What a run goes on from.
@@ -87,9 +79,14 @@ pub(super) enum Kept {
     Steps,
 }
 
-/// Locks `directory`, made where it is missing, for the results of `case`; what is kept of what is there. Nothing is
-/// cleared yet.
-pub(super) fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<(Lock, Kept)> {
+/// Locks `directory`, made where it is missing, for the results of `case`, unless its `lock` is held already; what is kept of what is
+/// there. Nothing is cleared yet.
+pub(super) fn enter(
+    directory: &Path,
+    case: &Value,
+    existing: Existing,
+    lock: Option<Lock>,
+) -> Result<(Lock, Kept)> {
     let failed = |source| Error::File { path: directory.to_owned(), source };
     outside_others(directory)?;
     fs::create_dir_all(directory).map_err(|source| {
@@ -101,7 +98,7 @@ pub(super) fn enter(directory: &Path, case: &Value, existing: Existing) -> Resul
     })?;
     // Before the lock too: nothing is left in a directory of something else.
     admit(directory, existing)?;
-    let lock = Lock::acquire(directory)?;
+    let lock = lock.map_or_else(|| acquire(directory), Ok)?;
     admit(directory, existing)?;
     let results = Results { directory: directory.to_owned() };
     let kept = match existing {

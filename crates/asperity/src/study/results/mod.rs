@@ -36,7 +36,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub use entry::Existing;
-pub(super) use entry::{CASE_FILE, NO_LOCKS};
+pub(super) use entry::{CASE_FILE, NO_LOCKS, is_in_use, try_acquire};
 pub use step::StepWriter;
 pub use write::Writer;
 

@@ -6,11 +6,12 @@ use serde_json::Value;
 
 use super::Results;
 use super::bodies::{add_bodies, add_volumes, set_caps};
-use super::entry::{self, Existing, Kept, Lock};
+use super::entry::{self, Existing, Kept, NO_LOCKS};
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::grid::Seat;
 use crate::io::fields::FieldFile;
+use crate::io::lock::Lock;
 use crate::io::{atomic, vti};
 use crate::motion::{Flowed, FlowedVolume, Pair};
 use crate::solver::Friction;
@@ -40,7 +41,17 @@ impl Writer {
     /// there; of results to be resumed [`crate::Error::OtherCase`] (more passes and another title are welcome),
     /// [`crate::Error::SurfaceChanged`], [`crate::Error::NotResumable`] where a file is missing or of another run; [`crate::Error::File`].
     pub fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<Self> {
-        let (lock, kept) = entry::enter(directory, case, existing)?;
+        Self::enter_with(directory, case, existing, None)
+    }
+
+    /// As [`enter`](Self::enter), where the `lock` of the directory is held already.
+    pub(in crate::study) fn enter_with(
+        directory: &Path,
+        case: &Value,
+        existing: Existing,
+        lock: Option<Lock>,
+    ) -> Result<Self> {
+        let (lock, kept) = entry::enter(directory, case, existing, lock)?;
         Ok(Self {
             results: Results { directory: directory.to_owned() },
             case: case.clone(),
@@ -71,7 +82,7 @@ impl Writer {
 
     /// What the user should know of the directory.
     pub fn warning(&self) -> Option<&'static str> {
-        self.lock.warning()
+        (!self.lock.binds()).then_some(NO_LOCKS)
     }
 
     /// Writes the summary.
