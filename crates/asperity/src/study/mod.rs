@@ -9,7 +9,7 @@ mod flow; // bodies that flow below their surfaces, as a case has them
 mod given; // surfaces in memory that a case names
 mod identity; // what a run is known by, to resume it
 mod json; // records as JSON
-mod columns; // columns and numbers, each with its unit
+mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made of one, in folders of their own
 mod loading; // increments of a loading, kept one by one
 mod passes; // a motion, pass after pass
@@ -27,7 +27,10 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 mod warm_start; // where the next pass begins
 
 pub use case::Case;
-pub use columns::{COLUMN_UNITS, dimension_of_column, unit_of_column};
+pub use columns::{
+    INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,
+    dimension_of_column, unit_of_column,
+};
 pub use estimate::{Demand, Estimate, demand, estimate};
 pub use given::Given;
 pub use identity::resolved;
@@ -47,4 +50,3 @@ pub use sliding::SlidingWriter;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
 pub use sweep::SweepWriter;
-pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};

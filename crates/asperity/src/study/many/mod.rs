@@ -29,5 +29,6 @@ pub use claims::{Holder, Worker};
 pub use compute::compute;
 pub use folder::{Folder, State, Tally};
 pub use plan::{MAX_CASES, Study};
+pub(super) use table::COLUMNS as TABLE_COLUMNS;
 pub use table::{Row, Table};
 pub use work::{Computed, Queue, Task, Turn};

@@ -14,10 +14,24 @@ use super::plan::{Study, name, quoted};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
+use crate::motion::Column;
 use crate::study::columns::unit_of_column;
 use crate::study::results::{NO_LOCKS, Results};
 use crate::study::summary::{Outcome, Summary};
 use crate::study::tables;
+
+/// Number of a case.
+const CASE: Column = Column::new("case", "1", "Number of the case, from 1.");
+/// Whether a case is done.
+const DONE: Column = Column::new("done", "1", "1 of a case that is done, 0 of one that failed.");
+/// How many warnings a case has.
+const WARNINGS: Column = Column::new("warnings", "1", "Number of warnings.");
+/// What became of a case.
+const STATE: Column = Column::new("state", "", "`done` or `failed`.");
+/// Why a case failed.
+const MESSAGE: Column = Column::new("message", "", "Why the case failed.");
+/// The columns of the table of a study besides its axes and the numbers of the summaries.
+pub(in crate::study) const COLUMNS: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
 
 /// The cases that are done or have failed.
 ///
@@ -105,9 +119,10 @@ impl Table {
 
     fn csv(&self) -> String {
         let labels = self.axes.iter().map(|axis| quoted(&axis.label()));
-        let head: Vec<String> = ["case".to_owned()].into_iter().chain(labels).collect();
+        let head: Vec<String> = [CASE.name.to_owned()].into_iter().chain(labels).collect();
         let mut csv = head.join(",");
-        for column in self.columns.iter().map(String::as_str).chain(["warnings", "state", "message"]) {
+        for column in self.columns.iter().map(String::as_str).chain([WARNINGS.name, STATE.name, MESSAGE.name])
+        {
             let _ = write!(csv, ",{column}");
         }
         csv.push('\n');
@@ -144,8 +159,8 @@ impl Table {
                 file.add_series(name, unit, "case", 1.0, 1.0, &values);
             }
         };
-        add("case", "1", &|row| row.case as f64);
-        add("done", "1", &|row| f64::from(u8::from(row.failure.is_none())));
+        add(CASE.name, CASE.unit, &|row| row.case as f64);
+        add(DONE.name, DONE.unit, &|row| f64::from(u8::from(row.failure.is_none())));
         for (n, axis) in self.axes.iter().enumerate() {
             // The index of a text has no unit, a pure number has 1.
             let unit =
@@ -216,8 +231,8 @@ fn is_damage(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
 }
 
-/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then what has
-/// slid in place, run in, and the last of the most stressed points.
+/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then those of sliding
+/// in place, of running in, of the plastic flow that a motion has left, and the last of the most stressed points.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -230,6 +245,9 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     }
     if let Some(running_in) = &summary.running_in {
         add(&mut numbers, "", running_in);
+    }
+    if let Some(flow) = &summary.plasticity {
+        add(&mut numbers, "", flow);
     }
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
@@ -259,5 +277,32 @@ fn flatten(numbers: &mut Vec<(String, f64)>, key: String, value: &Value) {
             items.iter().for_each(|(inner, item)| flatten(numbers, format!("{key}_{inner}"), item));
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_motion_of_bodies_that_flow_has_the_numbers_of_its_plastic_flow() {
+        let summary: Summary = serde_json::from_value(json!({
+            "version": "", "case": {}, "passes": [], "warnings": [], "wall_time_s": 1.0,
+            "plasticity": {
+                "max_plastic_strain": 0.02, "max_plastic_strain_position": [1e-6, 2e-6, 3e-6], "yielded_volume": 1e-15,
+                "plastic_work": 1e-9, "stored_energy": 1e-11, "displaced_volume": 1e-17, "max_residual_tension": 3e8,
+                "residual_displacement": 1e-8, "products": 12, "mismatch": 1e-5, "regime": "ratchets",
+                "strain_per_pass": 1e-4, "shift_per_pass": -2e-9,
+            },
+        }))
+        .unwrap();
+        let numbers = numbers(&summary);
+        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        assert_eq!(of("max_plastic_strain_position_z"), Some(3e-6));
+        assert_eq!([of("shift_per_pass"), of("max_residual_tension")], [Some(-2e-9), Some(3e8)]);
+        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
+        assert!(without.is_empty(), "no unit of {without:?}");
     }
 }
