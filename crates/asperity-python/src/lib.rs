@@ -59,7 +59,8 @@ mod _core {
         module.add("PASS_COLUMNS", study::PASS_COLUMNS)?;
         module.add("INCREMENT_COLUMNS", study::INCREMENT_COLUMNS)?;
         module.add("SWEEP_COLUMNS", study::SWEEP_COLUMNS)?;
-        module.add("COLUMN_UNITS", study::COLUMN_UNITS.to_vec())?;
+        let units: Vec<_> = study::columns().iter().map(|column| (column.name, column.unit)).collect();
+        module.add("COLUMN_UNITS", units)?;
         module.add("MAX_THREADS", asperity_cli::MAX_THREADS)?;
         module.add("COUPLED_PUNCHES", crate::reference::coupled_punches())?;
         module.add("AREA_COEFFICIENTS", [rough::BGT_COEFFICIENT, rough::PERSSON_COEFFICIENT])?;

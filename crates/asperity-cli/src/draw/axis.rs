@@ -1,5 +1,8 @@
 //! Units that suit a range, and ticks at round numbers.
 
+use asperity::study::{dimension_of_column, unit_of_column};
+use asperity::units::Dimension;
+
 use super::text::{SMALL, width_of};
 
 /// What numbers measure; they are in SI and are shown in a multiple that suits them.
@@ -48,6 +51,15 @@ impl Quantity {
 }
 
 impl Unit {
+    /// The unit of a column of the results.
+    pub(crate) fn of_column(name: &str) -> Self {
+        match (dimension_of_column(name), unit_of_column(name)) {
+            (Some(dimension), _) => dimension.into(),
+            (None, None | Some("" | "1")) => Self::Number,
+            (None, Some(unit)) => Self::Of(unit),
+        }
+    }
+
     /// The multiples, ascending, and the smallest number that is well shown in one.
     fn multiples(self) -> (&'static [(f64, &'static str)], f64) {
         match self {
@@ -109,6 +121,30 @@ impl Unit {
         let exponent = (magnitude / factor).log10().floor() as i32;
         let symbol = format!("{} {symbol}", power_of_ten(exponent));
         (factor * 10f64.powi(exponent), symbol.trim_end().to_owned())
+    }
+}
+
+impl From<Dimension> for Unit {
+    fn from(dimension: Dimension) -> Self {
+        match dimension {
+            Dimension::Length => Self::Length,
+            Dimension::Area => Self::Area,
+            Dimension::Volume => Self::Volume,
+            Dimension::Pressure => Self::Pressure,
+            Dimension::Force => Self::Force,
+            Dimension::Stiffness => Self::Stiffness,
+            Dimension::Time => Self::Time,
+            Dimension::Energy => Self::Energy,
+            Dimension::Power => Self::Of("W"),
+            Dimension::Speed => Self::Of("m/s"),
+            Dimension::Angle => Self::Of("rad"),
+            Dimension::WearCoefficient => Self::Of("1/Pa"),
+            Dimension::RemovalRate => Self::Of("1/(Pa m)"),
+            Dimension::Temperature => Self::Of("K"),
+            Dimension::Conductivity => Self::Of("W/(m K)"),
+            Dimension::HeatCapacity => Self::Of("J/(kg K)"),
+            Dimension::Density => Self::Of("kg/m³"),
+        }
     }
 }
 

@@ -33,6 +33,11 @@ impl Axis {
         Self { label: label.into(), unit, log: false, range: None }
     }
 
+    /// A linear axis in the unit of a column of the results.
+    pub(crate) fn of(label: impl Into<String>, column: &str) -> Self {
+        Self::linear(label, Unit::of_column(column))
+    }
+
     /// A logarithmic axis that shows all positive data.
     pub(crate) fn log(label: impl Into<String>, unit: Unit) -> Self {
         Self { log: true, ..Self::linear(label, unit) }

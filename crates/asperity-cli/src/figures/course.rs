@@ -11,12 +11,12 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 pub(crate) type OfStep = fn(&StepRecord) -> f64;
 type OfPass = fn(&PassRecord) -> f64;
 
-/// What is drawn over the positions: its figure, its name, its unit.
-pub(crate) const OVER_POSITIONS: [(&str, &str, Unit, OfStep); 4] = [
-    ("load", "load", Unit::Force, |s| s.load),
-    ("friction", "friction force", Unit::Force, |s| s.tangential_force.abs()),
-    ("contact_area", "real contact area", Unit::Area, |s| s.contact_area),
-    ("max_pressure", "largest pressure", Unit::Pressure, |s| s.max_pressure),
+/// What is drawn over the positions: its figure, its name, its column.
+pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 4] = [
+    ("load", "load", "load", |s| s.load),
+    ("friction", "friction force", "tangential_force", |s| s.tangential_force.abs()),
+    ("contact_area", "real contact area", "contact_area", |s| s.contact_area),
+    ("max_pressure", "largest pressure", "max_pressure", |s| s.max_pressure),
 ];
 
 /// All curves of a motion whose bodies had these rms heights before it.
@@ -25,8 +25,8 @@ pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) 
     let slides = steps.iter().any(|step| step.tangential_force != 0.0);
     let shown = OVER_POSITIONS.into_iter().filter(|(name, ..)| *name != "friction" || slides);
     let mut curves: Vec<Curves> = shown
-        .map(|(name, title, unit, value)| {
-            let charts = over_positions(steps, &done, title, unit, value);
+        .map(|(name, title, column, value)| {
+            let charts = over_positions(steps, &done, title, column, value);
             Curves::new(name, format!("{title} over the positions"), charts)
         })
         .collect();
@@ -50,14 +50,14 @@ pub(crate) fn solution(steps: &[StepRecord], increments: &[IncrementRecord], don
             Chart::new("", x, y, vec![Series::new("", points, Mark::LineAndPoints)])
         };
         let residual = chart(Axis::log("residual η", Unit::Number), points(|i| i.residual));
-        let cost = chart(Axis::linear("convolutions", Unit::Number), points(|i| i.convolutions));
+        let cost = chart(Axis::of("convolutions", "convolutions"), points(|i| i.convolutions));
         return vec![Curves::new("solution", title, beside([residual, cost]))];
     }
     if steps.is_empty() {
         return Vec::new();
     }
-    let residual = over_positions(steps, done, "residual η", Unit::Number, |s| s.residual);
-    let cost = over_positions(steps, done, "convolutions", Unit::Number, |s| s.convolutions);
+    let residual = over_positions(steps, done, "residual η", "residual", |s| s.residual);
+    let cost = over_positions(steps, done, "convolutions", "convolutions", |s| s.convolutions);
     let [mut residual, cost] = [residual, cost].map(|mut charts| charts.charts.remove(0));
     residual.y.log = true;
     vec![Curves::new("solution", title, beside([residual, cost]))]
@@ -82,7 +82,7 @@ pub(crate) fn has_new_upper(case: &Value, pass: usize) -> bool {
 }
 
 /// A quantity of the positions in the first, a middle and the last pass.
-fn over_positions(steps: &[StepRecord], done: &[usize], quantity: &str, unit: Unit, value: OfStep) -> Charts {
+fn over_positions(steps: &[StepRecord], done: &[usize], title: &str, column: &str, value: OfStep) -> Charts {
     let passes = done.len() - 1;
     let mut shown = vec![1, passes.div_ceil(2), passes];
     shown.dedup();
@@ -90,8 +90,8 @@ fn over_positions(steps: &[StepRecord], done: &[usize], quantity: &str, unit: Un
         let points = steps.iter().filter(|s| s.pass == pass).map(|s| [s.offset, value(s)]).collect();
         Series::new(format!("pass {}", done[pass]), points, Mark::Line)
     });
-    let x = Axis::linear("offset of the upper body", Unit::Length);
-    Chart::new("", x, Axis::linear(quantity, unit), series.collect()).into()
+    let x = Axis::of("offset of the upper body", "offset");
+    Chart::new("", x, Axis::of(title, column), series.collect()).into()
 }
 
 fn roughness(passes: &[PassRecord], done: &[usize], sq: [f64; 2]) -> Charts {
@@ -103,7 +103,7 @@ fn roughness(passes: &[PassRecord], done: &[usize], sq: [f64; 2]) -> Charts {
         Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
         Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
     ];
-    Chart::new("", Axis::linear("pass", Unit::Count), Axis::linear("Sq", Unit::Length), series).into()
+    Chart::new("", Axis::linear("pass", Unit::Count), Axis::of("Sq", "sq_lower"), series).into()
 }
 
 /// The real contact area of a pass, its mean over the positions.
@@ -113,7 +113,7 @@ fn area(passes: &[PassRecord], done: &[usize]) -> Charts {
         Series::new("whole", points(|p| p.mean_contact_area), Mark::LineAndPoints),
         Series::new("without the rim", points(|p| p.mean_contact_area_interior), Mark::LineAndPoints),
     ];
-    let y = Axis::linear("mean contact area", Unit::Area);
+    let y = Axis::of("mean contact area", "mean_contact_area");
     Chart::new("", Axis::linear("pass", Unit::Count), y, series).into()
 }
 
@@ -121,7 +121,7 @@ fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
     let points =
         |value: fn(&PassRecord) -> f64| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
     let x = Axis::linear("pass", Unit::Count);
-    let y = Axis::linear("approach", Unit::Length);
+    let y = Axis::of("approach", "approach");
     let mut series = vec![Series::new("approach", points(|p| p.approach), Mark::LineAndPoints)];
     if !yields(passes) {
         return Chart::new("", x, y, series).into();
@@ -132,7 +132,7 @@ fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
     ] {
         series.push(Series::new(name, points(value), Mark::LineAndPoints).on_the_right());
     }
-    let right = Axis::linear("plastic volume in the pass", Unit::Volume);
+    let right = Axis::of("plastic volume in the pass", "plastic_volume_lower");
     Chart::new("", x, y, series).with_right(right).into()
 }
 

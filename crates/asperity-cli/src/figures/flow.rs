@@ -51,9 +51,9 @@ pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
     if steps.iter().all(|(_, flow)| flow.max_plastic_strain == 0.0) {
         return None;
     }
-    let chart = |label, unit, points| {
+    let chart = |y, points| {
         let series = vec![Series::new("", points, Mark::LineAndPoints)];
-        Chart::new("", Axis::linear("increment", Unit::Count), Axis::linear(label, unit), series)
+        Chart::new("", Axis::linear("increment", Unit::Count), y, series)
     };
     let mut sum = 0.0;
     let work = steps.iter().map(|(x, flow)| {
@@ -63,8 +63,8 @@ pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
     let work = work.collect();
     let strain = steps.iter().map(|(x, flow)| [*x, 100.0 * flow.max_plastic_strain]).collect();
     let charts = vec![
-        chart("largest plastic strain", Unit::Of("%"), strain),
-        chart("plastic work so far", Unit::Energy, work),
+        chart(Axis::linear("largest plastic strain", Unit::Of("%")), strain),
+        chart(Axis::of("plastic work so far", "plastic_work"), work),
     ];
     let title = "plastic strain and work over the increments";
     Some(Curves::new("plastic_flow", title, Charts { charts, columns: 2, aspect: 0.8 }))

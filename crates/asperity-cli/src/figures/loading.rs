@@ -3,7 +3,7 @@
 use asperity::motion::IncrementRecord;
 
 use super::Curves;
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use crate::draw::{Axis, Chart, Charts, Mark, Series};
 
 /// The curves of a loading of several increments.
 pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
@@ -18,7 +18,7 @@ fn chart(increments: &[IncrementRecord]) -> Charts {
 }
 
 fn pressing(increments: &[IncrementRecord]) -> Charts {
-    let axes = [Axis::linear("approach", Unit::Length), Axis::linear("load", Unit::Force)];
+    let axes = [Axis::of("approach", "approach"), Axis::of("load", "load")];
     course(increments, axes, None, |i| [i.approach, i.load])
 }
 
@@ -31,8 +31,8 @@ fn pushing(increments: &[IncrementRecord]) -> Charts {
         _ => format!("along {:.1}° from x to y", y.atan2(x).to_degrees()).replace('-', "−"),
     };
     let axes = [
-        Axis::linear(format!("displacement of the upper body {along}"), Unit::Length),
-        Axis::linear(format!("force {along}"), Unit::Force),
+        Axis::of(format!("displacement of the upper body {along}"), "tangential_displacement"),
+        Axis::of(format!("force {along}"), "tangential_force"),
     ];
     course(increments, axes, Some([0.0, 0.0]), |i| {
         [

@@ -29,9 +29,12 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
     // Of what has shaken down nothing is left, which has no logarithm.
     let above = |curve: Curve| curve.into_iter().filter(|[_, work]| *work > 0.0).collect();
     let shown = [
-        (Axis::log("plastic work of a pass", Unit::Energy), bodies(works.map(above))),
         (
-            Axis::linear("shift of the surface along x", Unit::Length),
+            Axis { log: true, ..Axis::of("plastic work of a pass", "plastic_work_lower") },
+            bodies(works.map(above)),
+        ),
+        (
+            Axis::of("shift of the surface along x", "surface_shift_lower"),
             bodies([
                 summed(over(&|flow| flow.surface_shift_lower)),
                 summed(over(&|flow| flow.surface_shift_upper)),
@@ -45,7 +48,7 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
             ]),
         ),
         (
-            Axis::linear("range of the residual displacement", Unit::Length),
+            Axis::of("range of the residual displacement", "residual_displacement_lower"),
             bodies([
                 over(&|flow| flow.residual_displacement_lower),
                 over(&|flow| flow.residual_displacement_upper),

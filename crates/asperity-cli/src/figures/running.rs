@@ -20,7 +20,7 @@ pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
 fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     let x = match log {
         true => Axis::log("sliding distance", Unit::Of("m")),
-        false => Axis::linear("sliding distance", Unit::Length),
+        false => Axis::of("sliding distance", "distance"),
     };
     let over = |value: &dyn Fn(&PassRecord) -> f64| -> Curve {
         passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()
@@ -37,17 +37,19 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     let film =
         |body: usize| over(&|p| p.running.map_or(0.0, |r| [r.mean_film_lower, r.mean_film_upper][body]));
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
-    let wear =
-        if log { Axis::log("wear volume", Unit::Volume) } else { Axis::linear("wear volume", Unit::Volume) };
+    let wear = Axis { log, ..Axis::of("wear volume", "wear_volume_lower") };
     let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
     let shown: Vec<(Axis, Vec<Series>)> = vec![
         (
-            Axis::linear("Sq", Unit::Length),
+            Axis::of("Sq", "sq_lower"),
             of_bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
         ),
-        (Axis::linear("real contact area", Unit::Area), alone("both bodies", over(&|p| p.mean_contact_area))),
+        (
+            Axis::of("real contact area", "mean_contact_area"),
+            alone("both bodies", over(&|p| p.mean_contact_area)),
+        ),
         (wear, of_bodies([worn(0), worn(1)])),
-        (Axis::linear("mean film", Unit::Length), of_bodies([film(0), film(1)])),
+        (Axis::of("mean film", "mean_film_lower"), of_bodies([film(0), film(1)])),
         (Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)),
     ];
     let is_there = |(_, series): &(Axis, Vec<Series>)| {

@@ -59,11 +59,11 @@ fn charts(updates: &[UpdateRecord]) -> Charts {
     let bodies = |values: [Number; 2]| of_bodies(values.map(over));
     let alone = |value: Number| vec![Series::new("", over(value), Mark::Line)];
     let shown = [
-        (Axis::linear("contact area", Unit::Area), alone(|u| u.contact_area)),
-        (Axis::linear("largest pressure", Unit::Pressure), alone(|u| u.max_pressure)),
-        (Axis::linear("deepest wear", Unit::Length), bodies([|u| u.max_wear_lower, |u| u.max_wear_upper])),
+        (Axis::of("contact area", "contact_area"), alone(|u| u.contact_area)),
+        (Axis::of("largest pressure", "max_pressure"), alone(|u| u.max_pressure)),
+        (Axis::of("deepest wear", "max_wear_lower"), bodies([|u| u.max_wear_lower, |u| u.max_wear_upper])),
         (
-            Axis::linear("mean film in contact", Unit::Length),
+            Axis::of("mean film in contact", "mean_film_lower"),
             bodies([|u| u.mean_film_lower, |u| u.mean_film_upper]),
         ),
         (Axis::linear("largest temperature", Unit::Of("°C")), alone(|u| u.max_temperature - CELSIUS)),
@@ -71,7 +71,7 @@ fn charts(updates: &[UpdateRecord]) -> Charts {
     let is_there = |(_, series): &(Axis, Vec<Series>)| {
         series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
     };
-    let x = Axis::linear("sliding distance", Unit::Length);
+    let x = Axis::of("sliding distance", "distance");
     let charts = shown.into_iter().filter(is_there);
     let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
     Charts { charts, columns: 2, aspect: 0.7 }

@@ -11,20 +11,20 @@ use crate::report::Outcome;
 
 type Number = fn(&SweepRecord) -> f64;
 
-/// What may be swept: its key in [contact], its name, its unit.
-const SWEPT: [(&str, &str, Unit, Number); 3] = [
-    ("loads", "load", Unit::Force, |p| p.load),
-    ("mean_pressures", "mean pressure", Unit::Pressure, |p| p.mean_pressure),
-    ("approaches", "approach", Unit::Length, |p| p.approach),
+/// What may be swept: its key in [contact], its column.
+const SWEPT: [(&str, &str, Number); 3] = [
+    ("loads", "load", |p| p.load),
+    ("mean_pressures", "mean_pressure", |p| p.mean_pressure),
+    ("approaches", "approach", |p| p.approach),
 ];
 
-/// What is drawn over it: the figure, its axis, and whether that is logarithmic beside a logarithmic one. The mean gap
-/// falls with the logarithm of the load.
-const DRAWN: [(&str, &str, Unit, bool, Number); 4] = [
-    ("contact_area", "real contact area", Unit::Area, true, |p| p.contact_area),
-    ("mean_gap", "mean gap", Unit::Length, false, |p| p.mean_gap),
-    ("stiffness", "normal stiffness", Unit::Stiffness, true, |p| p.stiffness.unwrap_or(f64::NAN)),
-    ("max_pressure", "largest pressure", Unit::Pressure, true, |p| p.max_pressure),
+/// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
+/// one. The mean gap falls with the logarithm of the load.
+const DRAWN: [(&str, &str, bool, Number); 4] = [
+    ("contact_area", "real contact area", true, |p| p.contact_area),
+    ("mean_gap", "mean gap", false, |p| p.mean_gap),
+    ("stiffness", "normal stiffness", true, |p| p.stiffness.unwrap_or(f64::NAN)),
+    ("max_pressure", "largest pressure", true, |p| p.max_pressure),
 ];
 
 pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> Outcome {
@@ -38,19 +38,19 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Value) -> Vec<Curves> {
     if case["friction"].get("creepages").is_some() {
         return vec![traction(points, &case["friction"])];
     }
-    let given = |(key, ..): &&(&str, &str, Unit, Number)| case["contact"].get(*key).is_some();
-    let (_, swept, unit, x) = *SWEPT.iter().find(given).unwrap_or(&SWEPT[0]);
+    let given = |(key, ..): &&(&str, &str, Number)| case["contact"].get(*key).is_some();
+    let (_, column, x) = *SWEPT.iter().find(given).unwrap_or(&SWEPT[0]);
+    let swept = column.replace('_', " ");
     // The points in the order of what is swept, whatever order they were given in.
     let mut ordered: Vec<&SweepRecord> = points.iter().collect();
     ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
     let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
     let log = least > 0.0 && most >= DECADE * least;
-    let drawn = DRAWN.into_iter().map(|(name, label, y_unit, may_be_log, y)| {
+    let drawn = DRAWN.into_iter().map(|(name, label, may_be_log, y)| {
         let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
-        let axis =
-            |label: &str, unit, log| if log { Axis::log(label, unit) } else { Axis::linear(label, unit) };
         let series = vec![Series::new("", curve, Mark::LineAndPoints)];
-        let [horizontal, vertical] = [axis(swept, unit, log), axis(label, y_unit, log && may_be_log)];
+        let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };
+        let vertical = Axis { log: log && may_be_log, ..Axis::of(label, name) };
         Curves::new(name, format!("{label} over {swept}"), Chart::new("", horizontal, vertical, series))
     });
     drawn.collect()

@@ -1,5 +1,6 @@
 //! A table whose rows come one after the other: columns of one unit each, points below points.
 
+use asperity::study::dimension_of_column;
 use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
 /// Characters of a column, eight of which stand beside the count on a terminal of 80, and of its part from the point on.
@@ -23,9 +24,17 @@ enum Kind {
 }
 
 impl Cell {
-    /// A quantity, told in the unit that suits the first one of its column.
-    pub(super) fn of(head: &'static str, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
-        Self { head, kind: Kind::Of(dimension), value: value.into() }
+    /// A number of a column of the results: a quantity in the unit that suits the first one, an absolute temperature in degrees Celsius, or
+    /// a pure number, which may be small beside 1.
+    pub(super) fn of(head: &'static str, column: &str, value: impl Into<Option<f64>>) -> Self {
+        let value = value.into();
+        match dimension_of_column(column) {
+            Some(Dimension::Temperature) => {
+                Self { head, kind: Kind::Celsius, value: value.map(|value| value - CELSIUS) }
+            }
+            Some(dimension) => Self { head, kind: Kind::Of(dimension), value },
+            None => Self { head, kind: Kind::Number, value },
+        }
     }
 
     /// A part of one, told in per cent.
@@ -33,19 +42,13 @@ impl Cell {
         Self { head, kind: Kind::Share, value: Some(value) }
     }
 
-    /// A pure number, which may be small beside 1.
-    pub(super) fn number(head: &'static str, value: f64) -> Self {
-        Self { head, kind: Kind::Number, value: Some(value) }
-    }
-
-    /// An absolute temperature, told in degrees Celsius.
-    pub(super) fn celsius(head: &'static str, value: f64) -> Self {
-        Self { head, kind: Kind::Celsius, value: Some(value - CELSIUS) }
-    }
-
-    /// A quantity that begins with next to nothing, told in the unit that suits at least so much of it.
-    pub(super) fn growing(head: &'static str, dimension: Dimension, least: f64, value: f64) -> Self {
-        Self { head, kind: Kind::Growing(dimension, least), value: Some(value) }
+    /// A quantity that begins with next to nothing, in the unit that suits at least so much of it.
+    pub(super) fn growing(head: &'static str, column: &str, least: f64, value: f64) -> Self {
+        let quantity = Self::of(head, column, value);
+        match quantity.kind {
+            Kind::Of(dimension) => Self { kind: Kind::Growing(dimension, least), ..quantity },
+            _ => quantity,
+        }
     }
 
     fn unit(&self) -> Multiple {
@@ -136,12 +139,12 @@ mod tests {
         let mut columns = Columns::default();
         let row = |area: f64, volume: f64| {
             [
-                Cell::of("load", Dimension::Force, 0.18),
-                Cell::of("area", Dimension::Area, area),
-                Cell::of("plastic", Dimension::Volume, volume),
+                Cell::of("load", "load", 0.18),
+                Cell::of("area", "contact_area", area),
+                Cell::of("plastic", "plastic_volume", volume),
                 Cell::share("stick", 0.5),
-                Cell::number("friction", -0.12345),
-                Cell::of("stiff", Dimension::Stiffness, None),
+                Cell::of("friction", "friction_coefficient", -0.12345),
+                Cell::of("stiff", "stiffness", None),
             ]
         };
         let mut text = columns.row("pass", 1, &row(61.8e-12, 3.085e-18));

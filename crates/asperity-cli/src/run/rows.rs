@@ -2,7 +2,6 @@
 
 use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
 use asperity::study::case::{Case, ControlKind, Source};
-use asperity::units::Dimension::{Area, Energy, Force, Length, Pressure, Stiffness, Volume};
 
 use super::columns::{Cell, Columns};
 
@@ -55,25 +54,27 @@ impl Rows {
         self.done += pass.represents();
         let running = pass.running.as_ref();
         let approach = self.approach(pass.pass == 1, pass.approach);
-        let load = Cell::of("load", Force, pass.mean_load);
+        let load = Cell::of("load", "mean_load", pass.mean_load);
         let mut cells = match running {
-            None => vec![approach, load, Cell::of("p max", Pressure, pass.max_pressure)],
+            None => vec![approach, load, Cell::of("p max", "max_pressure", pass.max_pressure)],
             Some(_) => vec![if self.at_approach { load } else { approach }],
         };
-        cells.push(Cell::of("area", Area, pass.mean_contact_area_interior));
+        cells.push(Cell::of("area", "mean_contact_area_interior", pass.mean_contact_area_interior));
         if self.yields {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
-            cells.push(Cell::of("plastic", Volume, plastic));
+            cells.push(Cell::of("plastic", "plastic_volume_lower_interior", plastic));
         }
         if let Some(flow) = &pass.flow {
             let work = flow.plastic_work_lower + flow.plastic_work_upper;
-            cells.push(Cell::of("work", Energy, work));
+            cells.push(Cell::of("work", "plastic_work_lower", work));
         }
-        cells.push(Cell::of("Sq lower", Length, pass.sq_lower_interior));
-        cells.push(Cell::of("Sq upper", Length, pass.sq_upper_interior));
+        cells.push(Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior));
+        cells.push(Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior));
         match running {
             Some(running) => cells.extend(self.running(pass, running)),
-            None if self.slides => cells.push(Cell::number("friction", pass.friction_coefficient)),
+            None if self.slides => {
+                cells.push(Cell::of("friction", "friction_coefficient", pass.friction_coefficient))
+            }
             None => {}
         }
         let above = if pass.pass == 1 { self.above(running) } else { String::new() };
@@ -85,14 +86,14 @@ impl Rows {
         let mut cells = Vec::new();
         if self.wears {
             self.wear += pass.lost_inside("wear")[0] + pass.lost_inside("wear")[1];
-            cells.push(Cell::growing("wear", Volume, 1e-18, self.wear));
+            cells.push(Cell::growing("wear", "wear_volume_lower_interior", 1e-18, self.wear));
         }
         if self.grows {
             let film = running.mean_film_lower.max(running.mean_film_upper);
-            cells.push(Cell::growing("film", Length, 1e-9, film));
+            cells.push(Cell::growing("film", "mean_film_lower", 1e-9, film));
         }
         if running.max_flash_temperature.is_finite() {
-            cells.push(Cell::celsius("T max", running.max_flash_temperature));
+            cells.push(Cell::of("T max", "max_flash_temperature", running.max_flash_temperature));
         }
         cells
     }
@@ -130,31 +131,31 @@ impl Rows {
     pub(super) fn point(&mut self, point: &SweepRecord) -> String {
         let first = point.point == 1;
         let approach = self.approach(first, point.approach);
-        let mut cells = vec![Cell::of("load", Force, point.load)];
+        let mut cells = vec![Cell::of("load", "load", point.load)];
         if self.slides {
             // What rounding leaves of a force that is not there.
             let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
             cells.extend([
-                Cell::number("creep x", point.creepage_x),
-                Cell::number("creep y", point.creepage_y),
-                Cell::of("force x", Force, force(point.tangential_force_x)),
-                Cell::of("force y", Force, force(point.tangential_force_y)),
-                Cell::of("shear", Pressure, point.max_shear),
+                Cell::of("creep x", "creepage_x", point.creepage_x),
+                Cell::of("creep y", "creepage_y", point.creepage_y),
+                Cell::of("force x", "tangential_force_x", force(point.tangential_force_x)),
+                Cell::of("force y", "tangential_force_y", force(point.tangential_force_y)),
+                Cell::of("shear", "max_shear", point.max_shear),
                 Cell::share("stick", point.stick_area / point.contact_area),
                 Cell::share("area", point.contact_fraction),
             ]);
         } else {
             cells.extend([
-                Cell::of("p mean", Pressure, point.mean_pressure),
+                Cell::of("p mean", "mean_pressure", point.mean_pressure),
                 approach,
-                Cell::of("gap", Length, point.mean_gap),
+                Cell::of("gap", "mean_gap", point.mean_gap),
                 Cell::share("area", point.contact_fraction),
-                Cell::of("p max", Pressure, point.max_pressure),
+                Cell::of("p max", "max_pressure", point.max_pressure),
             ]);
             if self.yields {
-                cells.push(Cell::of("plastic", Volume, point.plastic_volume));
+                cells.push(Cell::of("plastic", "plastic_volume", point.plastic_volume));
             }
-            cells.push(Cell::of("stiff", Stiffness, point.stiffness));
+            cells.push(Cell::of("stiff", "stiffness", point.stiffness));
         }
         let above = match first && self.apart && !self.slides {
             true => format!("gap: mean; apart: between the {}\n", self.planes),
@@ -169,8 +170,8 @@ impl Rows {
             self.apart = approach < 0.0;
         }
         match self.apart {
-            true => Cell::of("apart", Length, -approach),
-            false => Cell::of("approach", Length, approach),
+            true => Cell::of("apart", "approach", -approach),
+            false => Cell::of("approach", "approach", approach),
         }
     }
 }

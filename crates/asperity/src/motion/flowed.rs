@@ -2,8 +2,8 @@
 
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FlowRecord, FlowStepRecord, PassFlowRecord, PassRecord, StepRecord};
-use crate::motion::regime::{self, Regime};
+use crate::motion::record::{FlowRecord, FlowStepRecord, PassFlowRecord, PassRecord, Regime, StepRecord};
+use crate::motion::regime;
 use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, TensorField};
 use crate::stress::{Component, Stress};
 use crate::units::{CubicMetre, Joule, Metre, Pascal};

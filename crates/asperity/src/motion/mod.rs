@@ -51,11 +51,14 @@ pub(crate) use pair::{facing_values, initial_gap};
 use path::shift_positions_after;
 pub use path::{OffsetY, Path, Position, Way, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
+pub(crate) use record::columns::{Part, columns};
+#[cfg(feature = "study")]
+pub(crate) use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassFlowRecord, PassRecord,
-    ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassFlowRecord, PassRecord,
+    Presence, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    UpdateRecord,
 };
-pub use regime::Regime;
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{FinishedPass, Simulation, SolvedPass};

@@ -1,27 +1,7 @@
 //! What becomes of bodies that flow pass after pass.
 
-use serde::{Deserialize, Serialize};
-
-use crate::motion::record::PassFlowRecord;
+use crate::motion::record::{PassFlowRecord, Regime};
 use crate::units::Metre;
-
-/// What becomes of bodies that may flow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Regime {
-    /// Nothing has flowed.
-    Elastic,
-    /// A contact at rest has flowed.
-    Yields,
-    /// The bodies shake down: the plastic work of a pass is below 10⁻³ of the first's, and falls.
-    ShakesDown,
-    /// The same flow comes and goes in each pass: its net strain is below 5 % of what accumulates.
-    Cyclic,
-    /// Strain accumulates in each pass alike.
-    Ratchets,
-    /// More passes are needed to tell.
-    Undecided,
-}
 
 /// Plastic work of a pass over that of the first, below which bodies have shaken down.
 const SHAKEN_DOWN: f64 = 1e-3;
@@ -29,19 +9,6 @@ const SHAKEN_DOWN: f64 = 1e-3;
 const ALIKE: f64 = 0.05;
 /// Net strain of a pass over what accumulates in it, below which flow is cyclic.
 const CYCLIC: f64 = 0.05;
-
-impl std::fmt::Display for Regime {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Elastic => "elastic",
-            Self::Yields => "yields",
-            Self::ShakesDown => "shakes down",
-            Self::Cyclic => "cyclic",
-            Self::Ratchets => "ratchets",
-            Self::Undecided => "undecided: more passes",
-        })
-    }
-}
 
 impl Regime {
     /// What becomes of bodies in these passes.

@@ -11,7 +11,7 @@ mod flow; // bodies that flow below their surfaces, as a case has them
 mod given; // surfaces in memory that a case names
 mod identity; // what a run is known by, to resume it
 mod json; // records as JSON
-mod columns; // columns and numbers, each with its unit
+mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made of one, in folders of their own
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to the two surfaces that meet
@@ -25,7 +25,10 @@ mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 
 pub use case::Case;
-pub use columns::{COLUMN_UNITS, dimension_of_column, unit_of_column};
+pub use columns::{
+    INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,
+    dimension_of_column, unit_of_column,
+};
 pub use estimate::{Demand, Estimate, demand, estimate};
 pub use fields::{NamedField, RestFields};
 pub use given::Given;
@@ -43,4 +46,3 @@ pub use run::run;
 pub use slabs::{DemandOfRank, collect, demand_of_collecting, demand_on_ranks, run_on_ranks};
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
-pub use tables::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};

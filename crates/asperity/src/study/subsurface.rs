@@ -19,7 +19,7 @@ use crate::grid::{Field, Grid, Seat};
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use crate::io::vti;
 use crate::material::Material;
-use crate::motion::Position;
+use crate::motion::{Position, columns};
 use crate::operator::Boundary;
 use crate::plasticity::{Layers, PlasticState, residual_below};
 use crate::stress::{Component, Stress};
@@ -53,24 +53,26 @@ pub struct Plan {
     of_body: Grid,
 }
 
-/// The most stressed points of a contact: an entry of `subsurface` in `summary.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct SubsurfaceRecord {
-    /// The pass of a motion, from 1; none of a static contact.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pass: Option<usize>,
-    /// The position in the pass of a motion, from 1; none of a static contact.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step: Option<usize>,
-    /// Largest von Mises stress.
-    pub max_von_mises: Pascal,
-    /// The place of the largest von Mises stress: x and y from the corner of the body, z from its surface.
-    pub position: [Metre; 3],
-    /// Largest shear stress on any plane, ½(σ₁ − σ₃).
-    pub max_shear: Pascal,
-    /// The place of the largest shear stress.
-    pub max_shear_position: [Metre; 3],
+columns! {
+    /// The most stressed points of a contact: an entry of `subsurface` in `summary.json`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct SubsurfaceRecord {
+        /// Pass of a motion, from 1; left out of a static contact.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub pass: Option<usize>,
+        /// Position in the pass of a motion, from 1; left out of a static contact.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub step: Option<usize>,
+        /// Largest von Mises stress over all cells and depths.
+        pub max_von_mises: Pascal,
+        /// Place of the largest von Mises stress: x and y from the corner of the body, z from its surface.
+        pub position: [Metre; 3],
+        /// Largest shear stress on any plane, ½(σ₁ − σ₃).
+        pub max_shear: Pascal,
+        /// Place of the largest shear stress.
+        pub max_shear_position: [Metre; 3],
+    }
 }
 
 impl Plan {
@@ -323,6 +325,7 @@ impl SubsurfaceRecord {
         record().ok_or_else(|| Error::File { path: path.to_owned(), source: missing() })
     }
 }
+
 /// The corner of the contact at a position on one of the bodies, whose cells are those of the `lower` one.
 fn corner(body: Side, position: &Position, lower: &Grid) -> [Metre; 2] {
     let [first_lower, first_upper] = position.places();

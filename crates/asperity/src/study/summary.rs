@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular};
-use crate::motion::{FlowRecord, PassRecord, StaticRecord, SweepRecord, UpdateRecord};
+use crate::motion::{Column, FlowRecord, PassRecord, StaticRecord, SweepRecord, UpdateRecord, columns};
 use crate::study::{json, tables};
 use crate::units::{CubicMetre, Metre, Second};
 
@@ -43,18 +43,20 @@ pub struct Summary {
     pub wall_time_s: Second,
 }
 
-/// The passes of bodies that wear or grow films, together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct RunningIn {
-    /// Passes that were computed.
-    pub computed: usize,
-    /// Passes of the motion that they stand for.
-    pub represented: usize,
-    /// How far heights may be off of not computing the others: the sum of the estimates, m.
-    pub error_bound: Metre,
-    /// Volumes that the lower and the upper body have lost to each law; below 0 where a film has grown.
-    pub lost: BTreeMap<String, [CubicMetre; 2]>,
+columns! {
+    /// The passes of bodies that wear or grow films, together: `running_in` in `summary.json`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct RunningIn {
+        /// Passes that were computed.
+        pub computed: usize,
+        /// Passes of the motion that the computed ones stand for.
+        pub represented: usize,
+        /// Bound of the error of the heights from not computing the others: the sum of the estimates.
+        pub error_bound: Metre,
+        /// Volumes that the lower and the upper body have lost, by the name of the law; below 0 where a film has grown.
+        pub lost: BTreeMap<String, [CubicMetre; 2]>,
+    }
 }
 
 impl RunningIn {
@@ -105,6 +107,10 @@ impl Outcome {
         }
     }
 }
+
+/// What `static` has besides its record.
+pub(super) const CONVERGED: Column =
+    Column::new("converged", "", "`true`: a computation that does not converge leaves no summary.");
 
 /// A static contact with the word that readers of the file look for: what did not converge leaves no summary.
 fn with_converged<S: Serializer>(

@@ -12,114 +12,18 @@ use std::{fmt, io};
 use serde::de::{DeserializeOwned, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::columns::is_volume_of_law;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular, sha256};
-use crate::motion::{IncrementRecord, PassRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord};
+use crate::motion::{
+    Column, IncrementRecord, PassRecord, Presence, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    is_volume_of_law,
+};
 use crate::study::json;
-
-/// Columns of `steps.csv`.
-pub const STEP_COLUMNS: [&str; 17] = [
-    "pass",
-    "step",
-    "offset",
-    "overlap_columns",
-    "approach",
-    "load",
-    "tangential_force",
-    "contact_area",
-    "contact_area_interior",
-    "largest_spot_cells",
-    "max_pressure",
-    "plastic_cells",
-    "plastic_volume",
-    "plastic_volume_interior",
-    "iterations",
-    "convolutions",
-    "residual",
-];
-
-/// Columns of `passes.csv`.
-pub const PASS_COLUMNS: [&str; 23] = [
-    "pass",
-    "approach",
-    "mean_load",
-    "mean_tangential_force",
-    "friction_coefficient",
-    "min_load",
-    "max_load",
-    "mean_pressure",
-    "mean_contact_area",
-    "mean_contact_area_interior",
-    "largest_spot_cells",
-    "max_pressure",
-    "plastic_volume_lower",
-    "plastic_volume_upper",
-    "plastic_volume_lower_interior",
-    "plastic_volume_upper_interior",
-    "sq_lower",
-    "sq_upper",
-    "sq_lower_interior",
-    "sq_upper_interior",
-    "outer_iterations",
-    "convolutions",
-    "wall_time_s",
-];
-
-/// Columns of `increments.csv`.
-pub const INCREMENT_COLUMNS: [&str; 18] = [
-    "increment",
-    "stage",
-    "load",
-    "approach",
-    "tangential_force_x",
-    "tangential_force_y",
-    "tangential_displacement_x",
-    "tangential_displacement_y",
-    "contact_area",
-    "stick_area",
-    "max_pressure",
-    "max_shear",
-    "plastic_volume",
-    "elastic_energy",
-    "dissipation",
-    "iterations",
-    "convolutions",
-    "residual",
-];
-
-/// Columns of `sweep.csv`.
-pub const SWEEP_COLUMNS: [&str; 24] = [
-    "point",
-    "load",
-    "mean_pressure",
-    "approach",
-    "mean_gap",
-    "contact_area",
-    "contact_fraction",
-    "largest_spot_cells",
-    "max_pressure",
-    "plastic_area",
-    "plastic_volume",
-    "elastic_energy",
-    "stiffness",
-    "creepage_x",
-    "creepage_y",
-    "tangential_force_x",
-    "tangential_force_y",
-    "stick_area",
-    "max_shear",
-    "dissipation",
-    "slip_work",
-    "iterations",
-    "convolutions",
-    "residual",
-];
 
 /// A record that is a row of a table, or of the summary.
 pub(super) trait Record: Serialize {
-    /// Numbers that may be unknown: their cells are empty.
-    const UNKNOWN: &'static [&'static str];
+    /// Its columns, with those of the groups that it may have.
+    const COLUMNS: &'static [Column];
 
     /// The error of the computation at which the record was made.
     fn at(&self, error: Error) -> Error {
@@ -128,7 +32,7 @@ pub(super) trait Record: Serialize {
 }
 
 impl Record for StepRecord {
-    const UNKNOWN: &'static [&'static str] = &[];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
         error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
@@ -136,7 +40,7 @@ impl Record for StepRecord {
 }
 
 impl Record for PassRecord {
-    const UNKNOWN: &'static [&'static str] = &["friction_coefficient", "time", "max_flash_temperature"];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
         error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
@@ -144,7 +48,7 @@ impl Record for PassRecord {
 }
 
 impl Record for IncrementRecord {
-    const UNKNOWN: &'static [&'static str] = &["approach"];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
         error.if_not_finite(|source| Error::AtIncrement { increment: self.increment, source })
@@ -152,7 +56,7 @@ impl Record for IncrementRecord {
 }
 
 impl Record for UpdateRecord {
-    const UNKNOWN: &'static [&'static str] = &["time", "friction_power", "max_temperature"];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
         error.if_not_finite(|source| Error::AtUpdate { update: self.update, source })
@@ -160,11 +64,11 @@ impl Record for UpdateRecord {
 }
 
 impl Record for SweepRecord {
-    const UNKNOWN: &'static [&'static str] = &["stiffness"];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 }
 
 impl Record for StaticRecord {
-    const UNKNOWN: &'static [&'static str] = &["friction_coefficient"];
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
 }
 
 /// The rows of some records.
@@ -174,8 +78,10 @@ impl Record for StaticRecord {
 pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
     let row = |record: &T| {
         let row = Row::of(record);
+        let may_be_unknown =
+            |name: &str| T::COLUMNS.iter().any(|c| c.name == name && c.presence == Presence::Unknown);
         let wrong = |(column, value): &&(String, String)| {
-            (value.is_empty() || value.contains("null")) && !T::UNKNOWN.contains(&column.as_str())
+            (value.is_empty() || value.contains("null")) && !may_be_unknown(column)
         };
         match row.0.iter().find(wrong) {
             None => Ok(row),
@@ -183,19 +89,6 @@ pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
         }
     };
     records.iter().map(row).collect()
-}
-
-/// Writes `increments.csv`.
-///
-/// # Errors
-/// [`Error::File`], [`Error::NotFinite`].
-pub(super) fn write_increments(path: &Path, increments: &[IncrementRecord]) -> Result<()> {
-    let rows = checked(increments)?;
-    let columns = match rows.first() {
-        Some(row) => row.columns(),
-        None => INCREMENT_COLUMNS.map(str::to_owned).to_vec(),
-    };
-    write_rows(path, &columns, &rows)
 }
 
 /// Reads `steps.csv`, to resume.
@@ -448,6 +341,7 @@ fn failed(path: &Path) -> impl Fn(io::Error) -> Error {
 mod tests {
     use super::*;
     use crate::motion::{HeatRecord, LostVolume, RunningRecord};
+    use crate::study::PASS_COLUMNS;
 
     fn step(step: usize) -> StepRecord {
         StepRecord {
@@ -536,21 +430,6 @@ mod tests {
 
     fn write_new<T: Record>(path: &Path, records: &[T]) {
         GrowingTable::open(path.to_owned(), 0).unwrap().add(records).unwrap();
-    }
-
-    #[test]
-    fn the_columns_are_those_promised() {
-        for (columns, row) in [
-            (&STEP_COLUMNS[..], serde_json::to_value(step(1)).unwrap()),
-            (&PASS_COLUMNS[..], serde_json::to_value(pass()).unwrap()),
-            (&SWEEP_COLUMNS[..], serde_json::to_value(point(None)).unwrap()),
-        ] {
-            let mut names: Vec<_> = row.as_object().unwrap().keys().map(String::as_str).collect();
-            let mut sorted = columns.to_vec();
-            names.sort_unstable();
-            sorted.sort_unstable();
-            assert_eq!(names, sorted);
-        }
     }
 
     #[test]
@@ -648,14 +527,15 @@ mod tests {
                 assert_eq!(message, format!("pass 2: `{column}` is not a finite number"));
             }
             let apart = IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
-            write_increments(&directory.path().join("increments.csv"), std::slice::from_ref(&apart)).unwrap();
+            write_new(&directory.path().join("increments.csv"), std::slice::from_ref(&apart));
             assert!(
                 read::<IncrementRecord>(&directory.path().join("increments.csv")).unwrap()[0]
                     .approach
                     .is_nan()
             );
             let wrong = IncrementRecord { increment: 7, load: value, ..apart };
-            let error = write_increments(&directory.path().join("increments.csv"), &[wrong]).unwrap_err();
+            let mut increments = GrowingTable::open(directory.path().join("increments.csv"), 0).unwrap();
+            let error = increments.add(&[wrong]).unwrap_err();
             assert_eq!(error.to_string(), "increment 7: `load` is not a finite number");
         }
         assert_eq!(std::fs::read(&path).unwrap(), before);

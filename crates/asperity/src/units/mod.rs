@@ -17,12 +17,16 @@ pub type SquareMetre = f64;
 pub type CubicMetre = f64;
 /// Wave number 2π/wavelength in radians per metre.
 pub type RadianPerMetre = f64;
+/// Angle over a distance, in 1/m.
+pub type PerMetre = f64;
 /// Pressure, modulus or hardness in pascals.
 pub type Pascal = f64;
 /// Force in newtons.
 pub type Newton = f64;
 /// Stiffness in newtons per metre.
 pub type NewtonPerMetre = f64;
+/// Moment of a force in newton metres.
+pub type NewtonMetre = f64;
 /// Energy in joules.
 pub type Joule = f64;
 /// Speed in metres per second.

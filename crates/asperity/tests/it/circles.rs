@@ -13,7 +13,9 @@ type Module = Vec<String>;
 #[test]
 fn no_files_depend_on_each_other_in_a_circle() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for (crate_of, source) in [("asperity", source.clone()), ("asperity-cli", source.join("../../asperity-cli/src"))] {
+    for (crate_of, source) in
+        [("asperity", source.clone()), ("asperity-cli", source.join("../../asperity-cli/src"))]
+    {
         let files = files(&source);
         assert!(files.len() > 30, "{crate_of}: {} files", files.len());
         let circles = circles(&uses(&files));
@@ -69,7 +71,9 @@ fn uses(files: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> 
     let mut handed_on = BTreeMap::new();
     for (module, text) in files {
         for statement in text.split(';') {
-            let Some((_, path)) = statement.split_once("pub use ").or(statement.split_once("pub(crate) use ")) else {
+            let Some((_, path)) =
+                statement.split_once("pub use ").or(statement.split_once("pub(crate) use "))
+            else {
                 continue;
             };
             for path in paths(path) {
@@ -114,7 +118,8 @@ fn uses(files: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> 
 
 /// The paths at the start of `text`: of `a::{b, c::d} …` a::b and a::c::d.
 fn paths(text: &str) -> Vec<Module> {
-    let name = |text: &str| -> String { text.chars().take_while(|c| *c == '_' || c.is_alphanumeric()).collect() };
+    let name =
+        |text: &str| -> String { text.chars().take_while(|c| *c == '_' || c.is_alphanumeric()).collect() };
     let text = text.trim_start();
     if let Some(group) = text.strip_prefix('{') {
         let (mut depth, mut start, mut members) = (0, 0, Vec::new());
@@ -155,21 +160,32 @@ fn circles(uses: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<String> {
     }
     let mut found = Vec::new();
     for (folder, uses) in beside {
-        let reaches = |from: &str| {
-            let (mut seen, mut left) = (BTreeSet::new(), vec![from]);
-            while let Some(at) = left.pop() {
-                left.extend(uses.get(at).into_iter().flatten().copied().filter(|name| seen.insert(*name)));
-            }
-            seen
-        };
         let mut told = BTreeSet::new();
         for name in uses.keys().copied() {
-            let circle: Vec<&str> =
-                reaches(name).into_iter().filter(|other| reaches(other).contains(name)).collect();
+            let circle: Vec<&str> = reached(&uses, name)
+                .into_iter()
+                .filter(|other| reached(&uses, other).contains(name))
+                .collect();
             if !circle.is_empty() && told.insert(circle.clone()) {
-                found.push(format!("{}: {}", [&["src".to_owned()], folder].concat().join("/"), circle.join(", ")));
+                found.push(format!(
+                    "{}: {}",
+                    [&["src".to_owned()], folder].concat().join("/"),
+                    circle.join(", ")
+                ));
             }
         }
     }
     found
+}
+
+/// All that is led to from a file or folder.
+fn reached<'a>(uses: &BTreeMap<&'a str, BTreeSet<&'a str>>, from: &str) -> BTreeSet<&'a str> {
+    let mut seen = BTreeSet::new();
+    let mut left: Vec<&str> = uses.get(from).into_iter().flatten().copied().collect();
+    while let Some(at) = left.pop() {
+        if seen.insert(at) {
+            left.extend(uses.get(at).into_iter().flatten());
+        }
+    }
+    seen
 }

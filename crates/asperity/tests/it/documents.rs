@@ -1,19 +1,23 @@
 //! The tables of the documents hold what the program prints.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use asperity::Grid;
+use asperity::motion::Column;
 use asperity::study;
 use asperity::study::Case;
 use asperity::study::Existing;
-use asperity::study::{INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS};
+use asperity::study::RECORDS;
 use asperity::surface::{Axis, Form, Parameter};
 use serde_json::Value;
 
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(name)
+}
+
 fn document(name: &str) -> String {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
-    fs::read_to_string(docs.join(name)).unwrap()
+    fs::read_to_string(path(name)).unwrap()
 }
 
 #[test]
@@ -31,13 +35,62 @@ fn every_roughness_parameter_stands_in_its_table() {
     assert!(missing.is_empty(), "docs/surfaces.md lacks\n{}", missing.join("\n"));
 }
 
+/// A line of a document above a table of columns; between its ends the names of the records.
+const MARK: [&str; 2] = ["<!-- columns: ", " -->"];
+
+/// With the environment variable `UPDATE` the tables are written anew from the declarations.
 #[test]
-fn every_column_and_every_key_of_the_results_is_explained() {
+fn the_tables_of_columns_are_those_of_the_records() {
+    let mut records: Vec<&str> = Vec::new();
+    for name in ["results.md", "studies.md"] {
+        let page = document(name);
+        let of_records = with_tables(&page, &mut records);
+        if std::env::var_os("UPDATE").is_some() {
+            fs::write(path(name), &of_records).unwrap();
+        } else if let Some((stands, stated)) =
+            page.lines().zip(of_records.lines()).find(|(stands, stated)| stands != stated)
+        {
+            panic!("docs/{name} has\n{stands}\nthe records have\n{stated}\nUPDATE=1 writes all tables anew");
+        }
+        assert_eq!(page.matches("| unit | content |").count(), page.matches(MARK[0]).count(), "docs/{name}");
+    }
+    records.sort_unstable();
+    let mut declared = RECORDS.map(|(record, _)| record);
+    declared.sort_unstable();
+    assert_eq!(records, declared, "each record has one table");
+}
+
+/// A document with the tables of the `RECORDS` that it names; their names go to `records`.
+fn with_tables(page: &str, records: &mut Vec<&'static str>) -> String {
+    let mut text = String::new();
+    let mut lines = page.lines().peekable();
+    while let Some(line) = lines.next() {
+        text += &format!("{line}\n");
+        let Some(names) = line.strip_prefix(MARK[0]).and_then(|rest| rest.strip_suffix(MARK[1])) else {
+            continue;
+        };
+        // The head stays.
+        for head in lines.by_ref().take(2) {
+            text += &format!("{head}\n");
+        }
+        while lines.next_if(|line| line.starts_with('|')).is_some() {}
+        for name in names.split(", ") {
+            let known = RECORDS.iter().find(|(record, _)| *record == name);
+            let (record, columns) = known.unwrap_or_else(|| panic!("no record `{name}`"));
+            records.push(record);
+            for Column { name, unit, text: meaning, .. } in *columns {
+                let unit = if *unit == "1" { "" } else { unit };
+                text += &format!("| `{name}` | {unit} | {meaning} |\n").replace("|  |", "| |");
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn every_key_of_a_summary_is_explained() {
     let page = document("results.md");
-    let mut names: Vec<String> = [&STEP_COLUMNS[..], &PASS_COLUMNS, &INCREMENT_COLUMNS, &SWEEP_COLUMNS]
-        .iter()
-        .flat_map(|columns| columns.iter().map(|column| (*column).to_owned()))
-        .collect();
+    let mut names = Vec::new();
     let ball = r#"
         lower = { young = 210e9, poisson = 0.3, topography = { form = "flat", shape = [16, 16], pitch = 1e-6 } }
         upper = { young = 210e9, poisson = 0.3, topography = { form = "sphere", radius = 1e-3 } }

@@ -2,7 +2,6 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use toml::Value;
 
@@ -16,7 +15,6 @@ use crate::study::case::MAX_CASE_BYTES;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::Document;
 use crate::study::case::keys::{self as case_keys, ROOT};
-use crate::units::Dimension;
 
 /// What a study file says.
 #[derive(Debug)]
@@ -24,6 +22,10 @@ pub(super) struct StudyFile {
     pub(super) title: String,
     pub(super) document: Document,
     pub(super) base: Base,
+    /// The axes of the grid, then those of the table.
+    pub(super) axes: Vec<Axis>,
+    pub(super) rows: Option<Rows>,
+    pub(super) exclusions: Vec<Exclusion>,
 }
 
 /// The rows of a table that is given: axes that change together.
@@ -36,6 +38,9 @@ pub(super) struct Rows {
     /// For each row the index of a value of each of its axes.
     pub(super) rows: Vec<Vec<u32>>,
 }
+
+/// The largest table that is read, bytes.
+const MAX_TABLE_BYTES: u64 = 1 << 30;
 
 /// Reads a study file; the files that it names are looked for in its folder.
 pub(super) fn load(path: &Path) -> Result<StudyFile> {

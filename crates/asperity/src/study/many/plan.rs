@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -124,7 +123,7 @@ impl Study {
         }
         csv.push('\n');
         for case in 1..=self.len() {
-            let _ = write!(csv, "{}", name(case));
+            let _ = write!(csv, "{case:04}");
             for (cells, index) in cells.iter().zip(self.indices(case)) {
                 let _ = write!(csv, ",{}", cells[*index as usize]);
             }

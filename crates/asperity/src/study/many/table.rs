@@ -9,12 +9,13 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::axis::Axis;
+use super::cell::quoted;
 use super::folder::Folder;
-use super::plan::{Study, name, quoted};
+use super::plan::Study;
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
-use crate::study::columns::unit_of_column;
+use crate::study::columns::{CASE, DONE, MESSAGE, STATE, WARNINGS, unit_of_column};
 use crate::study::results::{NO_LOCKS, Results};
 use crate::study::summary::{Outcome, Summary};
 use crate::study::tables;
@@ -105,14 +106,15 @@ impl Table {
 
     fn csv(&self) -> String {
         let labels = self.axes.iter().map(|axis| quoted(&axis.label()));
-        let head: Vec<String> = ["case".to_owned()].into_iter().chain(labels).collect();
+        let head: Vec<String> = [CASE.name.to_owned()].into_iter().chain(labels).collect();
         let mut csv = head.join(",");
-        for column in self.columns.iter().map(String::as_str).chain(["warnings", "state", "message"]) {
+        for column in self.columns.iter().map(String::as_str).chain([WARNINGS.name, STATE.name, MESSAGE.name])
+        {
             let _ = write!(csv, ",{column}");
         }
         csv.push('\n');
         for row in &self.rows {
-            let _ = write!(csv, "{}", name(row.case));
+            let _ = write!(csv, "{:04}", row.case);
             for (axis, index) in self.axes.iter().zip(&row.indices) {
                 let _ = write!(csv, ",{}", quoted(&axis.cell(*index as usize)));
             }
@@ -144,8 +146,8 @@ impl Table {
                 file.add_series(name, unit, "case", 1.0, 1.0, &values);
             }
         };
-        add("case", "1", &|row| row.case as f64);
-        add("done", "1", &|row| f64::from(u8::from(row.failure.is_none())));
+        add(CASE.name, CASE.unit, &|row| row.case as f64);
+        add(DONE.name, DONE.unit, &|row| f64::from(u8::from(row.failure.is_none())));
         for (n, axis) in self.axes.iter().enumerate() {
             // The index of a text has no unit, a pure number has 1.
             let unit =
@@ -165,9 +167,7 @@ impl Table {
         let failures: Vec<String> = self
             .rows
             .iter()
-            .filter_map(|row| {
-                Some(format!("{}: {}", name(row.case), row.failure.as_ref()?.replace('\n', " ")))
-            })
+            .filter_map(|row| Some(format!("{:04}: {}", row.case, row.failure.as_ref()?.replace('\n', " "))))
             .collect();
         if !failures.is_empty() {
             file.set("failures", failures.join("\n").as_str());
@@ -216,8 +216,8 @@ fn is_damage(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
 }
 
-/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then what has
-/// slid in place, run in, and the last of the most stressed points.
+/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then those of sliding
+/// in place, of running in, of the plastic flow that a motion has left, and the last of the most stressed points.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -230,6 +230,9 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     }
     if let Some(running_in) = &summary.running_in {
         add(&mut numbers, "", running_in);
+    }
+    if let Some(flow) = &summary.plasticity {
+        add(&mut numbers, "", flow);
     }
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
@@ -259,5 +262,32 @@ fn flatten(numbers: &mut Vec<(String, f64)>, key: String, value: &Value) {
             items.iter().for_each(|(inner, item)| flatten(numbers, format!("{key}_{inner}"), item));
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_motion_of_bodies_that_flow_has_the_numbers_of_its_plastic_flow() {
+        let summary: Summary = serde_json::from_value(json!({
+            "version": "", "case": {}, "passes": [], "warnings": [], "wall_time_s": 1.0,
+            "plasticity": {
+                "max_plastic_strain": 0.02, "max_plastic_strain_position": [1e-6, 2e-6, 3e-6], "yielded_volume": 1e-15,
+                "plastic_work": 1e-9, "stored_energy": 1e-11, "displaced_volume": 1e-17, "max_residual_tension": 3e8,
+                "residual_displacement": 1e-8, "products": 12, "mismatch": 1e-5, "regime": "ratchets",
+                "strain_per_pass": 1e-4, "shift_per_pass": -2e-9,
+            },
+        }))
+        .unwrap();
+        let numbers = numbers(&summary);
+        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        assert_eq!(of("max_plastic_strain_position_z"), Some(3e-6));
+        assert_eq!([of("shift_per_pass"), of("max_residual_tension")], [Some(-2e-9), Some(3e8)]);
+        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
+        assert!(without.is_empty(), "no unit of {without:?}");
     }
 }

@@ -19,7 +19,8 @@ use crate::study::case::Keep;
 use crate::study::fields::{NamedField, RestFields};
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
-use crate::study::{identity, summary, tables};
+use crate::study::tables::GrowingTable;
+use crate::study::{identity, summary};
 use crate::subsurface::Tractions;
 
 /// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
@@ -115,7 +116,7 @@ impl Writer {
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
         add_volumes(&mut file, &contact.volumes, left);
         file.write()?;
-        tables::write_increments(&self.results.increments_path(), &contact.increments)
+        GrowingTable::open(self.results.increments_path(), 0)?.add(&contact.increments)
     }
 
     /// Computes and writes the stress under the surface of a static contact, whose lower body bears `tractions`, and in whose bodies

@@ -1,0 +1,164 @@
+//! The declaration of columns: a record's fields are the columns of its table and the keys of `summary.json`.
+
+/// A column of a table, or a number of `summary.json`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Column {
+    /// Name: the head of the column, the key in `summary.json`.
+    pub name: &'static str,
+    /// SI unit: `"1"` for a pure number or a count, nothing for a text.
+    pub unit: &'static str,
+    /// Meaning, in a sentence.
+    pub text: &'static str,
+    /// Number of components: 1 for a number, 2 or 3 for a vector.
+    pub components: usize,
+    /// Whether each record has it.
+    pub presence: Presence,
+}
+
+/// Whether a record has a value in a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Presence {
+    /// It always has.
+    Always,
+    /// The value may be unknown: an empty cell of a table, `null` in `summary.json`.
+    Unknown,
+    /// The column may be left out.
+    Optional,
+}
+
+impl Column {
+    /// A column that holds a number in each record.
+    pub(crate) const fn new(name: &'static str, unit: &'static str, text: &'static str) -> Self {
+        Self { name, unit, text, components: 1, presence: Presence::Always }
+    }
+}
+
+/// Part of a record: a column, or a group of them.
+pub(crate) struct Part {
+    pub(crate) columns: &'static [Column],
+    /// Whether the record may lack it: a group of its own.
+    pub(crate) is_group: bool,
+}
+
+impl Part {
+    /// Counts the columns of some parts, with or without those of the groups.
+    pub(crate) const fn count(parts: &[Self], with_groups: bool) -> usize {
+        let (mut count, mut k) = (0, 0);
+        while k < parts.len() {
+            if with_groups || !parts[k].is_group {
+                count += parts[k].columns.len();
+            }
+            k += 1;
+        }
+        count
+    }
+
+    /// Joins the columns of some parts, `N` = [`Part::count`] of them.
+    pub(crate) const fn join<const N: usize>(parts: &[Self], with_groups: bool) -> [Column; N] {
+        let mut columns = [Column::new("", "", ""); N];
+        let (mut count, mut k) = (0, 0);
+        while k < parts.len() {
+            let mut of_part = 0;
+            while of_part < parts[k].columns.len() && (with_groups || !parts[k].is_group) {
+                columns[count] = parts[k].columns[of_part];
+                count += 1;
+                of_part += 1;
+            }
+            k += 1;
+        }
+        columns
+    }
+}
+
+/// Declares a record: each field is a column with its unit (by its type) and its meaning (its documentation).
+///
+/// The record has the constants `OWN_COLUMNS` and `COLUMNS`, the latter with the columns of the groups that it may have, in the order
+/// in which they are written. Attributes of `serde` say which values may be missing, see [`Presence`]:
+///
+/// - `deserialize_with = "number_or_none"`, or an `Option` without attributes: the value may be unknown,
+/// - any other attribute of an `Option`: the column may be left out,
+/// - `flatten, skip_serializing_if = …`: a group of columns that the record may lack.
+macro_rules! columns {
+    (
+        $(#[$attribute:meta])*
+        pub struct $record:ident {
+            $(
+                $(#[doc = $text:literal])+
+                $(#[serde($($serde:tt)*)])?
+                pub $name:ident: $type:tt $(<$($of:tt),+>)?,
+            )*
+        }
+    ) => {
+        $(#[$attribute])*
+        pub struct $record {
+            $(
+                $(#[doc = $text])+
+                $(#[serde($($serde)*)])?
+                pub $name: $type $(<$($of),+>)?,
+            )*
+        }
+
+        impl $record {
+            /// Columns of a record, without those of the groups that it may lack.
+            pub const OWN_COLUMNS: &'static [$crate::motion::Column] =
+                &$crate::motion::Part::join::<{ $crate::motion::Part::count(Self::PARTS, false) }>(Self::PARTS, false);
+            /// Columns of a record that lacks nothing, in the order in which they are written.
+            pub const COLUMNS: &'static [$crate::motion::Column] =
+                &$crate::motion::Part::join::<{ $crate::motion::Part::count(Self::PARTS, true) }>(Self::PARTS, true);
+            const PARTS: &'static [$crate::motion::Part] = &[$(
+                $crate::motion::columns!(@part [$($($serde)*)?] $name [$type $($($of)+)?] $($text)+)
+            ),*];
+        }
+    };
+    (@part [flatten, skip_serializing_if = "Option::is_none"] $name:ident [Option $group:tt] $($text:tt)+) => {
+        $crate::motion::Part { columns: $group::COLUMNS, is_group: true }
+    };
+    (@part [flatten, with = "lost_volumes"] $name:ident $type:tt $($text:tt)+) => {
+        $crate::motion::Part { columns: LostVolume::IN_A_PASS, is_group: false }
+    };
+    (@part [flatten, with = "lost_volumes::whole"] $name:ident $type:tt $($text:tt)+) => {
+        $crate::motion::Part { columns: LostVolume::SO_FAR, is_group: false }
+    };
+    (@part $serde:tt $name:ident $type:tt $($text:tt)+) => {
+        $crate::motion::Part {
+            columns: &[$crate::motion::Column {
+                name: stringify!($name),
+                unit: $crate::motion::columns!(@unit $type),
+                text: concat!($($text),+).trim_ascii(),
+                components: $crate::motion::columns!(@components $type),
+                presence: $crate::motion::columns!(@presence $serde $type),
+            }],
+            is_group: false,
+        }
+    };
+    (@presence [deserialize_with = "number_or_none"] $type:tt) => { $crate::motion::Presence::Unknown };
+    (@presence [] [Option $of:tt]) => { $crate::motion::Presence::Unknown };
+    (@presence $serde:tt [Option $of:tt]) => { $crate::motion::Presence::Optional };
+    (@presence $serde:tt $type:tt) => { $crate::motion::Presence::Always };
+    (@components [Option $of:tt]) => { $crate::motion::columns!(@components [$of]) };
+    (@components [BTreeMap String $of:tt]) => { $crate::motion::columns!(@components [$of]) };
+    (@components [[$of:tt; $components:tt]]) => { $components };
+    (@components $type:tt) => { 1 };
+    (@unit [Option $of:tt]) => { $crate::motion::columns!(@unit [$of]) };
+    (@unit [BTreeMap String $of:tt]) => { $crate::motion::columns!(@unit [$of]) };
+    (@unit [[$of:tt; $components:tt]]) => { $crate::motion::columns!(@unit [$of]) };
+    (@unit [bool]) => { "" };
+    (@unit [Regime]) => { "" };
+    (@unit [usize]) => { "1" };
+    (@unit [f64]) => { "1" };
+    (@unit [Metre]) => { "m" };
+    (@unit [SquareMetre]) => { "m²" };
+    (@unit [CubicMetre]) => { "m³" };
+    (@unit [PerMetre]) => { "1/m" };
+    (@unit [Pascal]) => { "Pa" };
+    (@unit [Newton]) => { "N" };
+    (@unit [NewtonMetre]) => { "N m" };
+    (@unit [NewtonPerMetre]) => { "N/m" };
+    (@unit [Joule]) => { "J" };
+    (@unit [Second]) => { "s" };
+    (@unit [Kelvin]) => { "K" };
+    (@unit [Watt]) => { "W" };
+}
+
+pub(crate) use columns;

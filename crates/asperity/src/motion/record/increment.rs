@@ -1,0 +1,56 @@
+//! An increment of a loading.
+
+use serde::{Deserialize, Serialize};
+
+use super::columns::columns;
+use super::flow::FlowStepRecord;
+use super::number::number_or_none;
+use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
+
+columns! {
+    /// One increment of the loading of a static contact: a row of `increments.csv`.
+    #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct IncrementRecord {
+        /// Increment, from 1.
+        pub increment: usize,
+        /// Stage of the loading that it belongs to, from 1.
+        pub stage: usize,
+        /// Normal force W.
+        pub load: Newton,
+        /// Rigid-body approach δ; unknown of elasto-plastic bodies that are apart.
+        #[serde(deserialize_with = "number_or_none")]
+        pub approach: Metre,
+        /// Force of the upper body on the lower one along x.
+        pub tangential_force_x: Newton,
+        /// Force of the upper body on the lower one along y.
+        pub tangential_force_y: Newton,
+        /// Rigid-body displacement of the upper body against the lower one along x; 0 in sliding.
+        pub tangential_displacement_x: Metre,
+        /// Rigid-body displacement of the upper body against the lower one along y; 0 in sliding.
+        pub tangential_displacement_y: Metre,
+        /// Area of the cells with p > 0.
+        pub contact_area: SquareMetre,
+        /// Area of the cells that stick in this increment; 0 without friction.
+        pub stick_area: SquareMetre,
+        /// Largest pressure.
+        pub max_pressure: Pascal,
+        /// Largest shear traction.
+        pub max_shear: Pascal,
+        /// Plastic volume that both bodies have lost so far.
+        pub plastic_volume: CubicMetre,
+        /// Elastic energy ½ ΔA Σ (p u + q·uₜ).
+        pub elastic_energy: Joule,
+        /// Energy that friction took in this increment.
+        pub dissipation: Joule,
+        /// Iterations of the solver.
+        pub iterations: usize,
+        /// Convolutions of the increment.
+        pub convolutions: f64,
+        /// Scale-free residual η, the larger of the normal and the tangential one.
+        pub residual: f64,
+        /// Plastic flow below the surfaces; none of bodies that do not flow.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub flow: Option<FlowStepRecord>,
+    }
+}

@@ -1,0 +1,27 @@
+//! The records of a computation: one for each static contact, increment, update, point of a sweep, position and pass.
+//!
+//! A field of a record is a column of its table, or a key of `summary.json`. It is declared here and nowhere else: its type gives the
+//! unit, its documentation the meaning, see [`columns`].
+
+pub(crate) mod columns;
+mod flow;
+mod increment;
+pub(crate) mod lost_volumes;
+mod number;
+mod pass;
+mod rest;
+mod running;
+mod step;
+mod sweep;
+mod update;
+
+pub use columns::{Column, Presence};
+pub use flow::{FlowRecord, FlowStepRecord, PassFlowRecord, Regime, ResidualRecord};
+pub use increment::IncrementRecord;
+pub use lost_volumes::LostVolume;
+pub use pass::PassRecord;
+pub use rest::{ShearRecord, StaticRecord};
+pub use running::{HeatRecord, RunningRecord};
+pub use step::StepRecord;
+pub use sweep::SweepRecord;
+pub use update::UpdateRecord;

@@ -1,0 +1,64 @@
+//! A point of a sweep.
+
+use serde::{Deserialize, Serialize};
+
+use super::columns::columns;
+use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
+
+columns! {
+    /// One point of a sweep: a row of `sweep.csv`.
+    ///
+    /// The stiffness is that of [`normal_stiffness`](crate::solver::normal_stiffness).
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct SweepRecord {
+        /// Point, from 1, in the order given.
+        pub point: usize,
+        /// Normal force W.
+        pub load: Newton,
+        /// Load over the area of the whole grid.
+        pub mean_pressure: Pascal,
+        /// Rigid-body approach δ.
+        pub approach: Metre,
+        /// Mean deformed gap.
+        pub mean_gap: Metre,
+        /// Area of the cells with p > 0.
+        pub contact_area: SquareMetre,
+        /// Area of contact over the area of the whole grid, 0 to 1.
+        pub contact_fraction: f64,
+        /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
+        pub largest_spot_cells: usize,
+        /// Largest pressure.
+        pub max_pressure: Pascal,
+        /// Area of the cells at the hardness, under shear at their caps.
+        pub plastic_area: SquareMetre,
+        /// Plastic volume ΔA Σ w, w the plastic interference of the cells.
+        pub plastic_volume: CubicMetre,
+        /// Elastic energy ½ ΔA Σ p u, in rolling that of both tractions.
+        pub elastic_energy: Joule,
+        /// Normal stiffness dW/dδ; unknown where all of a periodic surface bears elastically, because nothing gives.
+        pub stiffness: Option<NewtonPerMetre>,
+        /// Creepage along x; this and the columns up to `slip_work` are 0 of a contact that does not roll.
+        pub creepage_x: f64,
+        /// Creepage along y.
+        pub creepage_y: f64,
+        /// Force of the upper body on the lower one along x.
+        pub tangential_force_x: Newton,
+        /// Force of the upper body on the lower one along y.
+        pub tangential_force_y: Newton,
+        /// Area of the cells that stick.
+        pub stick_area: SquareMetre,
+        /// Largest shear traction.
+        pub max_shear: Pascal,
+        /// Energy that friction took while the contact moved on by a cell, from the work of force, moment and pressure.
+        pub dissipation: Joule,
+        /// Work of the shear on the slip of the cells meanwhile: the dissipation without what the step from cell to cell takes by itself.
+        pub slip_work: Joule,
+        /// Iterations of the solver.
+        pub iterations: usize,
+        /// Convolutions, with those of the stiffness.
+        pub convolutions: f64,
+        /// Scale-free residual η.
+        pub residual: f64,
+    }
+}
