@@ -15,7 +15,7 @@ use crate::io::regular;
 use crate::study::case::MAX_CASE_BYTES;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::Document;
-use crate::study::case::keys::{self as case_keys, ROOT};
+use crate::study::case::schema::tables::{self as keys, is_of_root};
 use crate::units::Dimension;
 
 /// What a study file says.
@@ -88,15 +88,13 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
 /// A table of a case that stands in a study file by mistake.
 fn belongs(key: &str) -> Option<(String, Option<String>)> {
     let unknown = |hint| Some((format!("unknown key '{key}' in the study"), Some(hint)));
-    if ROOT.contains(&key) {
+    if is_of_root(key) {
         return unknown(format!("a case that stands in the study file is its base: [base.{key}]"));
     }
     // A key of an axis, or one of a table of a case.
-    let hint = case_keys::belongs(key, "").and_then(|(_, hint)| hint);
+    let hint = keys::belongs(key, "").and_then(|(_, hint)| hint);
     match key.split_once('.').map(|(table, _)| table) {
-        Some(table) if ROOT.contains(&table) => {
-            unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`"))
-        }
+        Some(table) if is_of_root(table) => unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`")),
         _ => hint.and_then(|hint| unknown(format!("{hint} of the base"))),
     }
 }
