@@ -329,13 +329,15 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
         let law = match spec.law {
             FilmLaw::Arrhenius { .. } => "Arrhenius growth",
             FilmLaw::MechanoChemical { .. } => "mechano-chemical growth",
+            FilmLaw::SolidLubricant { .. } => "solid lubricant",
             _ => "growth",
         };
         let most = units::format(spec.max_thickness, Dimension::Length);
         let hardness = spec.hardness.map(|value| {
             format!(", pressure up to {} where it is thickest", units::format(value, Dimension::Pressure))
         });
-        Some(format!("{law} up to {most}{}", hardness.unwrap_or_default()))
+        let up_to = if matches!(spec.law, FilmLaw::SolidLubricant { .. }) { "of" } else { "up to" };
+        Some(format!("{law} {up_to} {most}{}", hardness.unwrap_or_default()))
     });
     let heat = case.temperature.map(|spec| {
         let [lower, upper] = spec.bulk.map(|kelvin| units::format(kelvin, Dimension::Temperature));

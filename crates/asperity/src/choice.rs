@@ -13,6 +13,9 @@ pub trait Choice: Copy + PartialEq + 'static {
     /// All choices with their words, in the order in which they are offered.
     const WORDS: &'static [(&'static str, Self)];
 
+    /// The words alone.
+    const NAMES: &'static [&'static str];
+
     /// The word of this choice.
     fn word(self) -> &'static str;
 
@@ -27,6 +30,7 @@ macro_rules! choice {
     ($choice:ty: $($word:literal => $variant:ident),+ $(,)?) => {
         impl $crate::choice::Choice for $choice {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
+            const NAMES: &'static [&'static str] = &[$($word),+];
 
             fn word(self) -> &'static str {
                 match self {

@@ -8,7 +8,7 @@ use crate::grid::{CellValues, Field};
 use crate::motion::body::{Body, State};
 use crate::motion::law::{Law, Touching};
 use crate::motion::pair::Pair;
-use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, Range};
+use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
 
 /// Boltzmann's constant, J/K.
 const BOLTZMANN: f64 = 1.380_649e-23;
@@ -78,6 +78,11 @@ pub enum FilmLaw {
         c3: Metre,
         /// The rate C₄ at which it does, 0 or 10⁻¹⁵ … 10¹⁵ 1/s.
         c4: f64,
+    },
+    /// A solid lubricant, as bonded MoS₂, which begins at its largest thickness and is only worn off: df = −k p |ds| while f > 0.
+    SolidLubricant {
+        /// Wear coefficient k of the film, > 0, 1/Pa.
+        wear: PerPascal,
     },
 }
 
@@ -157,6 +162,9 @@ impl Film {
                 let rate = c4 == 0.0 || REMOVAL_RATES.holds(c4);
                 check("c4", c4, rate, "0 or a rate of 1e-15 to 1e15 1/s")?;
             }
+            FilmLaw::SolidLubricant { wear } => {
+                check_in(Dimension::WearCoefficient, "wear", wear, positive(wear), "a coefficient above 0")?;
+            }
         }
         Ok(Self { law, max_thickness, hardness, bare: None })
     }
@@ -166,8 +174,8 @@ impl Film {
         self.max_thickness
     }
 
-    /// Adds the rates of growth and removal over a position to their sums on a body, 0 or 1: ∫G dt in m and ∫R dt, or of the
-    /// mechano-chemical law the exponents of growth and removal.
+    /// Adds the rates of growth and removal over a position to their sums on a body, 0 or 1: ∫G dt in m and ∫R dt; of the
+    /// mechano-chemical law the exponents of growth and removal; of a solid lubricant nothing, and what is worn off, m.
     pub(super) fn add_rates(&self, body: usize, touching: &Touching, sums: &mut [Field]) {
         let [grown, removed] = sums else { unreachable!("two sums") };
         let temperature = touching.temperature[body];
@@ -202,6 +210,11 @@ impl Film {
                     .add(body, grown, |index| BOLTZMANN * temperature[index] / PLANCK * x * touching.time);
                 touching.add(body, removed, |_| c4 * touching.time);
             }
+            FilmLaw::SolidLubricant { wear } => {
+                touching.add(body, removed, |index| {
+                    wear * touching.pressure[index] * touching.sliding_distance
+                });
+            }
         }
     }
 
@@ -228,6 +241,7 @@ impl Film {
                 let grown = balance.grown(passes);
                 [balance.thickness(passes), grown]
             }
+            FilmLaw::SolidLubricant { .. } => [at_least_0(thickness - removal * passes), 0.0],
         }
     }
 
@@ -247,19 +261,24 @@ impl Film {
                 let balance = Balance::new([self.max_thickness, c3], [growth, removal], [thickness, grown]);
                 balance.mean_thickness(passes)
             }
+            FilmLaw::SolidLubricant { .. } => match removal * passes {
+                worn if worn <= thickness => thickness - 0.5 * worn,
+                worn => 0.5 * thickness * (thickness / worn),
+            },
         }
     }
 
-    /// Prepares a body: no film where none is known yet, and the hardness that the film leaves.
+    /// Prepares a body: the film that it begins with where none is known yet, and the hardness that the film leaves.
     fn prepare(&mut self, body: &mut Body) {
-        let zeros = || State { unit: "m".to_owned(), values: Field::zeros(body.heights.raw_dim()) };
-        let states = match self.law {
-            FilmLaw::Arrhenius { .. } => &[FILM][..],
-            FilmLaw::MechanoChemical { .. } => &[FILM, GROWN],
+        let (states, begin) = match self.law {
+            FilmLaw::Arrhenius { .. } => (&[FILM][..], 0.0),
+            FilmLaw::MechanoChemical { .. } => (&[FILM, GROWN][..], 0.0),
+            FilmLaw::SolidLubricant { .. } => (&[FILM][..], self.max_thickness),
         };
+        let shape = body.heights.raw_dim();
         for name in states {
-            let zeros = zeros();
-            body.state.entry((*name).to_owned()).or_insert(zeros);
+            let state = || State { unit: "m".to_owned(), values: Field::from_elem(shape, begin) };
+            body.state.entry((*name).to_owned()).or_insert_with(state);
         }
         self.bare = Some(body.hardness.clone());
         self.soften(body);

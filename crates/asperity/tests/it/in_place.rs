@@ -556,3 +556,37 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     let memory = study::rest(&case, Given::default(), &()).unwrap();
     assert_eq!(memory.updates, updates);
 }
+
+/// Flat bodies of a period bear the same pressure everywhere: f = f₀ − k p s until the film is gone, and the body wears by k(f).
+#[test]
+fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
+    let (thickness, k_film, k_bare, k_under) = (40e-9, 2e-15, 5e-16, 1e-17);
+    let pressure = 0.2e9;
+    let grid = Grid::new([6, 5], [PITCH; 2]).unwrap();
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let pair = || Pair::new(flat(), flat(), [&steel(f64::INFINITY), &steel(f64::INFINITY)]).unwrap();
+    let gone = thickness / (k_film * pressure);
+    for (share, updates) in [(0.5, 1), (0.5, 4), (3.0, 1), (3.0, 7)] {
+        let distance = share * gone;
+        let film = Film::new(FilmLaw::SolidLubricant { wear: k_film }, thickness, None).unwrap();
+        let coefficient = WearCoefficient::archard(k_bare).unwrap().with_film(k_under).unwrap();
+        let wear = Wear::new([Some(coefficient), None], [Some(film.clone()), None]).unwrap();
+        let films = Films::new([Some(film), None], &pair()).unwrap();
+        let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
+        let contact = InPlace::new(pair(), Boundary::PERIODIC, slide, EXACT).unwrap();
+        let state = contact.with_law(films).with_law(wear).run(None, &(), &mut []).unwrap().state;
+        let left = thickness * (1.0 - share).max(0.0);
+        // ∫ f ds over the way, of a film that is gone after its share.
+        let covered = thickness * gone * if share < 1.0 { share - 0.5 * share * share } else { 0.5 };
+        let worn = pressure * (k_bare * distance - (k_bare - k_under) * covered / thickness);
+        for (what, found, expected) in [
+            ("film", state.pair.lower.state[FILM].values[[2, 3]], left),
+            ("wear", state.pair.lower.state[WEAR].values[[2, 3]], worn),
+            ("heights", -state.pair.lower.heights[[2, 3]], thickness - left + worn),
+        ] {
+            let error = (found - expected).abs() / thickness;
+            assert!(error < 1e-9, "{what} after {share} by {updates}: {found:e}, expected {expected:e}");
+        }
+        assert_eq!(state.pair.upper.heights[[0, 0]], 0.0);
+    }
+}

@@ -12,6 +12,7 @@ mod friction;
 mod good_inputs;
 mod hardness;
 mod in_place;
+mod keys;
 mod kinematics;
 mod laws;
 mod line;

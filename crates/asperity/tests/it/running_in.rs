@@ -525,3 +525,30 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
         );
     }
 }
+
+/// Flat bodies of a period that pass over each other: what the film has lost is k p s, whether each pass is computed or few are.
+#[test]
+fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
+    let grid = Grid::new([16, 8], [PITCH; 2]).unwrap();
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let (thickness, k, pressure, passes) = (50e-9, 1e-15, 0.1e9, 40);
+    // The lower body slides under the same pressure over one length in each pass.
+    let lost = k * pressure * passes as f64 * 16.0 * PITCH;
+    for (thickness, left) in [(thickness, thickness - lost), (0.6 * lost, 0.0)] {
+        for acceleration in [Acceleration::NONE, Acceleration::default()] {
+            let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY); 2]).unwrap();
+            let film = Film::new(FilmLaw::SolidLubricant { wear: k }, thickness, None).unwrap();
+            let films = Films::new([Some(film), None], &pair).unwrap();
+            let load = Control::Load(pressure * grid.area());
+            let motion = Motion::new(SLIDE, load).with_passes(passes).with_stride(4);
+            let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
+                .unwrap()
+                .with_law(films)
+                .with_acceleration(acceleration)
+                .unwrap();
+            simulation.run(&(), &mut []).unwrap();
+            let film = &simulation.pair().lower.state[FILM].values;
+            assert!(film.iter().all(|f| (f - left).abs() < 1e-6 * thickness), "{:e} of {left:e}", film[[0, 0]]);
+        }
+    }
+}

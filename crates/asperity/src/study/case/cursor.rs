@@ -77,11 +77,6 @@ impl<'a> Table<'a> {
         Err(self.document.error(&join(&self.path, name), key.span(), message, hint))
     }
 
-    /// The choice of a word, or the `default` where the key is not given.
-    pub(super) fn choice_or<T: Choice>(&self, key: &str, default: T) -> Result<T> {
-        self.get(key).map_or(Ok(default), |entry| entry.choice())
-    }
-
     /// Which one of `keys` is given.
     pub(super) fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str> {
         let mut given: Vec<_> =

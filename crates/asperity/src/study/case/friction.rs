@@ -3,14 +3,14 @@
 use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
-use super::keys::{belongs, known_in};
 use super::prescribed::{Prescribed, prescribed};
-use super::sweep::creepages;
+use super::schema::contact::{friction as keys, history};
+use super::schema::tables::known_in;
 use super::{Case, Number, PlasticitySpec};
 use crate::error::Result;
 use crate::motion::{Point, Stage};
 use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
-use crate::units::{Dimension, SquareMetre};
+use crate::units::SquareMetre;
 
 /// Friction, and what it resists.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -172,55 +172,45 @@ impl InPlane {
 
 /// What a static contact may be told in its plane.
 const IN_PLANE: [&str; 6] = ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
-/// What a stage may be told.
-const STAGE: [&str; 7] =
-    ["load", "mean_pressure", "approach", "force", "displacement", "sliding", "increments"];
+/// What a stage may change: in the normal direction, then in the plane.
+const STAGE: [&str; 6] = ["load", "mean_pressure", "approach", "force", "displacement", "sliding"];
 
 pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<FrictionSpec> {
     known_in(table)?;
-    let coefficient = table.required("coefficient", "0.3")?.number_or_infinite(
-        |value| value >= 0.0,
-        "a number of at least 0 such as 0.3, or inf: nothing slips",
-    )?;
-    let shear_strength = match table.get("shear_strength") {
-        Some(entry) => entry.positive_or_infinite(Dimension::Pressure, "no limit")?,
-        None => f64::INFINITY,
-    };
-    let weight = |entry: Entry<'_>| {
-        let alpha =
-            entry.number(|value| value >= 0.0 && value.is_finite(), "a number of at least 0 such as 9")?;
-        if alpha > 0.0 && !yields {
-            let hint = "give the softer body a `hardness`".to_owned();
-            return Err(entry.error("'junction_growth' needs bodies that yield".to_owned(), Some(hint)));
-        }
-        Ok(alpha)
-    };
-    let junction_growth = table.get("junction_growth").map_or(Ok(0.0), weight)?;
+    let coefficient = keys::COEFFICIENT.of(table)?;
+    let shear_strength = keys::SHEAR_STRENGTH.of(table)?;
+    let junction_growth = keys::JUNCTION_GROWTH.of(table)?;
+    if let Some(entry) = keys::JUNCTION_GROWTH.entry(table).filter(|_| junction_growth > 0.0 && !yields) {
+        let hint = "give the softer body a `hardness`".to_owned();
+        return Err(entry.error("'junction_growth' needs bodies that yield".to_owned(), Some(hint)));
+    }
     if moves
         && let Some(entry) = IN_PLANE.iter().chain(&["spin", "increments"]).find_map(|key| table.get(key))
     {
         let hint = "in a [motion] the upper body slides over the lower one".to_owned();
         return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
     }
-    let coupling = table.choice_or("coupling", Coupling::Full)?;
+    let coupling = keys::COUPLING.of(table)?;
     let law = Friction { coefficient, shear_strength, coupling, junction_growth };
     if moves {
-        slides(&law, &table.required("coefficient", "0.3")?)?;
+        slides(&law, &keys::COEFFICIENT.demand(table)?)?;
     }
-    let mut spec = FrictionSpec { law, prescribed: None, creepages: Vec::new(), spin: 0.0, increments: 1 };
-    match in_plane_key(table, &IN_PLANE)? {
-        Some("creepages") => spec.creepages = creepages(table.required("creepages", "[0.001]")?)?,
-        Some(key) => spec.prescribed = Some(in_plane(table, key, &law)?),
-        None => {}
-    }
+    at_most_one(table, &IN_PLANE)?;
+    let prescribed = in_plane(table, &law)?;
+    let creepages = keys::CREEPAGES.of(table)?.unwrap_or_default();
+    let mut spec = FrictionSpec { law, prescribed, creepages, spin: 0.0, increments: 1 };
     if spec.rolls()
-        && let Some(entry) = table.get("increments")
+        && let Some(entry) = keys::INCREMENTS.entry(table)
     {
         let message = "'increments' has no meaning in rolling".to_owned();
         return Err(entry.error(message, Some(STEADY.to_owned())));
     }
-    spec.spin = table.get("spin").map_or(Ok(0.0), |entry| spin(&entry, spec.rolls()))?;
-    spec.increments = increments(table, 1)?;
+    if let Some(entry) = keys::SPIN.entry(table).filter(|_| !spec.rolls()) {
+        let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
+        return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
+    }
+    spec.spin = keys::SPIN.of(table)?;
+    spec.increments = keys::INCREMENTS.of(table)?;
     Ok(spec)
 }
 
@@ -233,17 +223,8 @@ fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
     Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
 }
 
-/// The spin in 1/m, which only what rolls has.
-fn spin(entry: &Entry<'_>, rolls: bool) -> Result<f64> {
-    if !rolls {
-        let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
-        return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
-    }
-    entry.number(f64::is_finite, "a number, in 1/m")
-}
-
 /// The stages after the first, in the plane only where there is friction.
-pub(super) fn history(
+pub(super) fn stages(
     tables: &[Table<'_>],
     friction: Option<&FrictionSpec>,
     plasticity: Option<&PlasticitySpec>,
@@ -261,15 +242,15 @@ pub(super) fn history(
                 let message = "a rolling contact has no [[history]]".to_owned();
                 return Err(table.error(message, Some(STEADY.to_owned())));
             }
-            table.known(&STAGE, |key| belongs(key, table.path()))?;
-            let (normal, plane) = (&STAGE[..3], &STAGE[3..6]);
+            known_in(table)?;
+            let (normal, plane) = STAGE.split_at(3);
             let given = |keys: &[&str]| keys.iter().find_map(|key| table.get(key));
             if let (None, Some(entry)) = (friction, given(plane)) {
                 let hint = "add a [friction] table with its `coefficient`".to_owned();
                 let message = format!("'{}' acts on a contact with friction", entry.key());
                 return Err(entry.error(message, Some(hint)));
             }
-            if given(&STAGE[..6]).is_none() {
+            if given(&STAGE).is_none() {
                 let keys =
                     if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
                 let hint = format!("give {keys}; what a stage does not name stays");
@@ -278,52 +259,37 @@ pub(super) fn history(
             Ok(StageSpec {
                 normal: given(normal).is_some().then(|| prescribed(table)).transpose()?,
                 in_plane: match friction {
-                    Some(friction) => in_plane_key(table, plane)?
-                        .map(|key| in_plane(table, key, &friction.law))
-                        .transpose()?,
+                    Some(friction) => {
+                        at_most_one(table, plane)?;
+                        in_plane(table, &friction.law)?
+                    }
                     None => None,
                 },
-                increments: increments(table, steps)?,
+                increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
             })
         })
         .collect()
 }
 
-fn increments(table: &Table<'_>, default: usize) -> Result<usize> {
-    table.get("increments").map_or(Ok(default), |entry| entry.count(1))
-}
-
-/// The one of `keys` that is given, if any is.
-fn in_plane_key(table: &Table<'_>, keys: &[&'static str]) -> Result<Option<&'static str>> {
-    if keys.iter().all(|key| table.get(key).is_none()) {
-        return Ok(None);
+/// An error if more than one of `keys` is given.
+fn at_most_one(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
+    match keys.iter().any(|key| table.get(key).is_some()) {
+        true => table.exactly_one(keys, "give one of them, or none").map(|_| ()),
+        false => Ok(()),
     }
-    table.exactly_one(keys, "give one of them, or none").map(Some)
 }
 
-fn in_plane(table: &Table<'_>, key: &str, law: &Friction) -> Result<InPlane> {
-    let entry = table.required(key, "\"0.1 N\"")?;
-    let quantity = |dimension, expected| entry.vector(expected, |item| item.quantity(dimension));
-    let number = |expected| entry.vector(expected, |item| item.number(f64::is_finite, "a finite number"));
-    Ok(match key {
-        "force" => InPlane::Force(quantity(Dimension::Force, "a force along x, or two along x and y")?),
-        "rolling_force" => {
-            InPlane::RollingForce(quantity(Dimension::Force, "a force along x, or two along x and y")?)
-        }
-        "displacement" => {
-            InPlane::Displacement(quantity(Dimension::Length, "a length along x, or two along x and y")?)
-        }
-        "creepage" => InPlane::Creepage(number("a number along x, or two along x and y")?),
-        _ => {
-            slides(law, &entry)?;
-            let [x, y] = number("a direction such as [1, 0]")?;
-            let length = x.hypot(y);
-            if length == 0.0 {
-                return Err(entry.unexpected("a direction such as [1, 0]", None));
-            }
-            InPlane::Sliding([x / length, y / length])
-        }
-    })
+/// What [friction] or a stage prescribes in the plane, of which it names one at most.
+fn in_plane(table: &Table<'_>, law: &Friction) -> Result<Option<InPlane>> {
+    if let Some(entry) = keys::SLIDING.entry(table) {
+        slides(law, &entry)?;
+    }
+    let force = keys::FORCE.of(table)?.map(InPlane::Force);
+    let displacement = keys::DISPLACEMENT.of(table)?.map(InPlane::Displacement);
+    let sliding = keys::SLIDING.of(table)?.map(InPlane::Sliding);
+    let creepage = keys::CREEPAGE.of(table)?.map(InPlane::Creepage);
+    let rolling_force = keys::ROLLING_FORCE.of(table)?.map(InPlane::RollingForce);
+    Ok(force.or(displacement).or(sliding).or(creepage).or(rolling_force))
 }
 
 /// Why a rolling contact has neither stages nor increments.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 use super::Number;
-use super::cursor::Table;
+use super::cursor::{Entry, Table};
+use super::schema::body::{both, hardness_given as given, hardness_map as keys};
 use crate::error::Result;
 use crate::units::{Dimension, Pascal};
 
@@ -61,28 +62,31 @@ impl Serialize for Hardness {
     }
 }
 
-/// The hardness in the table of a body.
+impl Hardness {
+    /// One pressure or a table; a file as the table names it.
+    pub(super) fn read(entry: &Entry<'_>) -> Result<Self> {
+        if !entry.is_table() {
+            let infinite = "an elastic body, as is leaving it out";
+            return entry.positive_or_infinite(Dimension::Pressure, infinite).map(Self::Uniform);
+        }
+        let map = entry.clone().table()?;
+        if given::GIVEN.entry(&map).is_some() {
+            map.known(&["given"], |_| None)?;
+            return Ok(Self::Given(GivenMap { name: given::GIVEN.of(&map)? }));
+        }
+        map.known(&["file", "channel", "unit"], |_| None)?;
+        let path = match keys::FILE.of(&map)?.as_str() {
+            "" => return Err(keys::FILE.demand(&map)?.unexpected("the name of a file", None)),
+            path => PathBuf::from(path),
+        };
+        Ok(Self::Map(HardnessMap { path, channel: keys::CHANNEL.of(&map)?, unit: keys::UNIT.of(&map)? }))
+    }
+}
+
+/// The hardness in the table of a body, a file in the folder of the case.
 pub(super) fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
-    let Some(entry) = table.get("hardness") else { return Ok(Hardness::Uniform(Pascal::INFINITY)) };
-    if !entry.is_table() {
-        let value =
-            entry.positive_or_infinite(Dimension::Pressure, "an elastic body, as is leaving it out")?;
-        return Ok(Hardness::Uniform(value));
-    }
-    let map = entry.table()?;
-    if let Some(name) = map.get("given") {
-        map.known(&["given"], |_| None)?;
-        return Ok(Hardness::Given(GivenMap { name: name.text()?.to_owned() }));
-    }
-    map.known(&["file", "channel", "unit"], |_| None)?;
-    let name = map.required("file", "\"hardness.npy\"")?;
-    let path = match name.text()? {
-        "" => return Err(name.unexpected("the name of a file", None)),
-        path => folder.join(path),
-    };
-    Ok(Hardness::Map(HardnessMap {
-        path,
-        channel: map.get("channel").map(|entry| entry.text().map(str::to_owned)).transpose()?,
-        unit: map.get("unit").map(|entry| entry.unit(Dimension::Pressure)).transpose()?.unwrap_or(1.0),
-    }))
+    Ok(match both::HARDNESS.of(table)? {
+        Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),
+        other => other,
+    })
 }

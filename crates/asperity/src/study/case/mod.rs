@@ -3,19 +3,24 @@
 //! Everything is checked that the file alone can tell; each mistake is shown where it stands. A [`Case`] is in SI
 //! and serialises under the keys of the file, so that a summary holds the case that was computed.
 
+mod body;
+mod contact;
 pub(in crate::study) mod cursor;
 pub(in crate::study) mod document;
 mod friction;
 mod hardness;
-pub(in crate::study) mod keys;
+mod motion;
+mod output;
 mod parse;
 mod plasticity;
 mod prescribed;
 mod running;
+pub mod schema;
 mod sliding;
 mod source;
 mod subsurface;
 mod sweep;
+mod topography;
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::cursor::{Entry, Table};
-use super::keys::known_in;
+use super::schema::plasticity::{flow, volume as keys};
+use super::schema::tables::known_in;
 use super::{Body, CounterBody, FrictionSpec, Hardness, MotionSpec};
 use crate::choice::choice;
 use crate::error::Result;
@@ -99,47 +100,31 @@ pub(super) fn flow(
         let hint = Some("leave the coating or the plasticity out".to_owned());
         return Err(table.error("flow under a coating is not known yet".to_owned(), hint));
     }
-    let hardening =
-        match table.exactly_one(&["yield_stress", "curve"], "for example `yield_stress = \"1.5 GPa\"`")? {
-            "curve" => {
-                if let Some(entry) = table.get("hardening") {
-                    let hint = Some("the curve has the hardening: leave this key out".to_owned());
-                    return Err(entry.error("'hardening' has no meaning beside a 'curve'".to_owned(), hint));
-                }
-                HardeningKey::Curve { curve: curve(&table.required("curve", "[[0, \"1.5 GPa\"]]")?)? }
+    let hint = "for example `yield_stress = \"1.5 GPa\"`";
+    let hardening = match table.exactly_one(&["yield_stress", "curve"], hint)? {
+        "curve" => {
+            if let Some(entry) = flow::HARDENING.entry(table) {
+                let hint = Some("the curve has the hardening: leave this key out".to_owned());
+                return Err(entry.error("'hardening' has no meaning beside a 'curve'".to_owned(), hint));
             }
-            _ => HardeningKey::Linear {
-                yield_stress: table.required("yield_stress", "\"1.5 GPa\"")?.positive(Dimension::Pressure)?,
-                hardening: modulus(table, "hardening")?,
-            },
-        };
-    let kinematic = modulus(table, "kinematic")?;
-    let recovery = match table.get("recovery") {
-        None => 0.0,
-        Some(entry) => {
-            let recovery = entry.number(|value| value >= 0.0, "a number of at least 0")?;
-            if recovery > 0.0 && kinematic == 0.0 {
-                let hint = Some("give a modulus `kinematic`, or leave 'recovery' out".to_owned());
-                let message = "'recovery' is that of a back stress, of which there is none".to_owned();
-                return Err(entry.error(message, hint));
-            }
-            recovery
+            HardeningKey::Curve { curve: flow::CURVE.required(table)? }
         }
+        _ => HardeningKey::Linear {
+            yield_stress: flow::YIELD_STRESS.required(table)?,
+            hardening: flow::HARDENING.of(table)?,
+        },
     };
+    let (kinematic, recovery) = (flow::KINEMATIC.of(table)?, flow::RECOVERY.of(table)?);
+    if let Some(entry) = flow::RECOVERY.entry(table).filter(|_| recovery > 0.0 && kinematic == 0.0) {
+        let hint = Some("give a modulus `kinematic`, or leave 'recovery' out".to_owned());
+        let message = "'recovery' is that of a back stress, of which there is none".to_owned();
+        return Err(entry.error(message, hint));
+    }
     Ok(FlowSpec { hardening, kinematic, recovery })
 }
 
-/// A modulus of at least 0, 0 where it is not given.
-fn modulus(table: &Table<'_>, key: &str) -> Result<Pascal> {
-    let Some(entry) = table.get(key) else { return Ok(0.0) };
-    match entry.quantity(Dimension::Pressure)? {
-        value if value >= 0.0 => Ok(value),
-        _ => Err(entry.unexpected("a modulus of at least 0", None)),
-    }
-}
-
 /// A measured curve of the yield stress.
-fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pascal)>> {
+pub(super) fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pascal)>> {
     const EXPECTED: &str =
         "points of plastic strain and stress such as [[0, \"1.5 GPa\"], [0.01, \"1.7 GPa\"]]";
     let point = |item: &Entry<'_>| -> Result<(f64, Pascal)> {
@@ -205,46 +190,28 @@ pub(super) fn plasticity(
         let hint = "use \"free\" or \"periodic\", or give the bodies a `hardness`".to_owned();
         return Err(entry.error(message.to_owned(), Some(hint)));
     }
-    let depth = table.required("depth", "\"20 um\"")?.positive(Dimension::Length)?;
-    let entry = table.required("layers", "16")?;
-    let layers = entry.count(1)?;
-    if layers > MAX_LAYERS {
-        return Err(entry.unexpected(&format!("a whole number from 1 to {MAX_LAYERS}"), None));
-    }
-    let growth = table
-        .get("growth")
-        .map(|entry| entry.number(|value| (1.0..=2.0).contains(&value), "a number from 1 to 2"));
+    let (depth, layers) = (keys::DEPTH.of(&table)?, keys::LAYERS.of(&table)?);
     if let Some(motion) = motion {
         moves(root, &table, bodies, boundary, motion)?;
-    } else if let Some(entry) = table.get("keep") {
+    } else if let Some(entry) = keys::KEEP.entry(&table) {
         let hint = Some("leave it out: a contact at rest has one volume, that of its end".to_owned());
         return Err(entry.error("'keep' is that of the passes of a [motion]".to_owned(), hint));
     }
     let at_rest = motion.is_none();
-    let increments = table.get("increments").map_or(Ok(DEFAULT_INCREMENTS), |entry| entry.count(1))?;
+    let increments = keys::INCREMENTS.of(&table)?;
     if let Some(friction) = friction.as_mut().filter(|_| at_rest) {
         rubs(root, &table, friction, increments)?;
     }
-    let unload = table.get("unload").map_or(Ok(true), |entry| entry.flag())?;
-    let keep = table.choice_or("keep", Keep::Last)?;
-    let tolerance = table
-        .get("tolerance")
-        .map(|entry| entry.number(|value| value > 0.0 && value < 1.0, "a number above 0, below 1"));
     Ok(Some(PlasticitySpec {
         depth,
         layers,
-        growth: growth.transpose()?.unwrap_or(1.0),
+        growth: keys::GROWTH.of(&table)?,
         increments: (at_rest && friction.is_none()).then_some(increments),
-        tolerance: tolerance.transpose()?.unwrap_or(1e-4),
-        unload: at_rest.then_some(unload),
-        keep: (!at_rest).then_some(keep),
+        tolerance: keys::TOLERANCE.of(&table)?,
+        unload: at_rest.then_some(keys::UNLOAD.of(&table)?),
+        keep: (!at_rest).then_some(keys::KEEP.of(&table)?),
     }))
 }
-
-/// The most layers of a volume.
-const MAX_LAYERS: usize = 512;
-/// Equal steps of a load where none are asked for.
-const DEFAULT_INCREMENTS: usize = 16;
 
 /// An error where bodies that flow have what goes with a hardness alone.
 fn suits(root: &Table<'_>, name: &str, bodies: [&Body; 2]) -> Result<()> {

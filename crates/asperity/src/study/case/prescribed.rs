@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::cursor::Table;
+use super::schema::contact::contact as keys;
 use crate::error::Result;
 use crate::solver;
-use crate::units::{Dimension, Metre, Newton, Pascal, SquareMetre};
+use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
 /// What holds the bodies together.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -30,16 +31,14 @@ impl Prescribed {
     }
 }
 
-/// The one of the three that `table` gives.
+/// The one of the three that `table`, [contact] or a stage of a [[history]], gives.
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
-    let key = table.exactly_one(
+    table.exactly_one(
         &["load", "mean_pressure", "approach"],
         "for example `load = \"2 N\"` and no other of them",
     )?;
-    let entry = table.required(key, "\"2 N\"")?;
-    Ok(match key {
-        "load" => Prescribed::Load(entry.positive(Dimension::Force)?),
-        "mean_pressure" => Prescribed::MeanPressure(entry.positive(Dimension::Pressure)?),
-        _ => Prescribed::Approach(entry.quantity(Dimension::Length)?),
-    })
+    let load = keys::LOAD.of(table)?.map(Prescribed::Load);
+    let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
+    let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);
+    Ok(load.or(pressure).or(approach).expect("one of the three is given"))
 }

@@ -3,13 +3,16 @@
 use serde::Serialize;
 
 use super::cursor::{Entry, Table};
-use super::keys::known_in;
+use super::schema::body::both as body;
+use super::schema::tables::{known_in, suits_choice};
+use super::schema::wear::{
+    acceleration, arrhenius, film, mechano_chemical, solid_lubricant, temperature, wear,
+};
 use super::{Body, Boundary, Case, CounterBody, Hardness, MotionSpec, SlidingSpec};
 use crate::choice::{Choice, choice};
 use crate::error::Result;
 use crate::motion::{
-    ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, Acceleration, Film, FilmLaw, FilmStress, Films, GROWTH_FACTORS,
-    GROWTH_TEMPERATURES, InPlace, Pair, PlasticUpdate, REMOVAL_RATES, Simulation, Strategy, Wear,
+    Acceleration, Film, FilmLaw, FilmStress, Films, InPlace, Pair, PlasticUpdate, Simulation, Strategy, Wear,
     WearCoefficient,
 };
 use crate::temperature::Thermal;
@@ -51,13 +54,15 @@ pub struct FilmSpec {
     pub hardness: Option<Pascal>,
 }
 
+/// A [`FilmLaw`] without its parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum LawKind {
+pub(super) enum LawKind {
     Arrhenius,
     MechanoChemical,
+    SolidLubricant,
 }
 
-choice!(LawKind: "arrhenius" => Arrhenius, "mechano-chemical" => MechanoChemical);
+choice!(LawKind: "arrhenius" => Arrhenius, "mechano-chemical" => MechanoChemical, "solid-lubricant" => SolidLubricant);
 
 /// Temperatures of the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -73,13 +78,11 @@ pub struct TemperatureSpec {
 pub(super) fn wear(table: &Table<'_>, hardness: &Hardness, film: Option<&FilmSpec>) -> Result<WearSpec> {
     known_in(table)?;
     let keys = ["coefficient", "dimensionless", "energy"];
-    let positive = |key: &str, example| table.required(key, example)?.positive(Dimension::WearCoefficient);
     let coefficient = match table.exactly_one(&keys, "for example `coefficient = \"1e-7 mm3/(N m)\"`")? {
-        "coefficient" => WearKey::Coefficient(positive("coefficient", "\"1e-7 mm3/(N m)\"")?),
-        "energy" => WearKey::Energy(positive("energy", "\"1e-6 mm3/J\"")?),
+        "coefficient" => WearKey::Coefficient(wear::COEFFICIENT.required(table)?),
+        "energy" => WearKey::Energy(wear::ENERGY.required(table)?),
         _ => {
-            let entry = table.required("dimensionless", "4e-7")?;
-            let number = entry.number(|value| value > 0.0, "a number above 0 such as 4e-7")?;
+            let number = wear::DIMENSIONLESS.required(table)?;
             match hardness {
                 Hardness::Uniform(hardness) if hardness.is_finite() => {
                     WearKey::Coefficient(number / hardness)
@@ -87,150 +90,97 @@ pub(super) fn wear(table: &Table<'_>, hardness: &Hardness, film: Option<&FilmSpe
                 _ => {
                     let message = "'dimensionless' is multiplied with the load over the 'hardness', of which there is none";
                     let hint = "give one hardness to this body, or `coefficient = \"1e-7 mm3/(N m)\"`";
+                    let entry = wear::DIMENSIONLESS.demand(table)?;
                     return Err(entry.error(message.to_owned(), Some(hint.to_owned())));
                 }
             }
         }
     };
     let (WearKey::Coefficient(bare) | WearKey::Energy(bare)) = coefficient;
-    let under_film =
-        table.get("under_film").map(|entry| under_film(&entry, bare, film.is_some())).transpose()?;
-    Ok(WearSpec { coefficient, under_film })
+    Ok(WearSpec { coefficient, under_film: under_film(table, bare, film.is_some())? })
 }
 
-fn under_film(entry: &Entry<'_>, bare: PerPascal, has_film: bool) -> Result<PerPascal> {
+fn under_film(table: &Table<'_>, bare: PerPascal, has_film: bool) -> Result<Option<PerPascal>> {
+    let Some(entry) = wear::UNDER_FILM.entry(table) else { return Ok(None) };
     if !has_film {
         let hint = "give the body a film, or leave 'under_film' out".to_owned();
         return Err(entry.error("'under_film' belongs to a body with a film".to_owned(), Some(hint)));
     }
-    let under_film = entry.positive(Dimension::WearCoefficient)?;
+    let under_film = wear::UNDER_FILM.required(table)?;
     if under_film > bare {
         return Err(entry.unexpected("no more than the coefficient of the bare body", None));
     }
-    Ok(under_film)
+    Ok(Some(under_film))
 }
 
 /// The film in the table of a body.
 pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
     known_in(table)?;
-    let law = table.required("law", "\"arrhenius\"")?.choice::<LawKind>()?;
-    let own: &[&str] = match law {
-        LawKind::Arrhenius => &["x", "c3", "c4"],
-        LawKind::MechanoChemical => &[
-            "rate",
-            "at_temperature",
-            "at_stress",
-            "activation_energy",
-            "activation_volume",
-            "stress",
-            "removal",
-        ],
-    };
-    if let Some(entry) = own.iter().find_map(|key| table.get(key)) {
-        return Err(
-            entry.error(format!("'{}' has no meaning with law = \"{}\"", entry.key(), law.word()), None)
-        );
-    }
-    let positive = |key: &str, example: &str, dimension| table.required(key, example)?.positive(dimension);
-    let max_thickness = positive("max_thickness", "\"150 nm\"", Dimension::Length)?;
-    let from_0 = |key: &str, example: &str, dimension| {
-        let entry = table.required(key, example)?;
-        let value = entry.quantity(dimension)?;
-        if value >= 0.0 { Ok(value) } else { Err(entry.unexpected("a value of at least 0", None)) }
-    };
-    let within = |key: &str, example: &str, dimension, range, zero| {
-        table.required(key, example)?.within(dimension, range, zero, example)
-    };
-    let number =
-        |key: &str, example: &str, range, zero| table.required(key, example)?.number_within(range, zero);
+    let law = film::LAW.of(table)?;
+    suits_choice(table, &format!("law = \"{}\"", law.word()))?;
+    let max_thickness = film::MAX_THICKNESS.of(table)?;
     let law = match law {
         LawKind::Arrhenius => FilmLaw::Arrhenius {
-            rate: positive("rate", "\"20 nm/s\"", Dimension::Speed)?,
-            at_temperature: within(
-                "at_temperature",
-                "\"100 °C\"",
-                Dimension::Temperature,
-                GROWTH_TEMPERATURES,
-                false,
-            )?,
-            at_stress: from_0("at_stress", "\"3 GPa\"", Dimension::Pressure)?,
-            activation_energy: within(
-                "activation_energy",
-                "\"0.8 eV\"",
-                Dimension::Energy,
-                ACTIVATION_ENERGIES,
-                true,
-            )?,
-            activation_volume: within(
-                "activation_volume",
-                "\"3.8e-3 nm3\"",
-                Dimension::Volume,
-                ACTIVATION_VOLUMES,
-                true,
-            )?,
-            stress: table.choice_or("stress", FilmStress::Pressure)?,
-            removal: table
-                .get("removal")
-                .map_or(Ok(0.0), |_| from_0("removal", "", Dimension::RemovalRate))?,
+            rate: arrhenius::RATE.of(table)?,
+            at_temperature: arrhenius::AT_TEMPERATURE.of(table)?,
+            at_stress: arrhenius::AT_STRESS.of(table)?,
+            activation_energy: arrhenius::ACTIVATION_ENERGY.of(table)?,
+            activation_volume: arrhenius::ACTIVATION_VOLUME.of(table)?,
+            stress: arrhenius::STRESS.of(table)?,
+            removal: arrhenius::REMOVAL.of(table)?,
         },
         LawKind::MechanoChemical => {
-            let c3 = from_0("c3", "\"50 nm\"", Dimension::Length)?;
+            let c3 = mechano_chemical::C3.of(table)?;
             if c3 > max_thickness {
-                return Err(table.required("c3", "")?.unexpected("no more than 'max_thickness'", None));
+                let entry = mechano_chemical::C3.demand(table)?;
+                return Err(entry.unexpected("no more than 'max_thickness'", None));
             }
             FilmLaw::MechanoChemical {
-                x: number("x", "1e-16", GROWTH_FACTORS, false)?,
+                x: mechano_chemical::X.of(table)?,
                 c3,
-                c4: number("c4", "0.01", REMOVAL_RATES, true)?,
+                c4: mechano_chemical::C4.of(table)?,
             }
         }
+        LawKind::SolidLubricant => FilmLaw::SolidLubricant { wear: solid_lubricant::WEAR.of(table)? },
     };
-    let hardness = match table.get("hardness") {
-        None => None,
-        Some(entry) => {
-            let hardness = entry.positive(Dimension::Pressure)?;
-            let hint = || Some("a film that bears more than its body is one without a 'hardness'".to_owned());
-            match body {
-                Hardness::Uniform(body) if !body.is_finite() => {
-                    return Err(
-                        entry.error("a film has a 'hardness' where its body has one".to_owned(), hint())
-                    );
-                }
-                Hardness::Uniform(body) if hardness > *body => {
-                    return Err(entry.unexpected("no more than the hardness of the body", hint()));
-                }
-                _ => Some(hardness),
-            }
+    let hardness = film::HARDNESS.of(table)?;
+    if let (Some(entry), Some(hardness), Hardness::Uniform(body)) =
+        (film::HARDNESS.entry(table), hardness, body)
+    {
+        let hint = Some("a film that bears more than its body is one without a 'hardness'".to_owned());
+        if !body.is_finite() {
+            return Err(entry.error("a film has a 'hardness' where its body has one".to_owned(), hint));
         }
-    };
+        if hardness > *body {
+            return Err(entry.unexpected("no more than the hardness of the body", hint));
+        }
+    }
     Ok(FilmSpec { law, max_thickness, hardness })
 }
 
 /// `[acceleration]`.
 pub(super) fn acceleration(table: &Table<'_>) -> Result<Acceleration> {
     known_in(table)?;
-    let default = Acceleration::default();
-    let tolerance = table
-        .get("tolerance")
-        .map(|entry| entry.number(|value| value > 0.0, "a number above 0 such as 0.01"));
-    let max_wear = table.get("max_wear").map(|entry| entry.positive(Dimension::Length));
-    Ok(default
-        .with_tolerance(tolerance.transpose()?.unwrap_or(default.tolerance))
-        .with_max_jump(table.get("max_jump").map_or(Ok(default.max_jump), |entry| entry.count(1))?)
-        .with_max_wear(max_wear.transpose()?.unwrap_or(default.max_wear)))
+    Ok(Acceleration::default()
+        .with_tolerance(acceleration::TOLERANCE.of(table)?)
+        .with_max_jump(acceleration::MAX_JUMP.of(table)?)
+        .with_max_wear(acceleration::MAX_WEAR.of(table)?))
 }
 
 /// The thermal constants of a body, all of them or none.
 pub(super) fn thermal(table: &Table<'_>) -> Result<Option<Thermal>> {
-    const KEYS: [&str; 3] = ["conductivity", "heat_capacity", "density"];
-    if KEYS.iter().all(|key| table.get(key).is_none()) {
+    let keys = [body::CONDUCTIVITY, body::HEAT_CAPACITY, body::DENSITY];
+    if keys.iter().all(|key| key.entry(table).is_none()) {
         return Ok(None);
     }
-    let conductivity = table.required("conductivity", "\"46 W/(m K)\"")?.positive(Dimension::Conductivity)?;
-    let heat_capacity =
-        table.required("heat_capacity", "\"460 J/(kg K)\"")?.positive(Dimension::HeatCapacity)?;
-    let density = table.required("density", "\"7850 kg/m3\"")?.positive(Dimension::Density)?;
-    Thermal::new(conductivity, heat_capacity, density).map(Some)
+    let [conductivity, heat_capacity, density] = keys.map(|key| key.required(table));
+    Thermal::new(conductivity?, heat_capacity?, density?).map(Some)
+}
+
+/// The temperatures of the lower and of the upper body.
+pub(super) fn bulk(entry: &Entry<'_>) -> Result<[Kelvin; 2]> {
+    let expected = "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
+    entry.pair(expected, |item| item.positive(Dimension::Temperature))
 }
 
 /// `[temperature]`, with the flash temperature where both bodies have thermal constants.
@@ -262,10 +212,8 @@ pub(super) fn temperature(
     if motion.is_none() && sliding.is_none() {
         return Err(table.error("a contact at rest has no [temperature]".to_owned(), None));
     }
-    let entry = table.required("bulk", "\"100 °C\"")?;
-    let expected = "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
-    let bulk = entry.pair(expected, |item| item.positive(Dimension::Temperature))?;
-    let every = table.get("every").map_or(Ok(usize::from(given[0])), |entry| entry.count(0))?;
+    let bulk = temperature::BULK.of(&table)?;
+    let every = temperature::EVERY.of(&table)?.unwrap_or(usize::from(given[0]));
     if let (Some(entry), Some(_), 2..) = (table.get("every"), sliding, every) {
         return Err(entry.unexpected("1, the flash temperature of each update, or 0, none", None));
     }

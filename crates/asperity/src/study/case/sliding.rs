@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::cursor::Table;
-use super::keys::known_in;
+use super::schema::motion::sliding as keys;
+use super::schema::tables::known_in;
 use super::{Body, Case, sweep};
 use crate::error::Result;
 use crate::motion::Slide;
-use crate::units::{Dimension, Metre, MetrePerSecond, SquareMetre};
+use crate::units::{Metre, MetrePerSecond, SquareMetre};
 
 /// How a static contact slides in place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -18,19 +19,17 @@ pub struct SlidingSpec {
     /// Speed of the upper body over the lower one, > 0; not known if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
-    /// Implicit updates, ≥ 1: 40.
+    /// Implicit updates, ≥ 1.
     pub updates: usize,
 }
 
-/// Updates where the file gives none.
-const UPDATES: usize = 40;
-
 pub(super) fn sliding(table: &Table<'_>) -> Result<SlidingSpec> {
     known_in(table)?;
-    let distance = table.required("distance", "\"640 mm\"")?.positive(Dimension::Length)?;
-    let speed = table.get("speed").map(|entry| entry.positive(Dimension::Speed)).transpose()?;
-    let updates = table.get("updates").map_or(Ok(UPDATES), |entry| entry.count(1))?;
-    Ok(SlidingSpec { distance, speed, updates })
+    Ok(SlidingSpec {
+        distance: keys::DISTANCE.of(table)?,
+        speed: keys::SPEED.of(table)?,
+        updates: keys::UPDATES.of(table)?,
+    })
 }
 
 /// An error if what slides in place moves besides, has a past or several loads, or nothing that the sliding changes.

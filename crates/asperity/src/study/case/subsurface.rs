@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::cursor::{Entry, Table};
-use super::keys::known_in;
+use super::schema::output::subsurface as keys;
+use super::schema::tables::known_in;
 use crate::choice::choice;
 use crate::error::Result;
 use crate::units::{Dimension, Metre};
@@ -43,43 +44,34 @@ pub enum Side {
 
 choice!(Side: "lower" => Lower, "upper" => Upper);
 
-/// Beyond this many planes nobody looks at them.
-const MAX_LAYERS: usize = 10_000;
-
 pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpec> {
     known_in(table)?;
-    let layers = |entry: Entry<'_>| match entry.count(1)? {
-        layers if layers <= MAX_LAYERS => Ok(layers),
-        _ => Err(entry.unexpected("at most 10000", None)),
-    };
-    let position = |entry: &Entry<'_>| entry.array("a position [x, y] of two lengths", length);
-    let step = table.get("step").map(|entry| {
-        let step = entry.count(1)?;
-        let hint = || Some("a static contact has one position; leave it out".to_owned());
-        if moves {
-            Ok(step)
-        } else {
-            Err(entry.error("'step' has no meaning without [motion]".to_owned(), hint()))
-        }
-    });
+    let step = keys::STEP.of(table)?;
+    if let Some(entry) = keys::STEP.entry(table).filter(|_| !moves) {
+        let hint = "a static contact has one position; leave it out".to_owned();
+        return Err(entry.error("'step' has no meaning without [motion]".to_owned(), Some(hint)));
+    }
     Ok(SubsurfaceSpec {
-        body: table.choice_or("body", Side::Lower)?,
-        to: table.required("to", "\"20 um\"")?.positive(Dimension::Length)?,
-        layers: table.get("layers").map(layers).transpose()?.unwrap_or(40),
-        planes: list(table, "planes", "a list of depths such as [\"1 um\", \"5 um\"]", length)?,
-        section: table.get("section").map(|entry| length(&entry)).transpose()?,
-        columns: list(table, "columns", "a list of positions such as [[\"5 um\", \"10 um\"]]", position)?,
-        step: step.transpose()?,
+        body: keys::BODY.of(table)?,
+        to: keys::TO.of(table)?,
+        layers: keys::LAYERS.of(table)?,
+        planes: keys::PLANES.of(table)?.unwrap_or_default(),
+        section: keys::SECTION_Y.of(table)?,
+        columns: keys::COLUMNS.of(table)?.unwrap_or_default(),
+        step,
     })
 }
 
-fn list<'a, T>(
-    table: &Table<'a>,
-    key: &str,
-    expected: &str,
-    read: impl Fn(&Entry<'a>) -> Result<T>,
-) -> Result<Vec<T>> {
-    table.get(key).map_or(Ok(Vec::new()), |entry| entry.list(expected, read))
+/// Depths below the surface.
+pub(super) fn depths(entry: &Entry<'_>) -> Result<Vec<Metre>> {
+    entry.list("a list of depths such as [\"1 um\", \"5 um\"]", length)
+}
+
+/// Positions on the surface.
+pub(super) fn positions(entry: &Entry<'_>) -> Result<Vec<[Metre; 2]>> {
+    entry.list("a list of positions such as [[\"5 um\", \"10 um\"]]", |item| {
+        item.array("a position [x, y] of two lengths", length)
+    })
 }
 
 /// A length of at least 0.

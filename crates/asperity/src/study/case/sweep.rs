@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::prescribed::Prescribed;
+use super::schema::contact::{contact, sweep as keys};
+use super::schema::tables::known_in;
+use crate::choice::choice;
 use crate::error::Result;
 use crate::units::{Dimension, Metre, Newton, Pascal};
 
@@ -42,43 +45,56 @@ impl Sweep {
 /// Keys of a sweep in `[contact]`.
 pub(super) const KEYS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
 
+/// How values follow on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Spacing {
+    Log,
+    Linear,
+}
+
+choice!(Spacing: "log" => Log, "linear" => Linear);
+
 /// The sweep of a table, if it has one.
 pub(super) fn sweep(table: &Table<'_>) -> Result<Option<Sweep>> {
-    let Some((key, entry)) = KEYS.iter().find_map(|key| Some((*key, table.get(key)?))) else {
-        return Ok(None);
-    };
-    let positive = |dimension| move |entry: &Entry<'_>| entry.positive(dimension).map(|value| [value]);
-    Ok(Some(match key {
-        "loads" => {
-            Sweep::Loads(values(entry, "\"0.1 N\"", true, positive(Dimension::Force))?.into_flattened())
-        }
-        "mean_pressures" => {
-            let pressures = values(entry, "\"1 MPa\"", true, positive(Dimension::Pressure))?;
-            Sweep::MeanPressures(pressures.into_flattened())
-        }
-        _ => {
-            let length = |entry: &Entry<'_>| entry.quantity(Dimension::Length).map(|value| [value]);
-            Sweep::Approaches(values(entry, "\"10 nm\"", false, length)?.into_flattened())
-        }
-    }))
+    let loads = contact::LOADS.of(table)?.map(Sweep::Loads);
+    let pressures = contact::MEAN_PRESSURES.of(table)?.map(Sweep::MeanPressures);
+    let approaches = contact::APPROACHES.of(table)?.map(Sweep::Approaches);
+    Ok(loads.or(pressures).or(approaches))
+}
+
+/// The loads of a sweep.
+pub(super) fn loads(entry: &Entry<'_>) -> Result<Vec<Newton>> {
+    let load = |entry: &Entry<'_>| entry.positive(Dimension::Force).map(|value| [value]);
+    Ok(values(entry, "\"0.1 N\"", Spacing::Log, load)?.into_flattened())
+}
+
+/// The mean pressures of a sweep.
+pub(super) fn mean_pressures(entry: &Entry<'_>) -> Result<Vec<Pascal>> {
+    let pressure = |entry: &Entry<'_>| entry.positive(Dimension::Pressure).map(|value| [value]);
+    Ok(values(entry, "\"1 MPa\"", Spacing::Log, pressure)?.into_flattened())
+}
+
+/// The approaches of a sweep.
+pub(super) fn approaches(entry: &Entry<'_>) -> Result<Vec<Metre>> {
+    let length = |entry: &Entry<'_>| entry.quantity(Dimension::Length).map(|value| [value]);
+    Ok(values(entry, "\"10 nm\"", Spacing::Linear, length)?.into_flattened())
 }
 
 /// The creepages of a sweep along x and y.
-pub(super) fn creepages(entry: Entry<'_>) -> Result<Vec<[f64; 2]>> {
+pub(super) fn creepages(entry: &Entry<'_>) -> Result<Vec<[f64; 2]>> {
     let number = |entry: &Entry<'_>| entry.number(f64::is_finite, "a finite number");
     let expected = "a number along x, or two along x and y";
-    values(entry, "[0.001, 0]", false, |entry| entry.vector(expected, number))
+    values(entry, "[0.001, 0]", Spacing::Linear, |entry| entry.vector(expected, number))
 }
 
 /// The most points of a sweep.
 const MAX_POINTS: usize = 10_000;
 
-/// A list of values of N components, or a table of `from`, `to`, `points` and `spacing`; `by_ratio`: by default in equal
-/// ratios.
+/// A list of values of N components, or a table of `from`, `to`, `points` and `spacing`.
 fn values<'a, const N: usize>(
-    entry: Entry<'a>,
+    entry: &Entry<'a>,
     example: &str,
-    by_ratio: bool,
+    spacing: Spacing,
     read: impl Fn(&Entry<'a>) -> Result<[f64; N]>,
 ) -> Result<Vec<[f64; N]>> {
     let expected = format!(
@@ -92,16 +108,11 @@ fn values<'a, const N: usize>(
             _ => Err(entry.unexpected("at most 10000 values", None)),
         };
     }
-    let table = entry.table()?;
-    table.known(&["from", "to", "points", "spacing"], |_| None)?;
+    let table = entry.clone().table()?;
+    known_in(&table)?;
     let [from, to] = [table.required("from", example)?, table.required("to", example)?];
-    let points = table.required("points", "9")?;
-    let (first, last, count) = (read(&from)?, read(&to)?, points.count(2)?);
-    if count > MAX_POINTS {
-        return Err(points.unexpected("a whole number of at most 10000", None));
-    }
-    let spacings = [("log", true), ("linear", false)];
-    let by_ratio = table.get("spacing").map_or(Ok(by_ratio), |entry| entry.word(&spacings))?;
+    let (first, last, count) = (read(&from)?, read(&to)?, keys::POINTS.of(&table)?);
+    let by_ratio = keys::SPACING.of(&table)?.unwrap_or(spacing) == Spacing::Log;
     // A component that is 0 at both ends stays so.
     let has_ratio = |k: usize| first[k] * last[k] > 0.0 || (N > 1 && first[k] == 0.0 && last[k] == 0.0);
     if by_ratio && let Some(k) = (0..N).find(|k| !has_ratio(*k)) {

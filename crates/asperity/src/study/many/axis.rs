@@ -8,6 +8,7 @@ use toml::Value;
 use crate::error::Result;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::join;
+use crate::study::case::schema::tables::dimension;
 use crate::units::{self, Dimension};
 
 /// A key of the case and the values that it takes.
@@ -31,29 +32,14 @@ pub(super) struct Stated {
 }
 
 impl Axis {
-    /// An axis of at least one value. The unit of numbers that have none is not known yet.
+    /// An axis of at least one value, in the unit of its key.
     pub(super) fn new(key: String, values: Vec<Stated>) -> Self {
+        let dimension = dimension(&key);
+        let numbers: Option<Vec<f64>> =
+            values.iter().map(|stated| number(&stated.value, dimension)).collect();
+        let texts = texts(&values, numbers.as_deref(), dimension);
         let is_seed = key.ends_with("seed");
-        let mut axis = Self { key, values, numbers: None, dimension: None, texts: Vec::new(), is_seed };
-        let texts: Vec<&str> = axis.values.iter().filter_map(|stated| stated.value.as_str()).collect();
-        let fits = |dimension: &Dimension| texts.iter().all(|text| units::parse(text, *dimension).is_ok());
-        if !texts.is_empty() {
-            axis.dimension = Dimension::ALL.into_iter().find(fits);
-        }
-        axis.measure(axis.dimension);
-        axis
-    }
-
-    /// Gives numbers without a unit the one that the case takes them in, if it takes any.
-    pub(super) fn measure(&mut self, dimension: Option<Dimension>) {
-        self.dimension = dimension;
-        self.numbers = self.values.iter().map(|stated| number(&stated.value, dimension)).collect();
-        self.texts = texts(&self.values, self.numbers.as_deref(), dimension);
-    }
-
-    /// Whether all values are numbers without a unit.
-    pub(super) fn is_bare(&self) -> bool {
-        self.values.iter().all(|stated| stated.value.is_integer() || stated.value.is_float())
+        Self { key, values, numbers, dimension, texts, is_seed }
     }
 
     /// The dotted key of the case: `contact.load`.
@@ -345,34 +331,42 @@ mod tests {
 
     #[test]
     fn a_value_is_said_with_the_digits_that_tell_it_from_the_others() {
-        let said = |values: &[Value], dimension: Option<Dimension>| {
+        let said = |key: &str, values: &[Value]| {
             let stated = |value: &Value| Stated { value: value.clone(), span: 0..0 };
-            let mut axis = Axis::new("a.b".to_owned(), values.iter().map(stated).collect());
-            if axis.is_bare() {
-                axis.measure(dimension);
-            }
+            let axis = Axis::new(key.to_owned(), values.iter().map(stated).collect());
             let of = |index| (axis.text(index).to_owned(), axis.cell(index));
             (0..axis.len()).map(of).unzip::<_, _, Vec<_>, Vec<_>>()
         };
         let texts = |texts: &[&str]| texts.iter().map(|text| Value::from(*text)).collect::<Vec<_>>();
         let floats = |numbers: &[f64]| numbers.iter().map(|number| Value::from(*number)).collect::<Vec<_>>();
 
-        let (told, kept) =
-            said(&texts(&["10 MPa", "31.6227766017 MPa", "100 MPa", "316.227766017 MPa"]), None);
+        let (told, kept) = said(
+            "contact.mean_pressure",
+            &texts(&["10 MPa", "31.6227766017 MPa", "100 MPa", "316.227766017 MPa"]),
+        );
         assert_eq!(told, ["10 MPa", "31.6 MPa", "100 MPa", "316 MPa"]);
         assert_eq!(kept[1], "31622776.6017");
-        let (told, kept) = said(&floats(&[0.01, 0.0316227766017, 0.1]), None);
+        let (told, kept) = said("friction.coefficient", &floats(&[0.01, 0.0316227766017, 0.1]));
         assert_eq!(
             (told, kept[1].as_str()),
             (vec!["0.01".into(), "0.0316".into(), "0.1".into()], "0.0316227766017")
         );
-        assert_eq!(said(&floats(&[0.01, 0.0316227766017]), Some(Dimension::Force)).0, ["10 mN", "31.6 mN"]);
+        assert_eq!(said("contact.load", &floats(&[0.01, 0.0316227766017])).0, ["10 mN", "31.6 mN"]);
         // So many that they differ, and none that was stated is lost where it is short.
-        assert_eq!(said(&floats(&[1.00001, 1.00002]), Some(Dimension::Force)).0, ["1.00001 N", "1.00002 N"]);
-        assert_eq!(said(&texts(&["1.23456 N", "1.23416 N", "1 N"]), None).0, ["1.235 N", "1.234 N", "1 N"]);
-        assert_eq!(said(&texts(&["1.234 N", "35nm"]), None).0, ["1.234 N", "35nm"]);
-        assert_eq!(said(&texts(&["1.234 N", "12345.6 N"]), None).0, ["1.234 N", "12346 N"]);
-        assert_eq!(said(&floats(&[1e-8, 1.23456e-7, 0.1, 0.1]), None).0, ["1e-8", "1.23e-7", "0.1", "0.1"]);
-        assert_eq!(said(&[Value::from(123_456), Value::from(123_457)], None).0, ["123456", "123457"]);
+        assert_eq!(said("contact.load", &floats(&[1.00001, 1.00002])).0, ["1.00001 N", "1.00002 N"]);
+        assert_eq!(
+            said("contact.load", &texts(&["1.23456 N", "1.23416 N", "1 N"])).0,
+            ["1.235 N", "1.234 N", "1 N"]
+        );
+        assert_eq!(said("title", &texts(&["1.234 N", "35nm"])).0, ["1.234 N", "35nm"]);
+        assert_eq!(said("contact.load", &texts(&["1.234 N", "12345.6 N"])).0, ["1.234 N", "12346 N"]);
+        assert_eq!(
+            said("friction.coefficient", &floats(&[1e-8, 1.23456e-7, 0.1, 0.1])).0,
+            ["1e-8", "1.23e-7", "0.1", "0.1"]
+        );
+        assert_eq!(
+            said("motion.seed", &[Value::from(123_456), Value::from(123_457)]).0,
+            ["123456", "123457"]
+        );
     }
 }

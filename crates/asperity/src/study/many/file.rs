@@ -14,7 +14,7 @@ use crate::io::regular;
 use crate::study::case::MAX_CASE_BYTES;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::Document;
-use crate::study::case::keys::{self as case_keys, ROOT};
+use crate::study::case::schema::tables::{self as keys, is_of_root};
 
 /// What a study file says.
 #[derive(Debug)]
@@ -84,15 +84,13 @@ fn belongs(key: &str) -> Option<(String, Option<String>)> {
     if key == "stale_after" {
         return unknown("leave it out: a case is free again as soon as its process has gone".to_owned());
     }
-    if ROOT.contains(&key) {
+    if is_of_root(key) {
         return unknown(format!("a case that stands in the study file is its base: [base.{key}]"));
     }
     // A key of an axis, or one of a table of a case.
-    let hint = case_keys::belongs(key, "").and_then(|(_, hint)| hint);
+    let hint = keys::belongs(key, "").and_then(|(_, hint)| hint);
     match key.split_once('.').map(|(table, _)| table) {
-        Some(table) if ROOT.contains(&table) => {
-            unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`"))
-        }
+        Some(table) if is_of_root(table) => unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`")),
         _ => hint.and_then(|hint| unknown(format!("{hint} of the base"))),
     }
 }

@@ -13,7 +13,6 @@ use super::named::NamedFile;
 use crate::error::{CaseError, Error, Result};
 use crate::io::sha256;
 use crate::study::case::Case;
-use crate::units::Dimension;
 
 /// The most cases that a study has, before those that are left out.
 pub const MAX_CASES: usize = 10_000_000;
@@ -48,8 +47,7 @@ impl Study {
 
     fn of(file: StudyFile) -> Result<Self> {
         let indices = indices(&file)?;
-        let mut study = Self { file, indices };
-        study.find_units();
+        let study = Self { file, indices };
         study.check()?;
         Ok(study)
     }
@@ -162,25 +160,6 @@ impl Study {
     /// The case as it is read from its file; files as seen from here.
     fn case(&self, case: usize) -> Result<Case> {
         Case::parse(&self.case_file(case, None)?, Path::new("case.toml"), Path::new(""))
-    }
-
-    /// Numbers without a unit are in SI: their unit is the one with which the case takes them too.
-    fn find_units(&mut self) {
-        let bare: Vec<usize> = (0..self.axes().len()).filter(|n| self.axes()[*n].is_bare()).collect();
-        for n in bare {
-            let number = self.axes()[n].cell(self.indices(1)[n] as usize);
-            let taken = |dimension: &Dimension| {
-                let quantity = toml::Value::String(format!("{number} {}", dimension.si()));
-                let values = self.axes().iter().zip(self.indices(1)).enumerate();
-                let values = values.map(|(k, (axis, index))| {
-                    (axis, if k == n { &quantity } else { axis.value(*index as usize) })
-                });
-                let text = self.file.base.with("", values, None);
-                text.is_ok_and(|text| Case::parse(&text, Path::new("case.toml"), Path::new("")).is_ok())
-            };
-            let dimension = Dimension::ALL.into_iter().find(taken);
-            self.file.axes[n].measure(dimension);
-        }
     }
 
     /// Reads, for each value of each axis, the first case that has it.

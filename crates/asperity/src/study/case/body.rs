@@ -1,0 +1,53 @@
+//! `[lower]` and `[upper]`: the bodies.
+
+use std::path::Path;
+
+use super::cursor::Table;
+use super::hardness::hardness;
+use super::plasticity;
+use super::running;
+use super::schema::body::{both, coating as coating_keys, upper};
+use super::schema::tables::known_in;
+use super::topography::topography;
+use super::{Body, Mount, Source};
+use crate::error::Result;
+use crate::material::{Coating, Material};
+use crate::surface::UNDERSIDE;
+
+pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
+    let is_upper = table.path() == "upper";
+    known_in(table)?;
+    let young = both::YOUNG.of(table)?;
+    let poisson = both::POISSON.of(table)?;
+    let hardness = hardness(table, folder)?;
+    let coating = both::COATING.of(table)?.map(|table| coating(&table)).transpose()?;
+    let plasticity = both::PLASTICITY
+        .of(table)?
+        .map(|flow| plasticity::flow(&flow, table, young, &hardness, coating.as_ref()))
+        .transpose()?;
+    let film = both::FILM.of(table)?.map(|table| running::film(&table, &hardness)).transpose()?;
+    let wear =
+        both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness, film.as_ref())).transpose()?;
+    let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
+    let mount = match upper::MOUNT.of(table)? {
+        Some(mount) => Some(mount),
+        None if is_upper && may_be_an_underside(&topography.source) => None,
+        None if is_upper => Some(Mount::TurnedOver),
+        None => Some(Mount::AsIs),
+    };
+    // Checked above, entry by entry: this can find nothing new.
+    let material = Material { coating, ..Material::elastic(young, poisson)? };
+    let thermal = running::thermal(table)?;
+    Ok(Body { material, hardness, plasticity, thermal, wear, film, topography, mount })
+}
+
+fn coating(table: &Table<'_>) -> Result<Coating> {
+    known_in(table)?;
+    let (thickness, young) = (coating_keys::THICKNESS.of(table)?, coating_keys::YOUNG.of(table)?);
+    Coating::new(thickness, young, coating_keys::POISSON.of(table)?)
+}
+
+/// Whether a file of results would hold the underside of a body there.
+fn may_be_an_underside(source: &Source) -> bool {
+    matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
+}

@@ -1,0 +1,127 @@
+//! The keys of a body.
+
+use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
+use super::Fallback::{Absent, Required};
+use super::typed::{
+    LENGTH, Nested, Optional, PRESSURE, TEXT, Typed, Value, choice, number, optional, other, quantity,
+    required, section, table,
+};
+use crate::units::Dimension;
+
+/// Poisson's ratio.
+const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
+
+/// `[lower]` and `[upper]`.
+pub(in crate::study) mod both {
+    use super::super::super::hardness::Hardness;
+    use super::*;
+
+    section! { &["lower", "upper"], "";
+        YOUNG: Typed<f64> = required(
+            "young",
+            quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")),
+            "\"210 GPa\"",
+            "Young's modulus; of a coated body, that of the material under the coating; at most one body without a coating is rigid",
+        );
+        POISSON: Typed<f64> =
+            required("poisson", RATIO, "0.3", "Poisson's ratio; of a coated body, that of the material under the coating");
+        HARDNESS: Typed<Hardness> = super::super::typed::defaulted(
+            "hardness",
+            other(
+                Some(Dimension::Pressure),
+                "pressure > 0, or `inf`: an elastic body, or a table: a [map](#a-map-of-the-hardness)",
+                |_, entry| Hardness::read(entry),
+            ),
+            "inf",
+            "\"4 GPa\"",
+            "the largest pressure that the body bears, or a map of what each of its cells bears",
+        );
+        COATING: Nested =
+            table("coating", Absent("none"), "an elastic layer that covers it, see [below](#lowercoating-and-uppercoating)");
+        TOPOGRAPHY: Nested = table("topography", Required, "its surface");
+        WEAR: Nested = table("wear", Absent("none"), "how it wears, see [below](#running-in)");
+        FILM: Nested = table("film", Absent("none"), "the tribofilm that grows on it, see [below](#running-in)");
+        PLASTICITY: Nested =
+            table("plasticity", Absent("elastic"), "how it deforms plastically below its surface, see [below](#plasticity)");
+        CONDUCTIVITY: Optional<f64> = optional(
+            "conductivity",
+            quantity(Dimension::Conductivity, AboveZero),
+            "not known",
+            "\"46 W/(m K)\"",
+            "thermal conductivity, for a flash temperature; of both bodies",
+        );
+        HEAT_CAPACITY: Optional<f64> = optional(
+            "heat_capacity",
+            quantity(Dimension::HeatCapacity, AboveZero),
+            "not known",
+            "\"460 J/(kg K)\"",
+            "heat capacity, beside `conductivity`",
+        );
+        DENSITY: Optional<f64> = optional(
+            "density",
+            quantity(Dimension::Density, AboveZero),
+            "not known",
+            "\"7850 kg/m3\"",
+            "density, beside `conductivity`",
+        );
+    }
+}
+
+/// `[upper]` alone.
+pub(in crate::study) mod upper {
+    use super::super::super::Mount;
+    use super::*;
+
+    section! { &["upper"], "";
+        MOUNT: Optional<Mount> = optional(
+            "mount",
+            choice::<Mount>(),
+            "`\"turned-over\"`; `\"as-is\"` of an underside",
+            "\"as-is\"",
+            "`[upper]` only: how its heights face",
+        );
+    }
+}
+
+/// `[lower.coating]` and `[upper.coating]`.
+pub(in crate::study) mod coating {
+    use super::*;
+
+    section! { &["lower.coating", "upper.coating"], "";
+        THICKNESS: Typed<f64> = required("thickness", LENGTH, "\"2 um\"", "thickness of the layer");
+        YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "its Young's modulus");
+        POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
+    }
+}
+
+/// A map of the hardness.
+pub(in crate::study) mod hardness_map {
+    use super::*;
+
+    section! { &["lower.hardness", "upper.hardness"], "";
+        FILE: Typed<String> = required(
+            "file",
+            TEXT,
+            "\"hardness.npy\"",
+            "a file of numbers alone: npy, csv, text, tiff or HDF5, relative to the case file",
+        );
+        CHANNEL: Optional<String> =
+            optional("channel", TEXT, "the first", "\"hardness\"", "the channel, where the file has several");
+        UNIT: Typed<f64> = super::super::typed::defaulted(
+            "unit",
+            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
+            "\"Pa\"",
+            "\"GPa\"",
+            "what a 1 in the file stands for",
+        );
+    }
+}
+
+/// A map of the hardness that the caller has in memory.
+pub(in crate::study) mod hardness_given {
+    use super::*;
+
+    section! { &["lower.hardness", "upper.hardness"], "given";
+        GIVEN: Typed<String> = required("given", TEXT, "\"map\"", "the name under which a program gives the map");
+    }
+}

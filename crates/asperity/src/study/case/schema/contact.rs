@@ -1,0 +1,225 @@
+//! The keys of a contact, of its friction and of its history.
+
+use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
+use super::typed::{
+    FRACTION, Optional, PRESSURE, Typed, Value, choice, count, count_to, defaulted, number, number_named,
+    optional, other, quantity, required, section, vector,
+};
+use crate::study::case::contact as read;
+use crate::study::case::sweep::{self as list, Spacing};
+use crate::units::Dimension;
+
+const FORCE: Value<f64> = quantity(Dimension::Force, AboveZero);
+const SIGNED_FORCE: Value<f64> = quantity(Dimension::Force, Any);
+const SIGNED_LENGTH: Value<f64> = quantity(Dimension::Length, Any);
+const CREEPAGE: Value<f64> = number_named("a finite number", Any);
+
+/// The form of a list of values that are passed through.
+const SEVERAL: &str = "list of at least one value, or a [table](#a-sweep)";
+
+const LOAD: Optional<f64> = optional(
+    "load",
+    FORCE,
+    "",
+    "\"2 N\"",
+    "total normal force; in a motion its mean over a pass, or that at each position: see `control`",
+);
+const MEAN_PRESSURE: Optional<f64> = optional(
+    "mean_pressure",
+    PRESSURE,
+    "",
+    "\"1 MPa\"",
+    "load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so \
+     that the mean pressure there is about twice as large",
+);
+const APPROACH: Optional<f64> = optional(
+    "approach",
+    SIGNED_LENGTH,
+    "",
+    "\"10 nm\"",
+    "how far the bodies have moved together, of any sign; 0 where the planes z = 0 of the heights of both bodies coincide",
+);
+
+/// `[contact]`.
+pub(in crate::study) mod contact {
+    use super::*;
+    use crate::operator::Boundary;
+    use crate::solver::Method;
+
+    section! { &["contact"], "";
+        LOAD: Optional<f64> = super::LOAD;
+        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE;
+        APPROACH: Optional<f64> = super::APPROACH;
+        LOADS: Optional<Vec<f64>> = optional(
+            "loads",
+            other(Some(Dimension::Force), SEVERAL, |_, entry| list::loads(entry)),
+            "",
+            "[\"0.1 N\", \"1 N\"]",
+            "several loads, one after the other",
+        );
+        MEAN_PRESSURES: Optional<Vec<f64>> = optional(
+            "mean_pressures",
+            other(Some(Dimension::Pressure), SEVERAL, |_, entry| list::mean_pressures(entry)),
+            "",
+            "[\"1 MPa\", \"10 MPa\"]",
+            "several mean pressures, one after the other",
+        );
+        APPROACHES: Optional<Vec<f64>> = optional(
+            "approaches",
+            other(Some(Dimension::Length), SEVERAL, |_, entry| list::approaches(entry)),
+            "",
+            "[\"10 nm\", \"20 nm\"]",
+            "several approaches, one after the other",
+        );
+        BOUNDARY: Typed<Boundary> = defaulted(
+            "boundary",
+            other(None, "`\"free\"`, `\"periodic\"`, or one for x and one for y: `[\"free\", \"periodic\"]`", |_, entry| {
+                read::boundary(entry)
+            }),
+            "\"free\"",
+            "[\"free\", \"periodic\"]",
+            "what lies beyond the edges: `\"free\"`, an unloaded half-space; `\"periodic\"`, the contact itself over and over; one of \
+             each: a line contact",
+        );
+        METHOD: Typed<Method> =
+            defaulted("method", choice::<Method>(), "\"auto\"", "\"direct\"", "the solver; all give the same answer");
+        TOLERANCE: Typed<f64> = defaulted(
+            "tolerance",
+            FRACTION,
+            "1e-6",
+            "1e-8",
+            "residual η at which the solver stops, see [theory](theory.md)",
+        );
+    }
+}
+
+/// The table of values that are passed through.
+pub(in crate::study) mod sweep {
+    use super::*;
+
+    const END: Value<()> = other(None, "as of the key in the singular", |_, _| Ok(()));
+
+    section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "friction.creepages"], "";
+        FROM: Typed<()> = required("from", END, "\"10 mN\"", "first value");
+        TO: Typed<()> = required("to", END, "\"10 N\"", "last value, larger or smaller than the first");
+        POINTS: Typed<usize> =
+            required("points", count_to(2, 10_000), "9", "number of values");
+        SPACING: Optional<Spacing> = optional(
+            "spacing",
+            choice::<Spacing>(),
+            "`\"log\"`; of `approaches` and `creepages` `\"linear\"`",
+            "\"linear\"",
+            "`\"log\"`: in equal ratios, of values above 0; `\"linear\"`: in equal steps",
+        );
+    }
+}
+
+const IN_PLANE_FORCE: Optional<[f64; 2]> =
+    optional("force", vector(&SIGNED_FORCE), "0", "\"0.1 N\"", "force of the upper body on the lower one");
+const DISPLACEMENT: Optional<[f64; 2]> = optional(
+    "displacement",
+    vector(&SIGNED_LENGTH),
+    "",
+    "\"0.1 um\"",
+    "displacement of the upper body against the lower one",
+);
+const SLIDING: Optional<[f64; 2]> = optional(
+    "sliding",
+    other(None, "`[x, y]`, of any length", |_, entry| read::direction(entry)),
+    "",
+    "[1, 0]",
+    "direction in which the upper body slides: every cell slips",
+);
+
+/// `[friction]`.
+pub(in crate::study) mod friction {
+    use super::*;
+    use crate::solver::Coupling;
+
+    section! { &["friction"], "";
+        COEFFICIENT: Typed<f64> =
+            required("coefficient", number(FromZeroOrInfinite("nothing slips")), "0.3", "coefficient of friction μ");
+        COUPLING: Typed<Coupling> = defaulted(
+            "coupling",
+            choice::<Coupling>(),
+            "\"full\"",
+            "\"none\"",
+            "of dissimilar bodies, which of pressure and shear acts on the other: `\"goodman\"`, pressure shears but shear does not \
+             press; `\"none\"`, neither",
+        );
+        SHEAR_STRENGTH: Typed<f64> = defaulted(
+            "shear_strength",
+            quantity(Dimension::Pressure, AboveZeroOrInfinite("no limit")),
+            "inf",
+            "\"20 MPa\"",
+            "τ, the largest shear that the interface bears under any pressure, as a boundary film does",
+        );
+        JUNCTION_GROWTH: Typed<f64> = defaulted(
+            "junction_growth",
+            number(FromZero),
+            "0",
+            "9",
+            "α in p² + αq² ≤ H²: shear softens what is plastic, and the contact grows; about 9 for metals",
+        );
+        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE;
+        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT;
+        SLIDING: Optional<[f64; 2]> = super::SLIDING;
+        CREEPAGE: Optional<[f64; 2]> = optional(
+            "creepage",
+            vector(&super::CREEPAGE),
+            "",
+            "0.001",
+            "steady rolling along x: velocity of the upper body against the lower one over the rolling velocity",
+        );
+        CREEPAGES: Optional<Vec<[f64; 2]>> = optional(
+            "creepages",
+            other(None, SEVERAL, |_, entry| list::creepages(entry)),
+            "",
+            "[0.001]",
+            "several creepages, one after the other",
+        );
+        SPIN: Typed<f64> = defaulted(
+            "spin",
+            number_named("a number, in 1/m", Any),
+            "0",
+            "25",
+            "of rolling, in 1/m: angular velocity of the upper body against the lower one over the rolling velocity, about z through \
+             the middle of the grid, positive from +x towards +y",
+        );
+        ROLLING_FORCE: Optional<[f64; 2]> = optional(
+            "rolling_force",
+            vector(&SIGNED_FORCE),
+            "",
+            "\"0.1 N\"",
+            "steady rolling along x: force of the upper body on the lower one",
+        );
+        INCREMENTS: Typed<usize> = defaulted(
+            "increments",
+            count(1),
+            "1",
+            "20",
+            "equal steps in which the load and what acts in the plane grow from 0",
+        );
+    }
+}
+
+/// `[[history]]`.
+pub(in crate::study) mod history {
+    use super::*;
+
+    section! { &["history"], "";
+        LOAD: Optional<f64> = super::LOAD;
+        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE;
+        APPROACH: Optional<f64> = super::APPROACH;
+        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE;
+        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT;
+        SLIDING: Optional<[f64; 2]> = super::SLIDING;
+        INCREMENTS: Optional<usize> = optional(
+            "increments",
+            count(1),
+            "1; of bodies that deform plastically that of [plasticity]",
+            "10",
+            "equal steps from the end of the stage before",
+        );
+    }
+}

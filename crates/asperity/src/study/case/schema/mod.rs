@@ -1,0 +1,243 @@
+//! The keys of a case file, each declared once.
+//!
+//! A declaration holds the name, the values that are accepted, what holds without the key, an example and the meaning. The
+//! reader of case files, its messages, the units of study axes and the tables of `docs/input.md` all come from it.
+
+pub(in crate::study) mod body;
+pub(in crate::study) mod contact;
+pub(in crate::study) mod motion;
+pub(in crate::study) mod output;
+pub(in crate::study) mod plasticity;
+pub(in crate::study) mod root;
+pub(in crate::study) mod tables;
+pub(in crate::study) mod topography;
+pub(in crate::study) mod typed;
+pub(in crate::study) mod wear;
+
+use std::fmt;
+
+use crate::units::{Dimension, Range};
+
+/// Keys that stand together in one table, or in each of several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// The dotted names of the tables: `lower.wear`, `upper.wear`; empty for the keys above all tables.
+    pub tables: &'static [&'static str],
+    /// The choice with which the keys have a meaning, as the case file writes it: `form = "sphere"`; empty if they always have.
+    pub kind: &'static str,
+    /// The keys, in the order of the documentation.
+    pub keys: &'static [Key],
+}
+
+/// A key of the case file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// The name.
+    pub name: &'static str,
+    /// The values that it takes.
+    pub kind: Kind,
+    /// What holds where the case file does not give it.
+    pub default: Fallback,
+    /// A value as the case file writes it; empty for a table.
+    pub example: &'static str,
+    /// The meaning, in Markdown.
+    pub text: &'static str,
+}
+
+/// The values that a key takes. As text: `length > 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// A number in SI, or a text with a unit.
+    Quantity(Dimension, Bounds),
+    /// A number without a unit, and what it is called in messages.
+    Number(&'static str, Bounds),
+    /// A whole number, both ends included.
+    Count {
+        /// The smallest.
+        least: u64,
+        /// The largest.
+        most: u64,
+    },
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// True or false.
+    Flag,
+    /// A text.
+    Text,
+    /// A table.
+    Table,
+    /// An array of tables.
+    Tables,
+    /// One value for x and y, or an array of two.
+    Pair(&'static Kind),
+    /// A component along x, or an array of those along x and y.
+    Vector(&'static Kind),
+    /// Values of another form.
+    Other {
+        /// What the numbers among them measure; none of pure numbers.
+        dimension: Option<Dimension>,
+        /// The form, in Markdown.
+        value: &'static str,
+    },
+}
+
+/// The numbers that are accepted, besides what [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS) say of magnitudes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bounds {
+    /// All that are finite.
+    Any,
+    /// Those of at least 0.
+    FromZero,
+    /// Those of at least 0, and infinity with its meaning.
+    FromZeroOrInfinite(&'static str),
+    /// Those above 0.
+    AboveZero,
+    /// Those above 0, and infinity with its meaning.
+    AboveZeroOrInfinite(&'static str),
+    /// Those between two numbers.
+    Between {
+        /// The lower end.
+        least: f64,
+        /// The upper end.
+        most: f64,
+        /// Whether the ends are left out.
+        open: [bool; 2],
+    },
+    /// Those of a narrower range of magnitudes, and 0 if true.
+    Within(Range, bool),
+}
+
+/// What holds where a key is not given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fallback {
+    /// Nothing: the key must be given.
+    Required,
+    /// This value, as the case file would write it.
+    Value(&'static str),
+    /// No value of the key: what these words say, in Markdown.
+    Absent(&'static str),
+}
+
+/// All keys of a case file, section by section, in the order in which a misplaced key is looked for.
+///
+/// ```
+/// let keys = asperity::study::keys();
+/// let motion = keys.iter().find(|section| section.tables == ["motion"]).unwrap();
+/// let stride = motion.keys.iter().find(|key| key.name == "stride").unwrap();
+/// assert_eq!(stride.kind.to_string(), "whole number ≥ 1");
+/// assert_eq!(stride.default.to_string(), "`1`");
+/// ```
+pub fn keys() -> &'static [Section] {
+    &[
+        root::SECTION,
+        body::both::SECTION,
+        body::upper::SECTION,
+        body::coating::SECTION,
+        contact::contact::SECTION,
+        motion::motion::SECTION,
+        contact::friction::SECTION,
+        output::subsurface::SECTION,
+        output::output::SECTION,
+        wear::acceleration::SECTION,
+        motion::sliding::SECTION,
+        wear::temperature::SECTION,
+        wear::wear::SECTION,
+        wear::film::SECTION,
+        wear::arrhenius::SECTION,
+        wear::mechano_chemical::SECTION,
+        wear::solid_lubricant::SECTION,
+        plasticity::flow::SECTION,
+        plasticity::volume::SECTION,
+        topography::every::SECTION,
+        topography::file::SECTION,
+        topography::given::SECTION,
+        topography::generate::SECTION,
+        topography::low_pass::SECTION,
+        topography::autocorrelation::SECTION,
+        topography::self_affine::SECTION,
+        topography::form::SECTION,
+        topography::sphere::SECTION,
+        topography::ellipsoid::SECTION,
+        topography::cylinder::SECTION,
+        topography::cone::SECTION,
+        topography::flat::SECTION,
+        topography::sinusoid::SECTION,
+        topography::grooves::SECTION,
+        contact::history::SECTION,
+        contact::sweep::SECTION,
+        body::hardness_map::SECTION,
+        body::hardness_given::SECTION,
+    ]
+}
+
+impl Kind {
+    /// What its numbers measure; none of pure numbers and of what is no number.
+    pub fn dimension(&self) -> Option<Dimension> {
+        match self {
+            Self::Quantity(dimension, _) => Some(*dimension),
+            Self::Other { dimension, .. } => *dimension,
+            Self::Pair(item) | Self::Vector(item) => item.dimension(),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Quantity(dimension, bounds) => write!(f, "{}{bounds}", bare_noun(dimension.noun())),
+            Self::Number(_, bounds) => write!(f, "number{bounds}"),
+            Self::Count { least, most: u64::MAX } => write!(f, "whole number ≥ {least}"),
+            Self::Count { least, most } => write!(f, "whole number, {least} … {most}"),
+            Self::Choice(words) => {
+                f.write_str(&words.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "))
+            }
+            Self::Flag => f.write_str("`true`, `false`"),
+            Self::Text => f.write_str("text"),
+            Self::Table => f.write_str("table"),
+            Self::Tables => f.write_str("tables"),
+            Self::Pair(item) => write!(f, "{item}, or two: `[x, y]`"),
+            Self::Vector(item) => write!(f, "{item} along x, or `[x, y]`"),
+            Self::Other { value, .. } => f.write_str(value),
+        }
+    }
+}
+
+/// A noun without its article.
+fn bare_noun(noun: &str) -> &str {
+    noun.split_once(' ').map_or(noun, |(_, noun)| noun)
+}
+
+/// As the tables of the documentation put it after a noun: ` > 0`.
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Any => Ok(()),
+            Self::FromZero => f.write_str(" ≥ 0"),
+            Self::FromZeroOrInfinite(meaning) => write!(f, " ≥ 0, or `inf`: {meaning}"),
+            Self::AboveZero => f.write_str(" > 0"),
+            Self::AboveZeroOrInfinite(meaning) => write!(f, " > 0, or `inf`: {meaning}"),
+            Self::Between { least, most, open: [false, false] } => write!(f, ", {least} … {most}"),
+            Self::Between { least, most, open: [from, to] } => {
+                write!(
+                    f,
+                    " {} {least}, {} {most}",
+                    [">=", ">"][usize::from(from)],
+                    ["<=", "<"][usize::from(to)]
+                )
+            }
+            Self::Within(range, zero) => write!(f, ", {}{range}", if zero { "0 or " } else { "" }),
+        }
+    }
+}
+
+/// As the tables of the documentation show it.
+impl fmt::Display for Fallback {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Required => f.write_str("required"),
+            Self::Value(value) => write!(f, "`{value}`"),
+            Self::Absent(text) => f.write_str(text),
+        }
+    }
+}

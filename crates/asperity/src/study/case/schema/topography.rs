@@ -1,0 +1,362 @@
+//! The keys of a topography: those of every one, and those of each kind of source.
+
+use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
+use super::Fallback::Absent;
+use super::typed::{
+    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
+    quantity, required, section, tables,
+};
+use crate::study::case::topography as read;
+use crate::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
+use crate::units::Dimension;
+
+const TABLES: &[&str] = &["lower.topography", "upper.topography"];
+
+const ANGLE: Value<f64> = quantity(Dimension::Angle, Any);
+const PITCH: Value<[f64; 2]> = pair(&LENGTH);
+const CELLS: Value<[usize; 2]> = other(None, "`[nx, ny]`, each ≥ 1", |_, entry| read::shape(entry));
+
+/// Every topography.
+pub(in crate::study) mod every {
+    use super::*;
+
+    section! { TABLES, "";
+        PITCH: Optional<[f64; 2]> = optional(
+            "pitch",
+            super::PITCH,
+            "of `generate` and `form`, the other body's; of `file`, the file's own",
+            "\"0.5 um\"",
+            "size of a cell; of a file without one, its pitch; of a file with one, what to resample to, not together with `resample`",
+        );
+        WINDOW: Optional<[usize; 4]> = optional(
+            "window",
+            other(None, "`[x0, y0, nx, ny]`, in samples: first sample from 0, number of samples ≥ 1", |_, entry| {
+                read::window(entry)
+            }),
+            "everything",
+            "[0, 0, 96, 128]",
+            "the part to keep",
+        );
+        LEVEL: Typed<Level> = defaulted(
+            "level",
+            other(
+                None,
+                "`\"none\"`, `\"mean\"`, `\"plane\"`, `\"quadratic\"`, `\"polynomial-3\"` (all terms up to an order, 0 … 16), \
+                 `\"sphere\"`, `\"cylinder\"`",
+                |_, entry| read::level(entry),
+            ),
+            "\"none\"",
+            "\"plane\"",
+            "the form that is subtracted, fitted by least squares",
+        );
+        MIRROR: Optional<Axis> =
+            optional("mirror", choice::<Axis>(), "none", "\"x\"", "the direction in which first and last are exchanged");
+        ROTATE: Typed<f64> = defaulted(
+            "rotate",
+            ANGLE,
+            "0",
+            "\"90 deg\"",
+            "angle to turn by, from x towards y; a number is in radians",
+        );
+        S_FILTER: Optional<f64> = optional(
+            "s_filter",
+            LENGTH,
+            "none",
+            "\"2.5 um\"",
+            "S-filter: nesting index below which waves are removed, at least two pitches and below `l_filter`",
+        );
+        L_FILTER: Optional<f64> = optional(
+            "l_filter",
+            LENGTH,
+            "none",
+            "\"0.8 mm\"",
+            "L-filter: nesting index above which waves are removed, at least two pitches",
+        );
+        FILTER: Typed<Filter> =
+            defaulted("filter", choice::<Filter>(), "\"gaussian\"", "\"robust\"", "kind of both filters");
+        RESAMPLE: Optional<[usize; 2]> =
+            optional("resample", CELLS, "as it is", "[256, 256]", "number of cells to bring the same extent to");
+        INTERPOLATE: Typed<Interpolation> = defaulted(
+            "interpolate",
+            choice::<Interpolation>(),
+            "\"linear\"",
+            "\"spline\"",
+            "how heights between samples are found where cells become smaller; the spline is cubic",
+        );
+        TAPER: Optional<f64> = optional(
+            "taper",
+            LENGTH,
+            "none",
+            "\"10 um\"",
+            "width of the rim that is brought down to the mean, at most half of the topography",
+        );
+        PLUS: Nested =
+            tables("plus", Absent("nothing"), "what is added to the heights, see [below](#plus-roughness-on-a-form-and-other-sums)");
+    }
+}
+
+/// A measured topography.
+pub(in crate::study) mod file {
+    use super::*;
+
+    section! { TABLES, "file";
+        FILE: Typed<String> = required(
+            "file",
+            TEXT,
+            "\"disc.x3p\"",
+            "path relative to the case file: x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to \
+             vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, tiff, NetCDF, HDF5 (results too), npy, csv or text, also \
+             gzipped; see [formats](formats.md)",
+        );
+        CHANNEL: Optional<String> = optional(
+            "channel",
+            TEXT,
+            "the first; of several data sets one is to be chosen",
+            "\"height\"",
+            "the height channel; of results `lower`, `upper`, `gap`; of other HDF5 the path of a data set, `\"/scan/height\"`",
+        );
+        UNIT: Optional<f64> = optional(
+            "unit",
+            other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
+            "metres; integers in tiff need one",
+            "\"nm\"",
+            "what a 1 stands for in a file without units: the heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, x and y of a \
+             table of points too; an error for a file that has its own",
+        );
+        DESPIKE: Optional<f64> = optional(
+            "despike",
+            number(AboveZero),
+            "nothing",
+            "6",
+            "spikes become missing: samples that deviate from their surroundings by more than so many standard deviations, 5 to 10 as a rule",
+        );
+        FILL: Typed<Fill> = defaulted(
+            "fill",
+            choice::<Fill>(),
+            "\"none\"",
+            "\"harmonic\"",
+            "what becomes of missing heights: with `\"none\"` they are an error, `\"harmonic\"` is a membrane over each hole",
+        );
+    }
+}
+
+/// Heights that a program that calls the library has in memory.
+pub(in crate::study) mod given {
+    use super::*;
+
+    section! { TABLES, "given";
+        GIVEN: Typed<String> = required("given", TEXT, "\"disc\"", "the name under which a program gives the heights");
+        DESPIKE: Optional<f64> = super::file::DESPIKE;
+        FILL: Typed<Fill> = super::file::FILL;
+    }
+}
+
+/// Every random topography.
+pub(in crate::study) mod generate {
+    use super::*;
+
+    section! { TABLES, "generate";
+        GENERATE: Typed<read::Method> =
+            required("generate", choice::<read::Method>(), "\"low-pass\"", "method");
+        SHAPE: Optional<[usize; 2]> =
+            optional("shape", CELLS, "the other body's", "[256, 256]", "number of cells along x and y");
+        SEED: Typed<u64> = defaulted("seed", super::SEED, "0", "7", "seed of the random numbers");
+    }
+}
+
+const SQ: Typed<f64> = required("sq", LENGTH, "\"0.2 um\"", "rms height, exact");
+const SSK: Typed<f64> = defaulted(
+    "ssk",
+    number(Any),
+    "0",
+    "-1",
+    "skewness of the heights, −6 to 6; together with `sku`, see below",
+);
+const SKU: Typed<f64> =
+    defaulted("sku", number(Any), "3", "4.5", "kurtosis of the heights, 1.1 (Ssk² + 1) to 50, see below");
+const LAY: Typed<f64> = defaulted(
+    "lay",
+    ANGLE,
+    "0",
+    "\"90 deg\"",
+    "angle of the grooves, or of the first correlation length, against x, towards y",
+);
+
+/// `generate = "low-pass"`.
+pub(in crate::study) mod low_pass {
+    use super::*;
+
+    section! { TABLES, "generate = \"low-pass\"";
+        SQ: Typed<f64> = super::SQ;
+        CUTOFF: Typed<[f64; 2]> = required(
+            "cutoff",
+            PITCH,
+            "\"8 um\"",
+            "shortest wavelength, from two pitches to the length of the surface",
+        );
+        BAND: Typed<Band> = defaulted(
+            "band",
+            choice::<Band>(),
+            "\"elliptic\"",
+            "\"rectangular\"",
+            "shape of the pass band; `\"elliptic\"` is circular for one cut-off",
+        );
+        SSK: Typed<f64> = super::SSK;
+        SKU: Typed<f64> = super::SKU;
+    }
+}
+
+/// `generate = "autocorrelation"`.
+pub(in crate::study) mod autocorrelation {
+    use super::*;
+
+    section! { TABLES, "generate = \"autocorrelation\"";
+        SQ: Typed<f64> = super::SQ;
+        CORRELATION_LENGTH: Typed<[f64; 2]> = required(
+            "correlation_length",
+            PITCH,
+            "\"8 um\"",
+            "length over which the autocorrelation falls to 10 %, one or along and across the lay, from one pitch to the length of the surface",
+        );
+        DECAY: Typed<Decay> = defaulted(
+            "decay",
+            choice::<Decay>(),
+            "\"exponential\"",
+            "\"gaussian\"",
+            "how it falls: `\"exponential\"`, rough down to the smallest scale, or `\"gaussian\"`, smooth",
+        );
+        LAY: Typed<f64> = super::LAY;
+        SSK: Typed<f64> = super::SSK;
+        SKU: Typed<f64> = super::SKU;
+    }
+}
+
+/// `generate = "self-affine"`.
+pub(in crate::study) mod self_affine {
+    use super::*;
+
+    section! { TABLES, "generate = \"self-affine\"";
+        SQ: Optional<f64> =
+            optional("sq", LENGTH, "exactly one of `sq` and `sdq`", "\"0.2 um\"", "rms height, exact");
+        SDQ: Optional<f64> = optional(
+            "sdq",
+            number(AboveZero),
+            "exactly one of `sq` and `sdq`",
+            "0.1",
+            "rms slope, exact (as the sum of waves)",
+        );
+        HURST: Typed<f64> = required(
+            "hurst",
+            number(Between { least: 0.0, most: 1.0, open: [true, false] }),
+            "0.8",
+            "Hurst exponent H",
+        );
+        ROLLOFF: Optional<f64> = optional(
+            "rolloff",
+            LENGTH,
+            "none: the law holds up to the longest wave",
+            "\"32 um\"",
+            "wavelength above which the spectrum is flat, above `shortest`",
+        );
+        SHORTEST: Optional<f64> = optional(
+            "shortest",
+            LENGTH,
+            "two of the larger pitch",
+            "\"8 um\"",
+            "shortest wavelength, at least two of the larger pitch",
+        );
+    }
+}
+
+/// Every ideal form.
+pub(in crate::study) mod form {
+    use super::*;
+
+    section! { TABLES, "form";
+        FORM: Typed<read::Shape> = required("form", choice::<read::Shape>(), "\"sphere\"", "the form");
+        SHAPE: Optional<[usize; 2]> = super::generate::SHAPE;
+    }
+}
+
+const RADIUS: Typed<f64> = required("radius", LENGTH, "\"1 mm\"", "radius R");
+
+/// `form = "sphere"`.
+pub(in crate::study) mod sphere {
+    use super::*;
+
+    section! { TABLES, "form = \"sphere\"";
+        RADIUS: Typed<f64> = super::RADIUS;
+    }
+}
+
+/// `form = "ellipsoid"`.
+pub(in crate::study) mod ellipsoid {
+    use super::*;
+
+    section! { TABLES, "form = \"ellipsoid\"";
+        RADIUS: Typed<[f64; 2]> = required(
+            "radius",
+            other(Some(Dimension::Length), "`[Rx, Ry]`, two lengths > 0", |_, entry| read::radii(entry)),
+            "[\"1 mm\", \"2 mm\"]",
+            "principal radii of curvature; an ellipsoid of semi-axes a, b and c across the plane has a²/c and b²/c",
+        );
+    }
+}
+
+/// `form = "cylinder"`.
+pub(in crate::study) mod cylinder {
+    use super::*;
+
+    section! { TABLES, "form = \"cylinder\"";
+        RADIUS: Typed<f64> = super::RADIUS;
+        AXIS: Typed<Axis> = defaulted("axis", choice::<Axis>(), "\"y\"", "\"x\"", "direction of the crest");
+    }
+}
+
+/// `form = "cone"`.
+pub(in crate::study) mod cone {
+    use super::*;
+
+    section! { TABLES, "form = \"cone\"";
+        ANGLE: Typed<f64> = required(
+            "angle",
+            quantity(Dimension::Angle, AboveZero),
+            "\"5 deg\"",
+            "slope α against the plane, below 90°; a number is in radians",
+        );
+    }
+}
+
+/// `form = "flat"`.
+pub(in crate::study) mod flat {
+    pub(in crate::study::case) const SECTION: super::super::Section =
+        super::super::Section { tables: super::TABLES, kind: "form = \"flat\"", keys: &[] };
+}
+
+/// `form = "sinusoid"`.
+pub(in crate::study) mod sinusoid {
+    use super::*;
+
+    const WAVE: Value<f64> =
+        quantity(Dimension::Length, AboveZeroOrInfinite("no variation in that direction"));
+
+    section! { TABLES, "form = \"sinusoid\"";
+        AMPLITUDE: Typed<f64> = required("amplitude", LENGTH, "\"0.1 um\"", "amplitude A");
+        WAVELENGTH: Typed<[f64; 2]> =
+            required("wavelength", pair(&WAVE), "\"64 um\"", "wavelength λ, at least two pitches");
+    }
+}
+
+/// `form = "grooves"`.
+pub(in crate::study) mod grooves {
+    use super::*;
+
+    section! { TABLES, "form = \"grooves\"";
+        PERIOD: Typed<f64> =
+            required("period", LENGTH, "\"0.1 mm\"", "distance from ridge to ridge, at least two pitches");
+        DEPTH: Typed<f64> = required("depth", LENGTH, "\"1 um\"", "depth d");
+        PROFILE: Typed<Groove> =
+            defaulted("profile", choice::<Groove>(), "\"parabolic\"", "\"triangular\"", "shape of a groove");
+        LAY: Typed<f64> = super::LAY;
+    }
+}

@@ -1,0 +1,371 @@
+//! Keys with the type of what they are read as.
+
+use super::super::cursor::{Entry, Table};
+use super::super::document::Document;
+use super::{Bounds, Fallback, Key, Kind};
+use crate::choice::Choice;
+use crate::error::Result;
+use crate::units::Dimension;
+
+/// A kind of values, and how they are read.
+#[derive(Clone, Copy)]
+pub(in crate::study::case) struct Value<T> {
+    kind: Kind,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+}
+
+/// A key that has a value in every table, given or not.
+pub(in crate::study::case) struct Typed<T> {
+    pub(super) key: Key,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+}
+
+/// A key that may have no value.
+pub(in crate::study::case) struct Optional<T> {
+    pub(super) key: Key,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+}
+
+/// A key whose value is a table or an array of tables.
+pub(in crate::study::case) struct Nested {
+    pub(super) key: Key,
+}
+
+/// A key that must be given.
+pub(super) const fn required<T>(
+    name: &'static str,
+    value: Value<T>,
+    example: &'static str,
+    text: &'static str,
+) -> Typed<T> {
+    Typed {
+        key: Key { name, kind: value.kind, default: Fallback::Required, example, text },
+        read: value.read,
+    }
+}
+
+/// A key that has the value `default` if it is not given.
+pub(super) const fn defaulted<T>(
+    name: &'static str,
+    value: Value<T>,
+    default: &'static str,
+    example: &'static str,
+    text: &'static str,
+) -> Typed<T> {
+    let default = Fallback::Value(default);
+    Typed { key: Key { name, kind: value.kind, default, example, text }, read: value.read }
+}
+
+/// A key without which `absent` holds.
+pub(super) const fn optional<T>(
+    name: &'static str,
+    value: Value<T>,
+    absent: &'static str,
+    example: &'static str,
+    text: &'static str,
+) -> Optional<T> {
+    let default = Fallback::Absent(absent);
+    Optional { key: Key { name, kind: value.kind, default, example, text }, read: value.read }
+}
+
+/// A table within the table.
+pub(super) const fn table(name: &'static str, default: Fallback, text: &'static str) -> Nested {
+    Nested { key: Key { name, kind: Kind::Table, default, example: "", text } }
+}
+
+/// An array of tables within the table.
+pub(super) const fn tables(name: &'static str, default: Fallback, text: &'static str) -> Nested {
+    Nested { key: Key { name, kind: Kind::Tables, default, example: "", text } }
+}
+
+/// Declares the keys of a section as constants, and the section that holds them all.
+macro_rules! section {
+    ($tables:expr, $kind:literal; $($name:ident: $type:ty = $declaration:expr;)+) => {
+        $(pub(in crate::study::case) const $name: $type = $declaration;)+
+
+        pub(in crate::study::case) const SECTION: $crate::study::case::schema::Section =
+            $crate::study::case::schema::Section {
+                tables: $tables,
+                kind: $kind,
+                keys: &[$($name.key),+],
+            };
+
+        #[cfg(test)]
+        #[test]
+        fn every_key_reads_its_own_example_and_default() {
+            $($name.check();)+
+        }
+    };
+}
+
+pub(super) use section;
+
+// How keys are read.
+
+impl<T> Typed<T> {
+    /// The value in `table`, or the default.
+    pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<T> {
+        match (table.get(self.key.name), self.key.default) {
+            (Some(entry), _) => (self.read)(&self.key, &entry),
+            (None, Fallback::Value(default)) => Ok(self.value_of(default)),
+            (None, _) => Err(missing(&self.key, table)),
+        }
+    }
+
+    /// The default.
+    ///
+    /// # Panics
+    /// If the key has none.
+    pub(in crate::study::case) fn default(&self) -> T {
+        let Fallback::Value(default) = self.key.default else { panic!("'{}' has no default", self.key.name) };
+        self.value_of(default)
+    }
+
+    /// The value that a declaration writes as `text`.
+    fn value_of(&self, text: &str) -> T {
+        read_text(&self.key, self.read, text).expect("a value in a declaration is one of the key")
+    }
+
+    /// The entry of the key, where it is given.
+    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+        table.get(self.key.name)
+    }
+
+    /// The entry of the key, which must be given.
+    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
+        table.get(self.key.name).ok_or_else(|| missing(&self.key, table))
+    }
+}
+
+impl<T> Optional<T> {
+    /// The value in `table`, where it is given.
+    pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<Option<T>> {
+        table.get(self.key.name).map(|entry| (self.read)(&self.key, &entry)).transpose()
+    }
+
+    /// The value in `table`, which must be given.
+    pub(in crate::study::case) fn required(&self, table: &Table<'_>) -> Result<T> {
+        (self.read)(&self.key, &self.demand(table)?)
+    }
+
+    /// The entry of the key, where it is given.
+    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+        table.get(self.key.name)
+    }
+
+    /// The entry of the key, which must be given.
+    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
+        table.get(self.key.name).ok_or_else(|| missing(&self.key, table))
+    }
+}
+
+impl Nested {
+    /// The table, where it is given.
+    pub(in crate::study::case) fn of<'a>(&self, table: &Table<'a>) -> Result<Option<Table<'a>>> {
+        table.table(self.key.name)
+    }
+
+    /// The table, which must be given.
+    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
+        table.required_table(self.key.name)
+    }
+
+    /// The entry of the table, where it is given.
+    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+        table.get(self.key.name)
+    }
+}
+
+#[cfg(test)]
+impl<T> Typed<T> {
+    pub(super) fn check(&self) {
+        self.value_of(self.key.example);
+        if let Fallback::Value(default) = self.key.default {
+            self.value_of(default);
+        }
+    }
+}
+
+#[cfg(test)]
+impl<T> Optional<T> {
+    pub(super) fn check(&self) {
+        let example = read_text(&self.key, self.read, self.key.example);
+        example.unwrap_or_else(|error| panic!("{}: {error}", self.key.name));
+    }
+}
+
+#[cfg(test)]
+impl Nested {
+    pub(super) fn check(&self) {
+        assert!(self.key.example.is_empty(), "{} is a table, which has no value", self.key.name);
+    }
+}
+
+fn missing(key: &Key, table: &Table<'_>) -> crate::error::Error {
+    let hint = format!("for example `{} = {}`", key.name, key.example);
+    table.error(format!("missing key '{}' in {}", key.name, table.name()), Some(hint))
+}
+
+/// Reads a value of the key as a case file would write it.
+fn read_text<T>(key: &Key, read: fn(&Key, &Entry<'_>) -> Result<T>, text: &str) -> Result<T> {
+    let text = format!("{} = {text}", key.name);
+    let mut document = Document::default();
+    let entries = document.parse(&text)?;
+    let table = Table::root(&document, entries.get_ref());
+    read(key, &table.get(key.name).expect("it has just been written"))
+}
+
+// The kinds of values.
+
+/// A quantity.
+pub(super) const fn quantity(dimension: Dimension, bounds: Bounds) -> Value<f64> {
+    Value { kind: Kind::Quantity(dimension, bounds), read: |key, entry| real(&key.kind, key, entry) }
+}
+
+/// A number without a unit.
+pub(super) const fn number(bounds: Bounds) -> Value<f64> {
+    number_named("a number", bounds)
+}
+
+/// A number without a unit that messages call by a name of its own.
+pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f64> {
+    Value { kind: Kind::Number(noun, bounds), read: |key, entry| real(&key.kind, key, entry) }
+}
+
+/// A number of things.
+pub(super) const fn count(least: u64) -> Value<usize> {
+    count_to(least, u64::MAX)
+}
+
+/// A number of things that is limited.
+pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Count { least, most } = key.kind else { unreachable!("a count is declared as one") };
+        let count = entry.count(least as usize)?;
+        match count as u64 <= most {
+            true => Ok(count),
+            false => Err(entry.unexpected(&format!("a whole number from {least} to {most}"), None)),
+        }
+    };
+    Value { kind: Kind::Count { least, most }, read }
+}
+
+/// The seed of random numbers.
+pub(super) const SEED: Value<u64> =
+    Value { kind: Kind::Count { least: 0, most: u64::MAX }, read: |_, entry| entry.whole(0) };
+
+/// One of the words of an option.
+pub(super) const fn choice<T: Choice>() -> Value<T> {
+    Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice() }
+}
+
+/// True or false.
+pub(super) const FLAG: Value<bool> = Value { kind: Kind::Flag, read: |_, entry| entry.flag() };
+
+/// A text.
+pub(super) const TEXT: Value<String> =
+    Value { kind: Kind::Text, read: |_, entry| entry.text().map(str::to_owned) };
+
+/// One quantity or number for both axes, or two.
+pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Pair(item) = key.kind else { unreachable!("a pair is declared as one") };
+        entry.pair(&format!("{}, or two", expected(item, key)), |part| real(item, key, part))
+    };
+    Value { kind: Kind::Pair(&item.kind), read }
+}
+
+/// A component along x, or two along x and y.
+pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Vector(item) = key.kind else { unreachable!("a vector is declared as one") };
+        let noun = item.dimension().map_or("a number", Dimension::noun);
+        entry.vector(&format!("{noun} along x, or two along x and y"), |part| real(item, key, part))
+    };
+    Value { kind: Kind::Vector(&item.kind), read }
+}
+
+/// Values of a form of their own, which the documentation calls `value`.
+pub(super) const fn other<T>(
+    dimension: Option<Dimension>,
+    value: &'static str,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+) -> Value<T> {
+    Value { kind: Kind::Other { dimension, value }, read }
+}
+
+/// Reads a quantity or a number of a `kind`.
+pub(in crate::study::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result<f64> {
+    match *kind {
+        Kind::Quantity(dimension, bounds) => match bounds {
+            Bounds::AboveZero => entry.positive(dimension),
+            Bounds::AboveZeroOrInfinite(meaning) => entry.positive_or_infinite(dimension, meaning),
+            Bounds::Within(range, zero) => entry.within(dimension, range, zero, key.example),
+            bounds => {
+                let value = entry.quantity(dimension)?;
+                match bounds.hold(value) {
+                    true => Ok(value),
+                    false => Err(entry.unexpected(&expected(kind, key), None)),
+                }
+            }
+        },
+        Kind::Number(_, Bounds::Within(range, zero)) => entry.number_within(range, zero),
+        Kind::Number(_, bounds @ Bounds::FromZeroOrInfinite(_)) => {
+            entry.number_or_infinite(|value| bounds.hold(value), &expected(kind, key))
+        }
+        Kind::Number(_, bounds) => entry.number(|value| bounds.hold(value), &expected(kind, key)),
+        _ => unreachable!("a key that is read as a number is declared as one"),
+    }
+}
+
+/// What a message expects of a quantity or a number.
+fn expected(kind: &Kind, key: &Key) -> String {
+    match *kind {
+        Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
+        Kind::Quantity(dimension, _) => {
+            format!("{} above 0 such as \"{}\"", dimension.noun(), dimension.example())
+        }
+        Kind::Number(noun, bounds) => match bounds {
+            Bounds::FromZero => format!("{noun} of at least 0 such as {}", key.example),
+            Bounds::AboveZero => format!("{noun} above 0 such as {}", key.example),
+            Bounds::FromZeroOrInfinite(meaning) => {
+                format!("{noun} of at least 0 such as {}, or inf: {meaning}", key.example)
+            }
+            Bounds::Between { least, most, open: [from, to] } => match (from, to) {
+                (false, false) => format!("{noun} from {least} to {most}"),
+                (false, true) => format!("{noun} from {least}, below {most}"),
+                (true, false) => format!("{noun} above {least}, at most {most}"),
+                (true, true) => format!("{noun} above {least}, below {most}"),
+            },
+            Bounds::Any | Bounds::AboveZeroOrInfinite(_) | Bounds::Within(..) => noun.to_owned(),
+        },
+        _ => unreachable!("a key that is read as a number is declared as one"),
+    }
+}
+
+impl Bounds {
+    /// Whether a number lies within.
+    fn hold(&self, value: f64) -> bool {
+        match *self {
+            Self::Any => true,
+            Self::FromZero | Self::FromZeroOrInfinite(_) => value >= 0.0,
+            Self::AboveZero | Self::AboveZeroOrInfinite(_) => value > 0.0,
+            Self::Between { least, most, open: [from, to] } => {
+                let above = if from { value > least } else { value >= least };
+                above && if to { value < most } else { value <= most }
+            }
+            Self::Within(range, zero) => range.holds(value) || (zero && value == 0.0),
+        }
+    }
+}
+
+// What several keys share.
+
+/// A length above 0.
+pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero);
+/// A length of at least 0.
+pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero);
+/// A pressure or modulus above 0.
+pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
+/// A share of a whole.
+pub(super) const FRACTION: Value<f64> = number(Bounds::Between { least: 0.0, most: 1.0, open: [true, true] });

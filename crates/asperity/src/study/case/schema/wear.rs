@@ -1,0 +1,213 @@
+//! The keys of bodies that run in: wear, films, acceleration and temperature.
+
+use super::Bounds::{AboveZero, FromZero, Within};
+use super::typed::{
+    LENGTH, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, optional, other, quantity,
+    required, section,
+};
+use crate::study::case::running as read;
+use crate::units::Dimension;
+
+const RATE: Value<f64> = quantity(Dimension::WearCoefficient, AboveZero);
+const FILM: &[&str] = &["lower.film", "upper.film"];
+const ONE: &str = "exactly one of the three";
+
+/// `[lower.wear]` and `[upper.wear]`.
+pub(in crate::study) mod wear {
+    use super::*;
+
+    section! { &["lower.wear", "upper.wear"], "";
+        COEFFICIENT: Optional<f64> = optional(
+            "coefficient",
+            RATE,
+            ONE,
+            "\"1e-7 mm3/(N m)\"",
+            "volume lost per load and distance slid (Archard)",
+        );
+        DIMENSIONLESS: Optional<f64> = optional(
+            "dimensionless",
+            number(AboveZero),
+            ONE,
+            "4e-7",
+            "the same times the `hardness` of the body, which must be one number",
+        );
+        ENERGY: Optional<f64> =
+            optional("energy", RATE, ONE, "\"1e-6 mm3/J\"", "volume lost per energy of friction; with [friction]");
+        UNDER_FILM: Optional<f64> = optional(
+            "under_film",
+            RATE,
+            "that of the bare body",
+            "\"1e-8 mm3/(N m)\"",
+            "the coefficient under the thickest film, in the unit of `coefficient` or `energy`, also beside `dimensionless`, at most \
+             that of the bare body; in between it falls in proportion to the thickness; the body needs a film",
+        );
+    }
+}
+
+/// `[lower.film]` and `[upper.film]` with any law.
+pub(in crate::study) mod film {
+    use super::*;
+
+    section! { FILM, "";
+        LAW: Typed<read::LawKind> = required(
+            "law",
+            choice::<read::LawKind>(),
+            "\"arrhenius\"",
+            "`\"arrhenius\"`: growth activated by stress, removal by sliding; `\"mechano-chemical\"`; `\"solid-lubricant\"`: a film \
+             that is there at its thickest in the beginning and is only worn off",
+        );
+        MAX_THICKNESS: Typed<f64> =
+            required("max_thickness", LENGTH, "\"150 nm\"", "the thickness that the film cannot exceed");
+        HARDNESS: Optional<f64> = optional(
+            "hardness",
+            PRESSURE,
+            "that of the body",
+            "\"2 GPa\"",
+            "the largest pressure that its cells bear where it is at its thickest, at most that of the body; in between in proportion",
+        );
+    }
+}
+
+/// A film with `law = "arrhenius"`.
+pub(in crate::study) mod arrhenius {
+    use super::*;
+    use crate::motion::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, FilmStress, GROWTH_TEMPERATURES};
+
+    section! { FILM, "law = \"arrhenius\"";
+        RATE: Typed<f64> = required(
+            "rate",
+            quantity(Dimension::Speed, AboveZero),
+            "\"20 nm/s\"",
+            "growth of a film of no thickness, at `at_temperature` and `at_stress`",
+        );
+        AT_TEMPERATURE: Typed<f64> = required(
+            "at_temperature",
+            quantity(Dimension::Temperature, Within(GROWTH_TEMPERATURES, false)),
+            "\"100 °C\"",
+            "the temperature of that growth",
+        );
+        AT_STRESS: Typed<f64> = required(
+            "at_stress",
+            quantity(Dimension::Pressure, FromZero),
+            "\"3 GPa\"",
+            "the stress of that growth",
+        );
+        ACTIVATION_ENERGY: Typed<f64> = required(
+            "activation_energy",
+            quantity(Dimension::Energy, Within(ACTIVATION_ENERGIES, true)),
+            "\"0.8 eV\"",
+            "activation energy of the growth",
+        );
+        ACTIVATION_VOLUME: Typed<f64> = required(
+            "activation_volume",
+            quantity(Dimension::Volume, Within(ACTIVATION_VOLUMES, true)),
+            "\"3.8e-3 nm3\"",
+            "activation volume of the growth",
+        );
+        STRESS: Typed<FilmStress> = defaulted(
+            "stress",
+            choice::<FilmStress>(),
+            "\"pressure\"",
+            "\"shear\"",
+            "the stress that activates it; `\"shear\"` needs [friction]",
+        );
+        REMOVAL: Typed<f64> = defaulted(
+            "removal",
+            quantity(Dimension::RemovalRate, FromZero),
+            "0",
+            "\"1e-11 1/(Pa m)\"",
+            "removal per pressure and distance slid",
+        );
+    }
+}
+
+/// A film with `law = "mechano-chemical"`.
+pub(in crate::study) mod mechano_chemical {
+    use super::*;
+    use crate::motion::{GROWTH_FACTORS, REMOVAL_RATES};
+    use crate::study::case::schema::typed::DEPTH;
+
+    section! { FILM, "law = \"mechano-chemical\"";
+        X: Typed<f64> = required("x", number(Within(GROWTH_FACTORS, false)), "1e-16", "the factor x");
+        C3: Typed<f64> = required(
+            "c3",
+            DEPTH,
+            "\"50 nm\"",
+            "the thickness C₃ that is removed in the end, at most `max_thickness`",
+        );
+        C4: Typed<f64> =
+            required("c4", number(Within(REMOVAL_RATES, true)), "0.01", "the rate C₄ of the removal, in 1/s");
+    }
+}
+
+/// A film with `law = "solid-lubricant"`.
+pub(in crate::study) mod solid_lubricant {
+    use super::*;
+
+    section! { FILM, "law = \"solid-lubricant\"";
+        WEAR: Typed<f64> = required(
+            "wear",
+            RATE,
+            "\"1e-6 mm3/(N m)\"",
+            "volume that the film loses per load and distance slid, while there is any; the heights of the surface are with the film",
+        );
+    }
+}
+
+/// `[acceleration]`.
+pub(in crate::study) mod acceleration {
+    use super::*;
+
+    section! { &["acceleration"], "";
+        TOLERANCE: Typed<f64> = defaulted(
+            "tolerance",
+            number(AboveZero),
+            "0.01",
+            "0.01",
+            "largest error estimate of a jump, over the depth to which the largest pressure presses a single cell",
+        );
+        MAX_JUMP: Typed<usize> = defaulted(
+            "max_jump",
+            count(1),
+            "10000",
+            "1000",
+            "the largest number of passes that a computed one stands for; 1: all are computed",
+        );
+        MAX_WEAR: Typed<f64> = defaulted("max_wear", LENGTH, "\"5 nm\"", "\"2 nm\"", "the deepest wear in a jump");
+    }
+
+    #[cfg(test)]
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let library = crate::motion::Acceleration::default();
+        assert_eq!(
+            (TOLERANCE.default(), MAX_JUMP.default(), MAX_WEAR.default()),
+            (library.tolerance, library.max_jump, library.max_wear)
+        );
+    }
+}
+
+/// `[temperature]`.
+pub(in crate::study) mod temperature {
+    use super::*;
+
+    section! { &["temperature"], "";
+        BULK: Typed<[f64; 2]> = required(
+            "bulk",
+            other(Some(Dimension::Temperature), "temperature > 0 K, or two: `[lower, upper]`", |_, entry| {
+                read::bulk(entry)
+            }),
+            "\"100 °C\"",
+            "temperature of the bodies far from the contact; a number is in kelvins",
+        );
+        EVERY: Optional<usize> = optional(
+            "every",
+            count(0),
+            "1 where thermal constants are given, else 0",
+            "10",
+            "the flash temperature is computed at each position of every n-th computed pass, from the first on, and films see it; \
+             between them cells are as warm as they were in the mean over their contacts of the last. It needs the thermal constants \
+             of both bodies, [friction] and a speed. 0: the surfaces are as warm as the bodies",
+        );
+    }
+}
