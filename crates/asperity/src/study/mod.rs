@@ -27,6 +27,7 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 mod warm_start; // where the next pass begins
 
 pub use case::Case;
+pub use case::rules::rules;
 pub use case::schema::keys;
 pub use columns::{COLUMN_UNITS, dimension_of_column, unit_of_column};
 pub use estimate::{Demand, Estimate, demand, estimate};

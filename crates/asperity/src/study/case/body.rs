@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::cursor::Table;
 use super::hardness::hardness;
-use super::plasticity;
+use super::plasticity::flow;
 use super::running;
 use super::schema::body::{both, coating as coating_keys, upper};
 use super::schema::tables::known_in;
@@ -21,13 +21,9 @@ pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     let poisson = both::POISSON.of(table)?;
     let hardness = hardness(table, folder)?;
     let coating = both::COATING.of(table)?.map(|table| coating(&table)).transpose()?;
-    let plasticity = both::PLASTICITY
-        .of(table)?
-        .map(|flow| plasticity::flow(&flow, table, young, &hardness, coating.as_ref()))
-        .transpose()?;
+    let plasticity = both::PLASTICITY.of(table)?.map(|table| flow(&table)).transpose()?;
     let film = both::FILM.of(table)?.map(|table| running::film(&table, &hardness)).transpose()?;
-    let wear =
-        both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness, film.as_ref())).transpose()?;
+    let wear = both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness)).transpose()?;
     let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
     let mount = match upper::MOUNT.of(table)? {
         Some(mount) => Some(mount),

@@ -14,6 +14,7 @@ mod output;
 mod parse;
 mod plasticity;
 mod prescribed;
+pub mod rules;
 mod running;
 pub mod schema;
 mod sliding;

@@ -44,13 +44,8 @@ pub enum Side {
 
 choice!(Side: "lower" => Lower, "upper" => Upper);
 
-pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpec> {
+pub(super) fn subsurface(table: &Table<'_>) -> Result<SubsurfaceSpec> {
     known_in(table)?;
-    let step = keys::STEP.of(table)?;
-    if let Some(entry) = keys::STEP.entry(table).filter(|_| !moves) {
-        let hint = "a static contact has one position; leave it out".to_owned();
-        return Err(entry.error("'step' has no meaning without [motion]".to_owned(), Some(hint)));
-    }
     Ok(SubsurfaceSpec {
         body: keys::BODY.of(table)?,
         to: keys::TO.of(table)?,
@@ -58,7 +53,7 @@ pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpe
         planes: keys::PLANES.of(table)?.unwrap_or_default(),
         section: keys::SECTION_Y.of(table)?,
         columns: keys::COLUMNS.of(table)?.unwrap_or_default(),
-        step,
+        step: keys::STEP.of(table)?,
     })
 }
 

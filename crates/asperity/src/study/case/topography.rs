@@ -79,6 +79,26 @@ pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographyS
     Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
 }
 
+/// An error if both bodies wait for each other's shape or pitch.
+pub(super) fn one_tells_the_other(
+    lower: &TopographySpec,
+    upper: &TopographySpec,
+    upper_table: &Table<'_>,
+) -> Result<()> {
+    let (Some(of_lower), Some(of_upper)) = (lower.lacks().last(), upper.lacks().last()) else {
+        return Ok(());
+    };
+    let table = upper_table.required_table("topography")?;
+    let key = upper.lacks().find(|key| lower.lacks().any(|other| other == *key)).unwrap_or(of_upper);
+    let why = match lower.lacks().any(|other| other == key) {
+        true => "and in [lower.topography]: a body takes from the other what it lacks".to_owned(),
+        false => format!("from which [lower.topography] takes its '{of_lower}'"),
+    };
+    let example = if key == "shape" { "[256, 256]" } else { "\"0.5 um\"" };
+    let hint = format!("for example `{key} = {example}`");
+    Err(table.error(format!("missing key '{key}' in {}, {why}", table.name()), Some(hint)))
+}
+
 fn preparation(table: &Table<'_>) -> Result<Preparation> {
     let (s_filter, l_filter) = (every::S_FILTER.of(table)?, every::L_FILTER.of(table)?);
     if let (Some(shortest), Some(longest), Some(entry)) = (s_filter, l_filter, every::S_FILTER.entry(table))

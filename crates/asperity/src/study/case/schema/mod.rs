@@ -221,8 +221,8 @@ impl fmt::Display for Bounds {
                 write!(
                     f,
                     " {} {least}, {} {most}",
-                    [">=", ">"][usize::from(from)],
-                    ["<=", "<"][usize::from(to)]
+                    ["≥", ">"][usize::from(from)],
+                    ["≤", "<"][usize::from(to)]
                 )
             }
             Self::Within(range, zero) => write!(f, ", {}{range}", if zero { "0 or " } else { "" }),
