@@ -86,6 +86,13 @@ pub enum FilmLaw {
     },
 }
 
+impl FilmLaw {
+    /// Whether a film changes with time: a solid lubricant does with the distance slid alone.
+    pub fn takes_time(&self) -> bool {
+        !matches!(self, Self::SolidLubricant { .. })
+    }
+}
+
 /// The stress that drives the growth of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmStress {
@@ -211,9 +218,8 @@ impl Film {
                 touching.add(body, removed, |_| c4 * touching.time);
             }
             FilmLaw::SolidLubricant { wear } => {
-                touching.add(body, removed, |index| {
-                    wear * touching.pressure[index] * touching.sliding_distance
-                });
+                touching
+                    .add(body, removed, |index| wear * touching.pressure[index] * touching.sliding_distance);
             }
         }
     }

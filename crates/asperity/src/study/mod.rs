@@ -25,6 +25,7 @@ mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 
 pub use case::Case;
+pub use case::rules::rules;
 pub use case::schema::keys;
 pub use columns::{
     INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,

@@ -76,7 +76,8 @@ fn uses(files: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> 
             else {
                 continue;
             };
-            for path in paths(path) {
+            for mut path in paths(path) {
+                path.retain(|name| name != "self");
                 let home = [module.as_slice(), &path[..path.len() - 1]].concat();
                 if path.len() > 1 && files.contains_key(&[module.as_slice(), &path[..1]].concat()) {
                     handed_on.insert((module.clone(), path[path.len() - 1].clone()), home);

@@ -2,6 +2,7 @@
 
 mod bad_inputs;
 mod bounds;
+mod case_file;
 mod circles;
 mod closed_forms;
 mod convergence;
@@ -12,7 +13,6 @@ mod friction;
 mod good_inputs;
 mod hardness;
 mod in_place;
-mod keys;
 mod kinematics;
 mod laws;
 mod line;

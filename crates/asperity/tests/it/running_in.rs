@@ -548,7 +548,11 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
                 .unwrap();
             simulation.run(&(), &mut []).unwrap();
             let film = &simulation.pair().lower.state[FILM].values;
-            assert!(film.iter().all(|f| (f - left).abs() < 1e-6 * thickness), "{:e} of {left:e}", film[[0, 0]]);
+            assert!(
+                film.iter().all(|f| (f - left).abs() < 1e-6 * thickness),
+                "{:e} of {left:e}",
+                film[[0, 0]]
+            );
         }
     }
 }

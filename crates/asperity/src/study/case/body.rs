@@ -3,13 +3,12 @@
 use std::path::Path;
 
 use super::cursor::Table;
-use super::hardness::hardness;
-use super::plasticity;
+use super::plasticity::flow;
 use super::running;
 use super::schema::body::{both, coating as coating_keys, upper};
 use super::schema::tables::known_in;
 use super::topography::topography;
-use super::{Body, Mount, Source};
+use super::{Body, Hardness, HardnessMap, Mount, Source};
 use crate::error::Result;
 use crate::material::{Coating, Material};
 use crate::surface::UNDERSIDE;
@@ -21,13 +20,9 @@ pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     let poisson = both::POISSON.of(table)?;
     let hardness = hardness(table, folder)?;
     let coating = both::COATING.of(table)?.map(|table| coating(&table)).transpose()?;
-    let plasticity = both::PLASTICITY
-        .of(table)?
-        .map(|flow| plasticity::flow(&flow, table, young, &hardness, coating.as_ref()))
-        .transpose()?;
+    let plasticity = both::PLASTICITY.of(table)?.map(|table| flow(&table)).transpose()?;
     let film = both::FILM.of(table)?.map(|table| running::film(&table, &hardness)).transpose()?;
-    let wear =
-        both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness, film.as_ref())).transpose()?;
+    let wear = both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness)).transpose()?;
     let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
     let mount = match upper::MOUNT.of(table)? {
         Some(mount) => Some(mount),
@@ -50,4 +45,12 @@ fn coating(table: &Table<'_>) -> Result<Coating> {
 /// Whether a file of results would hold the underside of a body there.
 fn may_be_an_underside(source: &Source) -> bool {
     matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
+}
+
+/// The hardness in the table of a body, a file in the folder of the case.
+fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
+    Ok(match both::HARDNESS.of(table)? {
+        Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),
+        other => other,
+    })
 }

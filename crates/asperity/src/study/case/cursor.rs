@@ -124,11 +124,20 @@ impl<'a> Entry<'a> {
 
     /// `'passes' is 0, expected …`, the value as it is written.
     pub(in crate::study) fn unexpected(&self, expected: &str, hint: Option<String>) -> Error {
-        let written = match self.value {
+        self.error(format!("'{}' is {}, expected {expected}", self.key(), self.written()), hint)
+    }
+
+    /// The value as the file writes it.
+    pub(super) fn written(&self) -> String {
+        match self.value {
             DeValue::Table(_) => "a table".to_owned(),
             _ => self.document.written(self.span.clone()),
-        };
-        self.error(format!("'{}' is {written}, expected {expected}", self.key()), hint)
+        }
+    }
+
+    /// The dotted name.
+    pub(super) fn path(&self) -> &str {
+        &self.path
     }
 
     /// Where the value stands.

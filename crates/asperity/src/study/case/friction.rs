@@ -6,7 +6,7 @@ use super::cursor::{Entry, Table};
 use super::prescribed::{Prescribed, prescribed};
 use super::schema::contact::{friction as keys, history};
 use super::schema::tables::known_in;
-use super::{Case, Number, PlasticitySpec};
+use super::{Case, Number};
 use crate::error::Result;
 use crate::motion::{Point, Stage};
 use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
@@ -78,6 +78,11 @@ impl FrictionSpec {
     /// Whether the contact rolls.
     pub(super) fn rolls(&self) -> bool {
         self.rolling().next().is_some()
+    }
+
+    /// Whether any shear makes the bodies slip.
+    pub(super) fn slips(&self) -> bool {
+        self.law.shear_limit(1.0).is_finite()
     }
 
     /// How the contact rolls: at each of `creepages`, or once.
@@ -170,105 +175,52 @@ impl InPlane {
     }
 }
 
-/// What a static contact may be told in its plane.
-const IN_PLANE: [&str; 6] = ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
+/// What acts in the plane of a static contact.
+pub(super) const IN_PLANE: [&str; 6] =
+    ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
 /// What a stage may change: in the normal direction, then in the plane.
 const STAGE: [&str; 6] = ["load", "mean_pressure", "approach", "force", "displacement", "sliding"];
 
-pub(super) fn friction(table: &Table<'_>, yields: bool, moves: bool) -> Result<FrictionSpec> {
+pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
     known_in(table)?;
-    let coefficient = keys::COEFFICIENT.of(table)?;
-    let shear_strength = keys::SHEAR_STRENGTH.of(table)?;
-    let junction_growth = keys::JUNCTION_GROWTH.of(table)?;
-    if let Some(entry) = keys::JUNCTION_GROWTH.entry(table).filter(|_| junction_growth > 0.0 && !yields) {
-        let hint = "give the softer body a `hardness`".to_owned();
-        return Err(entry.error("'junction_growth' needs bodies that yield".to_owned(), Some(hint)));
-    }
-    if moves
-        && let Some(entry) = IN_PLANE.iter().chain(&["spin", "increments"]).find_map(|key| table.get(key))
-    {
-        let hint = "in a [motion] the upper body slides over the lower one".to_owned();
-        return Err(entry.error(format!("'{}' belongs to a static contact", entry.key()), Some(hint)));
-    }
-    let coupling = keys::COUPLING.of(table)?;
-    let law = Friction { coefficient, shear_strength, coupling, junction_growth };
-    if moves {
-        slides(&law, &keys::COEFFICIENT.demand(table)?)?;
-    }
     at_most_one(table, &IN_PLANE)?;
-    let prescribed = in_plane(table, &law)?;
-    let creepages = keys::CREEPAGES.of(table)?.unwrap_or_default();
-    let mut spec = FrictionSpec { law, prescribed, creepages, spin: 0.0, increments: 1 };
-    if spec.rolls()
-        && let Some(entry) = keys::INCREMENTS.entry(table)
-    {
-        let message = "'increments' has no meaning in rolling".to_owned();
-        return Err(entry.error(message, Some(STEADY.to_owned())));
-    }
-    if let Some(entry) = keys::SPIN.entry(table).filter(|_| !spec.rolls()) {
-        let hint = "give `creepage`, 0 if there is none, or `rolling_force`".to_owned();
-        return Err(entry.error("'spin' belongs to a rolling contact".to_owned(), Some(hint)));
-    }
-    spec.spin = keys::SPIN.of(table)?;
-    spec.increments = keys::INCREMENTS.of(table)?;
-    Ok(spec)
+    Ok(FrictionSpec {
+        law: Friction {
+            coefficient: keys::COEFFICIENT.of(table)?,
+            shear_strength: keys::SHEAR_STRENGTH.of(table)?,
+            junction_growth: keys::JUNCTION_GROWTH.of(table)?,
+            coupling: keys::COUPLING.of(table)?,
+        },
+        prescribed: in_plane(table)?,
+        creepages: keys::CREEPAGES.of(table)?.unwrap_or_default(),
+        spin: keys::SPIN.of(table)?,
+        increments: keys::INCREMENTS.of(table)?,
+    })
 }
 
-/// An error at `entry`, which makes the bodies slide, if they cannot.
-fn slides(law: &Friction, entry: &Entry<'_>) -> Result<()> {
-    if law.shear_limit(1.0).is_finite() {
-        return Ok(());
-    }
-    let hint = "give a finite 'coefficient', or the 'shear_strength' of a film".to_owned();
-    Err(entry.error("what sticks under any shear cannot slide".to_owned(), Some(hint)))
-}
-
-/// The stages after the first, in the plane only where there is friction.
+/// The stages after the first, each in so many `steps` where it does not say in how many.
 pub(super) fn stages(
-    tables: &[Table<'_>],
+    entry: &Entry<'_>,
     friction: Option<&FrictionSpec>,
-    plasticity: Option<&PlasticitySpec>,
+    steps: usize,
 ) -> Result<Vec<StageSpec>> {
-    // Bodies that flow go on in the steps in which they have begun.
-    let steps = match (plasticity, friction) {
-        (None, _) => 1,
-        (Some(_), Some(friction)) => friction.increments,
-        (Some(plasticity), None) => plasticity.increments.unwrap_or(1),
-    };
-    tables
-        .iter()
-        .map(|table| {
-            if friction.is_some_and(FrictionSpec::rolls) {
-                let message = "a rolling contact has no [[history]]".to_owned();
-                return Err(table.error(message, Some(STEADY.to_owned())));
-            }
-            known_in(table)?;
-            let (normal, plane) = STAGE.split_at(3);
-            let given = |keys: &[&str]| keys.iter().find_map(|key| table.get(key));
-            if let (None, Some(entry)) = (friction, given(plane)) {
-                let hint = "add a [friction] table with its `coefficient`".to_owned();
-                let message = format!("'{}' acts on a contact with friction", entry.key());
-                return Err(entry.error(message, Some(hint)));
-            }
-            if given(&STAGE).is_none() {
-                let keys =
-                    if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
-                let hint = format!("give {keys}; what a stage does not name stays");
-                return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
-            }
-            Ok(StageSpec {
-                normal: given(normal).is_some().then(|| prescribed(table)).transpose()?,
-                in_plane: match friction {
-                    Some(friction) => {
-                        at_most_one(table, plane)?;
-                        in_plane(table, &friction.law)?
-                    }
-                    None => None,
-                },
-                increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
-            })
+    let (normal, plane) = STAGE.split_at(3);
+    let stage = |table: &Table<'_>| {
+        known_in(table)?;
+        let gives = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
+        if !gives(&STAGE) {
+            let keys = if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
+            let hint = format!("give {keys}; what a stage does not name stays");
+            return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
+        }
+        at_most_one(table, plane)?;
+        Ok(StageSpec {
+            normal: gives(normal).then(|| prescribed(table)).transpose()?,
+            in_plane: in_plane(table)?,
+            increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
         })
-        .collect()
+    };
+    entry.tables()?.iter().map(stage).collect()
 }
 
 /// An error if more than one of `keys` is given.
@@ -280,10 +232,7 @@ fn at_most_one(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
 }
 
 /// What [friction] or a stage prescribes in the plane, of which it names one at most.
-fn in_plane(table: &Table<'_>, law: &Friction) -> Result<Option<InPlane>> {
-    if let Some(entry) = keys::SLIDING.entry(table) {
-        slides(law, &entry)?;
-    }
+fn in_plane(table: &Table<'_>) -> Result<Option<InPlane>> {
     let force = keys::FORCE.of(table)?.map(InPlane::Force);
     let displacement = keys::DISPLACEMENT.of(table)?.map(InPlane::Displacement);
     let sliding = keys::SLIDING.of(table)?.map(InPlane::Sliding);
@@ -291,9 +240,6 @@ fn in_plane(table: &Table<'_>, law: &Friction) -> Result<Option<InPlane>> {
     let rolling_force = keys::ROLLING_FORCE.of(table)?.map(InPlane::RollingForce);
     Ok(force.or(displacement).or(sliding).or(creepage).or(rolling_force))
 }
-
-/// Why a rolling contact has neither stages nor increments.
-const STEADY: &str = "its steady state does not depend on how it was reached";
 
 fn is_zero(value: &f64) -> bool {
     *value == 0.0

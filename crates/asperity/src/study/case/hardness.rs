@@ -1,14 +1,11 @@
 //! What a body bears: one pressure, or a map of its cells.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 
 use super::Number;
-use super::cursor::{Entry, Table};
-use super::schema::body::{both, hardness_given as given, hardness_map as keys};
-use crate::error::Result;
-use crate::units::{Dimension, Pascal};
+use crate::units::Pascal;
 
 /// Hardness of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,33 +57,4 @@ impl Serialize for Hardness {
             Self::Given(map) => map.serialize(serializer),
         }
     }
-}
-
-impl Hardness {
-    /// One pressure or a table; a file as the table names it.
-    pub(super) fn read(entry: &Entry<'_>) -> Result<Self> {
-        if !entry.is_table() {
-            let infinite = "an elastic body, as is leaving it out";
-            return entry.positive_or_infinite(Dimension::Pressure, infinite).map(Self::Uniform);
-        }
-        let map = entry.clone().table()?;
-        if given::GIVEN.entry(&map).is_some() {
-            map.known(&["given"], |_| None)?;
-            return Ok(Self::Given(GivenMap { name: given::GIVEN.of(&map)? }));
-        }
-        map.known(&["file", "channel", "unit"], |_| None)?;
-        let path = match keys::FILE.of(&map)?.as_str() {
-            "" => return Err(keys::FILE.demand(&map)?.unexpected("the name of a file", None)),
-            path => PathBuf::from(path),
-        };
-        Ok(Self::Map(HardnessMap { path, channel: keys::CHANNEL.of(&map)?, unit: keys::UNIT.of(&map)? }))
-    }
-}
-
-/// The hardness in the table of a body, a file in the folder of the case.
-pub(super) fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
-    Ok(match both::HARDNESS.of(table)? {
-        Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),
-        other => other,
-    })
 }

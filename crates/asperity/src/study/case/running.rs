@@ -2,21 +2,19 @@
 
 use serde::Serialize;
 
-use super::cursor::{Entry, Table};
+use super::cursor::Table;
 use super::schema::body::both as body;
 use super::schema::tables::{known_in, suits_choice};
+use super::schema::values::running::LawKind;
 use super::schema::wear::{
     acceleration, arrhenius, film, mechano_chemical, solid_lubricant, temperature, wear,
 };
-use super::{Body, Boundary, Case, CounterBody, Hardness, MotionSpec, SlidingSpec};
-use crate::choice::{Choice, choice};
+use super::{Body, Case, Hardness};
+use crate::choice::Choice;
 use crate::error::Result;
-use crate::motion::{
-    Acceleration, Film, FilmLaw, FilmStress, Films, InPlace, Pair, PlasticUpdate, Simulation, Strategy, Wear,
-    WearCoefficient,
-};
+use crate::motion::{Acceleration, Film, FilmLaw, Films, InPlace, Pair, Simulation, Wear, WearCoefficient};
 use crate::temperature::Thermal;
-use crate::units::{Dimension, Kelvin, Metre, Pascal, PerPascal};
+use crate::units::{Kelvin, Metre, Pascal, PerPascal};
 
 /// Wear of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -54,16 +52,6 @@ pub struct FilmSpec {
     pub hardness: Option<Pascal>,
 }
 
-/// A [`FilmLaw`] without its parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LawKind {
-    Arrhenius,
-    MechanoChemical,
-    SolidLubricant,
-}
-
-choice!(LawKind: "arrhenius" => Arrhenius, "mechano-chemical" => MechanoChemical, "solid-lubricant" => SolidLubricant);
-
 /// Temperatures of the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -75,7 +63,7 @@ pub struct TemperatureSpec {
 }
 
 /// Wear in the table of a body.
-pub(super) fn wear(table: &Table<'_>, hardness: &Hardness, film: Option<&FilmSpec>) -> Result<WearSpec> {
+pub(super) fn wear(table: &Table<'_>, hardness: &Hardness) -> Result<WearSpec> {
     known_in(table)?;
     let keys = ["coefficient", "dimensionless", "energy"];
     let coefficient = match table.exactly_one(&keys, "for example `coefficient = \"1e-7 mm3/(N m)\"`")? {
@@ -97,20 +85,12 @@ pub(super) fn wear(table: &Table<'_>, hardness: &Hardness, film: Option<&FilmSpe
         }
     };
     let (WearKey::Coefficient(bare) | WearKey::Energy(bare)) = coefficient;
-    Ok(WearSpec { coefficient, under_film: under_film(table, bare, film.is_some())? })
-}
-
-fn under_film(table: &Table<'_>, bare: PerPascal, has_film: bool) -> Result<Option<PerPascal>> {
-    let Some(entry) = wear::UNDER_FILM.entry(table) else { return Ok(None) };
-    if !has_film {
-        let hint = "give the body a film, or leave 'under_film' out".to_owned();
-        return Err(entry.error("'under_film' belongs to a body with a film".to_owned(), Some(hint)));
-    }
-    let under_film = wear::UNDER_FILM.required(table)?;
-    if under_film > bare {
+    let under_film = wear::UNDER_FILM.of(table)?;
+    if under_film.is_some_and(|under_film| under_film > bare) {
+        let entry = wear::UNDER_FILM.demand(table)?;
         return Err(entry.unexpected("no more than the coefficient of the bare body", None));
     }
-    Ok(Some(under_film))
+    Ok(WearSpec { coefficient, under_film })
 }
 
 /// The film in the table of a body.
@@ -144,16 +124,13 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
         LawKind::SolidLubricant => FilmLaw::SolidLubricant { wear: solid_lubricant::WEAR.of(table)? },
     };
     let hardness = film::HARDNESS.of(table)?;
-    if let (Some(entry), Some(hardness), Hardness::Uniform(body)) =
-        (film::HARDNESS.entry(table), hardness, body)
+    if let (Some(hardness), Hardness::Uniform(body)) = (hardness, body)
+        && hardness > *body
     {
-        let hint = Some("a film that bears more than its body is one without a 'hardness'".to_owned());
-        if !body.is_finite() {
-            return Err(entry.error("a film has a 'hardness' where its body has one".to_owned(), hint));
-        }
-        if hardness > *body {
-            return Err(entry.unexpected("no more than the hardness of the body", hint));
-        }
+        let hint = "a film that bears more than its body is one without a 'hardness'".to_owned();
+        return Err(film::HARDNESS
+            .demand(table)?
+            .unexpected("no more than the hardness of the body", Some(hint)));
     }
     Ok(FilmSpec { law, max_thickness, hardness })
 }
@@ -177,170 +154,11 @@ pub(super) fn thermal(table: &Table<'_>) -> Result<Option<Thermal>> {
     Thermal::new(conductivity?, heat_capacity?, density?).map(Some)
 }
 
-/// The temperatures of the lower and of the upper body.
-pub(super) fn bulk(entry: &Entry<'_>) -> Result<[Kelvin; 2]> {
-    let expected = "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
-    entry.pair(expected, |item| item.positive(Dimension::Temperature))
-}
-
-/// `[temperature]`, with the flash temperature where both bodies have thermal constants.
-pub(super) fn temperature(
-    root: &Table<'_>,
-    bodies: [&Body; 2],
-    motion: Option<&MotionSpec>,
-    sliding: Option<&SlidingSpec>,
-    boundary: Boundary,
-) -> Result<Option<TemperatureSpec>> {
-    let given = bodies.map(|body| body.thermal.is_some());
-    if given[0] != given[1] {
-        let [with, without] = if given[0] { ["lower", "upper"] } else { ["upper", "lower"] };
-        let hint = Some(format!("heat is divided between both: give them to [{without}], too"));
-        let message = format!("[{with}] has thermal constants, [{without}] has none");
-        return Err(root.required_table(with)?.required("conductivity", "")?.error(message, hint));
-    }
-    let Some(table) = root.table("temperature")? else {
-        return match given[0] {
-            true => {
-                let entry = root.required_table("lower")?.required("conductivity", "")?;
-                let hint = Some("add `[temperature]` with `bulk = \"100 °C\"`".to_owned());
-                Err(entry.error("thermal constants are those of a case with [temperature]".to_owned(), hint))
-            }
-            false => Ok(None),
-        };
-    };
-    known_in(&table)?;
-    if motion.is_none() && sliding.is_none() {
-        return Err(table.error("a contact at rest has no [temperature]".to_owned(), None));
-    }
-    let bulk = temperature::BULK.of(&table)?;
-    let every = temperature::EVERY.of(&table)?.unwrap_or(usize::from(given[0]));
-    if let (Some(entry), Some(_), 2..) = (table.get("every"), sliding, every) {
-        return Err(entry.unexpected("1, the flash temperature of each update, or 0, none", None));
-    }
-    let is_fresh = motion.is_some_and(|motion| motion.counter == CounterBody::Fresh);
-    if let (Some(entry), true, 2..) = (table.get("every"), is_fresh, every) {
-        return Err(entry.unexpected("1 or 0: a fresh counter-body has not been warm before", None));
-    }
-    if every > 0 {
-        let place = table.get("every");
-        let refused = |message: &str, hint: &str| {
-            let (message, hint) = (message.to_owned(), Some(hint.to_owned()));
-            Err(place.as_ref().map_or_else(
-                || table.error(message.clone(), hint.clone()),
-                |entry| entry.error(message.clone(), hint.clone()),
-            ))
-        };
-        if !given[0] {
-            let hint = "give both bodies `conductivity`, `heat_capacity` and `density`, or set `every = 0`";
-            return refused("a flash temperature needs thermal constants", hint);
-        }
-        if root.table("friction")?.is_none() {
-            return refused(
-                "without [friction] nothing is heated",
-                "add a [friction] table, or set `every = 0`",
-            );
-        }
-        if sliding.is_some_and(|sliding| sliding.speed.is_none()) {
-            let hint = "for example `speed = \"10 mm/s\"` in [sliding]";
-            return refused("a flash temperature needs a speed", hint);
-        }
-        if motion.is_some_and(|motion| motion.strategy == Strategy::Overlap && motion.speed.is_none()) {
-            return refused(
-                "a flash temperature needs a speed",
-                "for example `speed = \"0.5 m/s\"` in [motion]",
-            );
-        }
-        if motion.is_some_and(|motion| motion.strategy != Strategy::Overlap) && !boundary.repeats(0) {
-            return refused(
-                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
-                "set `boundary = \"periodic\"` in [contact], or `every = 0`",
-            );
-        }
-        if motion.is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step) {
-            return refused(
-                "a flash temperature is that of bodies that stay as they are in a pass",
-                "set `plastic_update = \"pass\"`",
-            );
-        }
-    }
-    Ok(Some(TemperatureSpec { bulk, every }))
-}
-
-/// An error if what runs in does not move, has no speed or rubs nothing.
-pub(super) fn runs_in(
-    root: &Table<'_>,
-    bodies: [&Body; 2],
-    motion: Option<&MotionSpec>,
-    sliding: Option<&SlidingSpec>,
-) -> Result<()> {
-    let has_friction = root.table("friction")?.is_some();
-    for (name, body) in ["lower", "upper"].into_iter().zip(bodies) {
-        let body_table = root.required_table(name)?;
-        for key in ["wear", "film"] {
-            let Some(table) = body_table.table(key)? else { continue };
-            if let Some(sliding) = sliding {
-                if key == "film" && sliding.speed.is_none() {
-                    let hint = Some("for example `speed = \"10 mm/s\"` in [sliding]".to_owned());
-                    let message = "missing key 'speed' in [sliding]: films take time".to_owned();
-                    return Err(root.required_table("sliding")?.error(message, hint));
-                }
-                continue;
-            }
-            let Some(motion) = motion else {
-                let hint = Some("add a [motion] with its `speed`, or [sliding]".to_owned());
-                return Err(table.error(format!("a contact at rest has no {key}"), hint));
-            };
-            let motion_table = root.required_table("motion")?;
-            let has_speed = match motion.strategy {
-                Strategy::Overlap => motion.speed.is_some(),
-                Strategy::Shift { .. } => {
-                    motion_table.get("speed_upper").or(motion_table.get("speed_lower")).is_some()
-                }
-            };
-            if !has_speed {
-                let (key, hint) = match motion.strategy {
-                    Strategy::Overlap => ("speed", "for example `speed = \"0.5 m/s\"` in [motion]"),
-                    Strategy::Shift { .. } => {
-                        ("speed_upper", "for example `speed_upper = \"0.5 m/s\"` in [motion]")
-                    }
-                };
-                return Err(motion_table.error(
-                    format!("missing key '{key}' in [motion]: wear and films take time"),
-                    Some(hint.to_owned()),
-                ));
-            }
-            if key == "wear" && motion.strategy.direction() == 0.0 {
-                let hint = Some("give the speeds different values, or leave the wear out".to_owned());
-                return Err(table.error("surfaces that roll at equal speeds do not wear".to_owned(), hint));
-            }
-            if motion.plastic_update == PlasticUpdate::Step {
-                let entry = motion_table.required("plastic_update", "\"pass\"")?;
-                return Err(entry.unexpected("\"pass\" where bodies wear or grow films", None));
-            }
-        }
-        let needs_friction = match body {
-            Body { wear: Some(WearSpec { coefficient: WearKey::Energy(_), .. }), .. } => {
-                Some(("wear", "energy"))
-            }
-            Body {
-                film: Some(FilmSpec { law: FilmLaw::Arrhenius { stress: FilmStress::Shear, .. }, .. }),
-                ..
-            } => Some(("film", "stress")),
-            _ => None,
-        };
-        if let (Some((table, key)), false) = (needs_friction, has_friction) {
-            let table = body_table.required_table(table)?;
-            let hint = Some("add a [friction] table with its `coefficient`".to_owned());
-            return Err(table.required(key, "")?.error(format!("'{key}' needs friction"), hint));
-        }
-        if body.film.is_some() && root.table("temperature")?.is_none() {
-            let hint = Some("add `[temperature]` with `bulk = \"100 °C\"`".to_owned());
-            return Err(body_table
-                .required_table("film")?
-                .error("a film grows at a temperature".to_owned(), hint));
-        }
-    }
-    Ok(())
+/// `[temperature]`, with the flash temperature at each position where the bodies are `heated`.
+pub(super) fn temperature(table: &Table<'_>, heated: bool) -> Result<TemperatureSpec> {
+    known_in(table)?;
+    let bulk = temperature::BULK.of(table)?;
+    Ok(TemperatureSpec { bulk, every: temperature::EVERY.of(table)?.unwrap_or(usize::from(heated)) })
 }
 
 impl Case {

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::cursor::{Entry, Table};
+use super::cursor::Table;
 use super::schema::output::subsurface as keys;
 use super::schema::tables::known_in;
-use crate::choice::choice;
+use super::schema::values::subsurface::Side;
 use crate::error::Result;
-use crate::units::{Dimension, Metre};
+use crate::units::Metre;
 
 /// What is looked at under the surface. Positions x and y count from the corner of the body, depths from its surface.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,24 +33,8 @@ pub struct SubsurfaceSpec {
     pub step: Option<usize>,
 }
 
-/// One of the two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The body underneath.
-    Lower,
-    /// The body above.
-    Upper,
-}
-
-choice!(Side: "lower" => Lower, "upper" => Upper);
-
-pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpec> {
+pub(super) fn subsurface(table: &Table<'_>) -> Result<SubsurfaceSpec> {
     known_in(table)?;
-    let step = keys::STEP.of(table)?;
-    if let Some(entry) = keys::STEP.entry(table).filter(|_| !moves) {
-        let hint = "a static contact has one position; leave it out".to_owned();
-        return Err(entry.error("'step' has no meaning without [motion]".to_owned(), Some(hint)));
-    }
     Ok(SubsurfaceSpec {
         body: keys::BODY.of(table)?,
         to: keys::TO.of(table)?,
@@ -58,24 +42,6 @@ pub(super) fn subsurface(table: &Table<'_>, moves: bool) -> Result<SubsurfaceSpe
         planes: keys::PLANES.of(table)?.unwrap_or_default(),
         section: keys::SECTION_Y.of(table)?,
         columns: keys::COLUMNS.of(table)?.unwrap_or_default(),
-        step,
+        step: keys::STEP.of(table)?,
     })
-}
-
-/// Depths below the surface.
-pub(super) fn depths(entry: &Entry<'_>) -> Result<Vec<Metre>> {
-    entry.list("a list of depths such as [\"1 um\", \"5 um\"]", length)
-}
-
-/// Positions on the surface.
-pub(super) fn positions(entry: &Entry<'_>) -> Result<Vec<[Metre; 2]>> {
-    entry.list("a list of positions such as [[\"5 um\", \"10 um\"]]", |item| {
-        item.array("a position [x, y] of two lengths", length)
-    })
-}
-
-/// A length of at least 0.
-fn length(entry: &Entry<'_>) -> Result<Metre> {
-    let length = entry.quantity(Dimension::Length)?;
-    if length >= 0.0 { Ok(length) } else { Err(entry.unexpected("a length of at least 0", None)) }
 }

@@ -8,47 +8,14 @@ use super::schema::topography::{
     autocorrelation, cone, cylinder, ellipsoid, every, file, form, generate, given, grooves, low_pass,
     self_affine, sinusoid, sphere,
 };
+use super::schema::values::topography::{Method, Shape};
 use super::{Layer, Source, TopographySpec};
-use crate::choice::{Choice, choice};
+use crate::choice::Choice;
 use crate::error::Result;
-use crate::grid::MAX_CELLS;
 use crate::surface::{
-    Amplitude, Autocorrelation, Form, Generator, HeightDistribution, Level, LowPass, Preparation, Resample,
+    Amplitude, Autocorrelation, Form, Generator, HeightDistribution, LowPass, Preparation, Resample,
     SelfAffine,
 };
-use crate::units::Dimension;
-
-/// How a random topography is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Method {
-    LowPass,
-    Autocorrelation,
-    SelfAffine,
-}
-
-choice!(Method: "low-pass" => LowPass, "autocorrelation" => Autocorrelation, "self-affine" => SelfAffine);
-
-/// A [`Form`] without its parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
-    Sphere,
-    Ellipsoid,
-    Cylinder,
-    Cone,
-    Flat,
-    Sinusoid,
-    Grooves,
-}
-
-choice!(
-    Shape: "sphere" => Sphere,
-    "ellipsoid" => Ellipsoid,
-    "cylinder" => Cylinder,
-    "cone" => Cone,
-    "flat" => Flat,
-    "sinusoid" => Sinusoid,
-    "grooves" => Grooves
-);
 
 pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
     known_in(table)?;
@@ -77,6 +44,26 @@ pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographyS
     let pitch = every::PITCH.of(table)?;
     let plus = every::PLUS.entry(table).map(|entry| layers(&entry)).transpose()?.unwrap_or_default();
     Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
+}
+
+/// An error if both bodies wait for each other's shape or pitch.
+pub(super) fn one_tells_the_other(
+    lower: &TopographySpec,
+    upper: &TopographySpec,
+    upper_table: &Table<'_>,
+) -> Result<()> {
+    let (Some(of_lower), Some(of_upper)) = (lower.lacks().last(), upper.lacks().last()) else {
+        return Ok(());
+    };
+    let table = upper_table.required_table("topography")?;
+    let key = upper.lacks().find(|key| lower.lacks().any(|other| other == *key)).unwrap_or(of_upper);
+    let why = match lower.lacks().any(|other| other == key) {
+        true => "and in [lower.topography]: a body takes from the other what it lacks".to_owned(),
+        false => format!("from which [lower.topography] takes its '{of_lower}'"),
+    };
+    let example = if key == "shape" { "[256, 256]" } else { "\"0.5 um\"" };
+    let hint = format!("for example `{key} = {example}`");
+    Err(table.error(format!("missing key '{key}' in {}, {why}", table.name()), Some(hint)))
 }
 
 fn preparation(table: &Table<'_>) -> Result<Preparation> {
@@ -202,49 +189,3 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
 }
 
 // Values of a form of their own.
-
-/// The part of a topography to keep.
-pub(super) fn window(entry: &Entry<'_>) -> Result<[usize; 4]> {
-    let window: [usize; 4] = entry.array("four whole numbers [x0, y0, nx, ny]", |item| item.count(0))?;
-    if window[2..].contains(&0) {
-        return Err(entry.unexpected("a window [x0, y0, nx, ny] of at least one sample", None));
-    }
-    Ok(window)
-}
-
-/// One of the words of [`Level`]; of polynomials each order has its own.
-pub(super) fn level(entry: &Entry<'_>) -> Result<Level> {
-    if let Some(level) = entry.text().ok().and_then(|text| text.parse().ok()) {
-        return Ok(level);
-    }
-    let choices = Level::WORDS.map(|word| (word, Level::None));
-    let hint = || format!("the order of a polynomial is from 0 to {}", Level::MAX_ORDER);
-    match entry.text() {
-        Ok(text) if text.starts_with("polynomial") => {
-            Err(entry.unexpected("a polynomial such as \"polynomial-3\"", Some(hint())))
-        }
-        _ => entry.word(&choices),
-    }
-}
-
-/// Numbers of cells along x and y.
-pub(super) fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
-    const EXPECTED: &str = "two whole numbers of at least 1, such as [256, 256]";
-    let whole = |item: &Entry<'_>| item.whole(0).map(|cells| usize::try_from(cells).unwrap_or(usize::MAX));
-    let shape: [usize; 2] = entry.array(EXPECTED, whole)?;
-    match shape[0].checked_mul(shape[1]) {
-        Some(0) => Err(entry.unexpected(EXPECTED, None)),
-        Some(cells) if cells <= MAX_CELLS => Ok(shape),
-        _ => Err(entry.unexpected("a grid of at most 2³² cells", None)),
-    }
-}
-
-/// The radii of curvature of an ellipsoid.
-pub(super) fn radii(entry: &Entry<'_>) -> Result<[f64; 2]> {
-    const EXPECTED: &str = "two radii of curvature, along x and along y, such as [\"1 mm\", \"2 mm\"]";
-    if !entry.is_array() {
-        let hint = "a body of one radius is a `form = \"sphere\"`".to_owned();
-        return Err(entry.unexpected(EXPECTED, Some(hint)));
-    }
-    entry.array(EXPECTED, |item| item.positive(Dimension::Length))
-}

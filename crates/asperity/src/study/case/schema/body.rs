@@ -3,8 +3,8 @@
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
 use super::Fallback::{Absent, Required};
 use super::typed::{
-    LENGTH, Nested, Optional, PRESSURE, TEXT, Typed, Value, choice, number, optional, other, quantity,
-    required, section, table,
+    LENGTH, Nested, Optional, PRESSURE, Typed, Value, choice, number, optional, other, quantity, required,
+    section, table,
 };
 use crate::units::Dimension;
 
@@ -13,8 +13,9 @@ const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, 
 
 /// `[lower]` and `[upper]`.
 pub(in crate::study) mod both {
-    use super::super::super::hardness::Hardness;
     use super::*;
+    use crate::study::case::Hardness;
+    use crate::study::case::schema::values::hardness as read;
 
     section! { &["lower", "upper"], "";
         YOUNG: Typed<f64> = required(
@@ -30,7 +31,7 @@ pub(in crate::study) mod both {
             other(
                 Some(Dimension::Pressure),
                 "pressure > 0, or `inf`: an elastic body, or a table: a [map](#a-map-of-the-hardness)",
-                |_, entry| Hardness::read(entry),
+                |_, entry| read::hardness(entry),
             ),
             "inf",
             "\"4 GPa\"",
@@ -69,8 +70,8 @@ pub(in crate::study) mod both {
 
 /// `[upper]` alone.
 pub(in crate::study) mod upper {
-    use super::super::super::Mount;
     use super::*;
+    use crate::study::case::Mount;
 
     section! { &["upper"], "";
         MOUNT: Optional<Mount> = optional(
@@ -91,37 +92,5 @@ pub(in crate::study) mod coating {
         THICKNESS: Typed<f64> = required("thickness", LENGTH, "\"2 um\"", "thickness of the layer");
         YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "its Young's modulus");
         POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
-    }
-}
-
-/// A map of the hardness.
-pub(in crate::study) mod hardness_map {
-    use super::*;
-
-    section! { &["lower.hardness", "upper.hardness"], "";
-        FILE: Typed<String> = required(
-            "file",
-            TEXT,
-            "\"hardness.npy\"",
-            "a file of numbers alone: npy, csv, text, tiff or HDF5, relative to the case file",
-        );
-        CHANNEL: Optional<String> =
-            optional("channel", TEXT, "the first", "\"hardness\"", "the channel, where the file has several");
-        UNIT: Typed<f64> = super::super::typed::defaulted(
-            "unit",
-            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
-            "\"Pa\"",
-            "\"GPa\"",
-            "what a 1 in the file stands for",
-        );
-    }
-}
-
-/// A map of the hardness that the caller has in memory.
-pub(in crate::study) mod hardness_given {
-    use super::*;
-
-    section! { &["lower.hardness", "upper.hardness"], "given";
-        GIVEN: Typed<String> = required("given", TEXT, "\"map\"", "the name under which a program gives the map");
     }
 }

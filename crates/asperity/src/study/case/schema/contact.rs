@@ -2,11 +2,11 @@
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
 use super::typed::{
-    FRACTION, Optional, PRESSURE, Typed, Value, choice, count, count_to, defaulted, number, number_named,
-    optional, other, quantity, required, section, vector,
+    FRACTION, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, number_named, optional,
+    other, quantity, required, section, vector,
 };
-use crate::study::case::contact as read;
-use crate::study::case::sweep::{self as list, Spacing};
+use super::values::contact as read;
+use super::values::sweep as list;
 use crate::units::Dimension;
 
 const FORCE: Value<f64> = quantity(Dimension::Force, AboveZero);
@@ -14,20 +14,23 @@ const SIGNED_FORCE: Value<f64> = quantity(Dimension::Force, Any);
 const SIGNED_LENGTH: Value<f64> = quantity(Dimension::Length, Any);
 const CREEPAGE: Value<f64> = number_named("a finite number", Any);
 
+const ONE: &str = "exactly one of the first six";
+const NONE: &str = "at most one of the six in the plane";
+
 /// The form of a list of values that are passed through.
 const SEVERAL: &str = "list of at least one value, or a [table](#a-sweep)";
 
 const LOAD: Optional<f64> = optional(
     "load",
     FORCE,
-    "",
+    ONE,
     "\"2 N\"",
     "total normal force; in a motion its mean over a pass, or that at each position: see `control`",
 );
 const MEAN_PRESSURE: Optional<f64> = optional(
     "mean_pressure",
     PRESSURE,
-    "",
+    ONE,
     "\"1 MPa\"",
     "load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so \
      that the mean pressure there is about twice as large",
@@ -35,7 +38,7 @@ const MEAN_PRESSURE: Optional<f64> = optional(
 const APPROACH: Optional<f64> = optional(
     "approach",
     SIGNED_LENGTH,
-    "",
+    ONE,
     "\"10 nm\"",
     "how far the bodies have moved together, of any sign; 0 where the planes z = 0 of the heights of both bodies coincide",
 );
@@ -53,21 +56,21 @@ pub(in crate::study) mod contact {
         LOADS: Optional<Vec<f64>> = optional(
             "loads",
             other(Some(Dimension::Force), SEVERAL, |_, entry| list::loads(entry)),
-            "",
+            ONE,
             "[\"0.1 N\", \"1 N\"]",
             "several loads, one after the other",
         );
         MEAN_PRESSURES: Optional<Vec<f64>> = optional(
             "mean_pressures",
             other(Some(Dimension::Pressure), SEVERAL, |_, entry| list::mean_pressures(entry)),
-            "",
+            ONE,
             "[\"1 MPa\", \"10 MPa\"]",
             "several mean pressures, one after the other",
         );
         APPROACHES: Optional<Vec<f64>> = optional(
             "approaches",
             other(Some(Dimension::Length), SEVERAL, |_, entry| list::approaches(entry)),
-            "",
+            ONE,
             "[\"10 nm\", \"20 nm\"]",
             "several approaches, one after the other",
         );
@@ -93,40 +96,19 @@ pub(in crate::study) mod contact {
     }
 }
 
-/// The table of values that are passed through.
-pub(in crate::study) mod sweep {
-    use super::*;
-
-    const END: Value<()> = other(None, "as of the key in the singular", |_, _| Ok(()));
-
-    section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "friction.creepages"], "";
-        FROM: Typed<()> = required("from", END, "\"10 mN\"", "first value");
-        TO: Typed<()> = required("to", END, "\"10 N\"", "last value, larger or smaller than the first");
-        POINTS: Typed<usize> =
-            required("points", count_to(2, 10_000), "9", "number of values");
-        SPACING: Optional<Spacing> = optional(
-            "spacing",
-            choice::<Spacing>(),
-            "`\"log\"`; of `approaches` and `creepages` `\"linear\"`",
-            "\"linear\"",
-            "`\"log\"`: in equal ratios, of values above 0; `\"linear\"`: in equal steps",
-        );
-    }
-}
-
 const IN_PLANE_FORCE: Optional<[f64; 2]> =
     optional("force", vector(&SIGNED_FORCE), "0", "\"0.1 N\"", "force of the upper body on the lower one");
 const DISPLACEMENT: Optional<[f64; 2]> = optional(
     "displacement",
     vector(&SIGNED_LENGTH),
-    "",
+    NONE,
     "\"0.1 um\"",
     "displacement of the upper body against the lower one",
 );
 const SLIDING: Optional<[f64; 2]> = optional(
     "sliding",
     other(None, "`[x, y]`, of any length", |_, entry| read::direction(entry)),
-    "",
+    NONE,
     "[1, 0]",
     "direction in which the upper body slides: every cell slips",
 );
@@ -167,14 +149,14 @@ pub(in crate::study) mod friction {
         CREEPAGE: Optional<[f64; 2]> = optional(
             "creepage",
             vector(&super::CREEPAGE),
-            "",
+            NONE,
             "0.001",
             "steady rolling along x: velocity of the upper body against the lower one over the rolling velocity",
         );
         CREEPAGES: Optional<Vec<[f64; 2]>> = optional(
             "creepages",
             other(None, SEVERAL, |_, entry| list::creepages(entry)),
-            "",
+            NONE,
             "[0.001]",
             "several creepages, one after the other",
         );
@@ -189,7 +171,7 @@ pub(in crate::study) mod friction {
         ROLLING_FORCE: Optional<[f64; 2]> = optional(
             "rolling_force",
             vector(&SIGNED_FORCE),
-            "",
+            NONE,
             "\"0.1 N\"",
             "steady rolling along x: force of the upper body on the lower one",
         );
@@ -208,12 +190,12 @@ pub(in crate::study) mod history {
     use super::*;
 
     section! { &["history"], "";
-        LOAD: Optional<f64> = super::LOAD;
-        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE;
-        APPROACH: Optional<f64> = super::APPROACH;
-        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE;
-        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT;
-        SLIDING: Optional<[f64; 2]> = super::SLIDING;
+        LOAD: Optional<f64> = super::LOAD.elsewhere("as it was", "as in [contact]; at most one of the three");
+        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE.elsewhere("as it was", "as in [contact]; at most one of the three");
+        APPROACH: Optional<f64> = super::APPROACH.elsewhere("as it was", "as in [contact]; at most one of the three");
+        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
+        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
+        SLIDING: Optional<[f64; 2]> = super::SLIDING.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
         INCREMENTS: Optional<usize> = optional(
             "increments",
             count(1),

@@ -5,6 +5,8 @@
 
 pub(in crate::study) mod body;
 pub(in crate::study) mod contact;
+pub(in crate::study) mod hardness;
+pub(in crate::study) mod list;
 pub(in crate::study) mod motion;
 pub(in crate::study) mod output;
 pub(in crate::study) mod plasticity;
@@ -12,6 +14,7 @@ pub(in crate::study) mod root;
 pub(in crate::study) mod tables;
 pub(in crate::study) mod topography;
 pub(in crate::study) mod typed;
+pub(in crate::study) mod values;
 pub(in crate::study) mod wear;
 
 use std::fmt;
@@ -164,9 +167,9 @@ pub fn keys() -> &'static [Section] {
         topography::sinusoid::SECTION,
         topography::grooves::SECTION,
         contact::history::SECTION,
-        contact::sweep::SECTION,
-        body::hardness_map::SECTION,
-        body::hardness_given::SECTION,
+        list::SECTION,
+        hardness::map::SECTION,
+        hardness::given::SECTION,
     ]
 }
 
@@ -222,8 +225,8 @@ impl fmt::Display for Bounds {
                 write!(
                     f,
                     " {} {least}, {} {most}",
-                    [">=", ">"][usize::from(from)],
-                    ["<=", "<"][usize::from(to)]
+                    ["≥", ">"][usize::from(from)],
+                    ["≤", "<"][usize::from(to)]
                 )
             }
             Self::Within(range, zero) => write!(f, ", {}{range}", if zero { "0 or " } else { "" }),

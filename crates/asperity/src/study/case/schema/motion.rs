@@ -11,10 +11,10 @@ const SPEED: Value<f64> = quantity(Dimension::Speed, AboveZero);
 
 /// `[motion]`.
 pub(in crate::study) mod motion {
-    use super::super::super::motion as read;
-    use super::super::super::{ControlKind, CounterBody, StrategyKind};
     use super::*;
     use crate::motion::{Path, PlasticUpdate};
+    use crate::study::case::schema::values::motion as read;
+    use crate::study::case::{ControlKind, CounterBody, StrategyKind};
 
     const SIGNED_SPEED: Value<f64> = quantity(Dimension::Speed, Any);
 

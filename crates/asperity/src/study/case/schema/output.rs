@@ -9,8 +9,8 @@ use crate::units::{Dimension, Metre};
 
 /// `[subsurface]`.
 pub(in crate::study) mod subsurface {
-    use super::super::super::subsurface as read;
     use super::*;
+    use crate::study::case::schema::values::subsurface as read;
 
     section! { &["subsurface"], "";
         TO: Typed<f64> = required(

@@ -5,7 +5,7 @@ use super::typed::{
     FLAG, FRACTION, LENGTH, Optional, PRESSURE, Typed, Value, choice, count, count_to, defaulted, number,
     optional, other, quantity, required, section,
 };
-use crate::study::case::plasticity as read;
+use super::values::plasticity as read;
 use crate::units::{Dimension, Pascal};
 
 const MODULUS: Value<f64> = quantity(Dimension::Pressure, FromZero);

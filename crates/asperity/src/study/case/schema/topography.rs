@@ -6,7 +6,7 @@ use super::typed::{
     LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
     quantity, required, section, tables,
 };
-use crate::study::case::topography as read;
+use super::values::topography as read;
 use crate::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
 use crate::units::Dimension;
 

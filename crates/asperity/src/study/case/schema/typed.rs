@@ -138,6 +138,12 @@ impl<T> Typed<T> {
 }
 
 impl<T> Optional<T> {
+    /// The same key in another table, with what holds without it there.
+    pub(super) const fn elsewhere(&self, absent: &'static str, text: &'static str) -> Self {
+        let key = Key { default: Fallback::Absent(absent), text, ..self.key };
+        Self { key, read: self.read }
+    }
+
     /// The value in `table`, where it is given.
     pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<Option<T>> {
         table.get(self.key.name).map(|entry| (self.read)(&self.key, &entry)).transpose()

@@ -5,7 +5,7 @@ use super::typed::{
     LENGTH, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, optional, other, quantity,
     required, section,
 };
-use crate::study::case::running as read;
+use super::values::running as read;
 use crate::units::Dimension;
 
 const RATE: Value<f64> = quantity(Dimension::WearCoefficient, AboveZero);

@@ -1,0 +1,46 @@
+//! Rules of a single body, and of two.
+
+use super::super::Case;
+use super::Rule;
+use super::examples::{MOVES, WARM};
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "`young = inf`",
+        with: "`young = inf` of the other body",
+        message: "both bodies are rigid",
+        hint: "give one of them a finite 'young' or a coating",
+        at: "upper.young",
+        example: &["lower.young = inf", "upper.young = inf"],
+        broken: |tables| {
+            let Case { lower, upper, .. } = tables.case;
+            let rigid = crate::material::composite_modulus(&lower.material, &upper.material).is_err();
+            tables.at("upper.young").filter(|_| rigid)
+        },
+    },
+    Rule {
+        this: "`hardness` of a film",
+        with: "no `hardness` of its body",
+        message: "a film has a 'hardness' where its body has one",
+        hint: "a film that bears more than its body is one without a 'hardness'",
+        at: "lower.film.hardness",
+        example: &[
+            r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0, hardness = "2 GPa" }"#,
+            MOVES,
+            WARM,
+        ],
+        broken: |tables| tables.of_body("film.hardness", |body| !body.hardness.yields()),
+    },
+    Rule {
+        this: "`under_film`",
+        with: "no film on the body",
+        message: "'under_film' belongs to a body with a film",
+        hint: "give the body a film, or leave 'under_film' out",
+        at: "lower.wear.under_film",
+        example: &[
+            r#"lower.wear = { coefficient = "1e-7 mm3/(N m)", under_film = "1e-8 mm3/(N m)" }"#,
+            MOVES,
+        ],
+        broken: |tables| tables.of_body("wear.under_film", |body| body.film.is_none()),
+    },
+];

@@ -1,0 +1,183 @@
+//! What does not go together in a case file: one table.
+//!
+//! Each row has a message, a hint and the key that the error points to. A case is held against the rows once all of its tables
+//! are read, `docs/input.md` lists them, and a test walks them by their examples.
+
+mod bodies;
+mod examples;
+mod loading;
+mod motion;
+mod output;
+mod plasticity;
+mod running;
+mod temperature;
+
+use super::cursor::{Entry, Table};
+use super::{Body, Case, FrictionSpec, MotionSpec};
+use crate::error::{Error, Result};
+use crate::motion::Strategy;
+
+/// Two things that a case file cannot have together, or of which one needs the other.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct Rule {
+    /// What is refused, in Markdown.
+    pub this: &'static str,
+    /// With what it is refused, in Markdown.
+    pub with: &'static str,
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its
+    /// value.
+    pub message: &'static str,
+    /// What to do instead; empty where the message says it.
+    pub hint: &'static str,
+    /// The dotted key that the error of the example points to.
+    pub at: &'static str,
+    /// Keys that break the rule, as a case file writes them above its tables.
+    pub example: &'static [&'static str],
+    /// The entry of the case file that breaks it.
+    broken: for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>,
+}
+
+/// The case as it is read, with its tables.
+struct Tables<'a> {
+    root: &'a Table<'a>,
+    case: &'a Case,
+}
+
+/// An error if the case has what does not go together.
+pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
+    let tables = Tables { root, case };
+    match rules().find_map(|rule| Some(rule.error(&(rule.broken)(&tables)?))) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// What does not go together in a case file, in the order in which a case is held against it.
+pub fn rules() -> impl Iterator<Item = &'static Rule> {
+    let tables: [&[Rule]; 7] = [
+        bodies::RULES,
+        motion::RULES,
+        loading::RULES,
+        plasticity::RULES,
+        running::RULES,
+        temperature::RULES,
+        output::RULES,
+    ];
+    tables.into_iter().flatten()
+}
+
+impl Rule {
+    fn error(&self, entry: &Entry<'_>) -> Error {
+        let message = self.message.replace("{key}", entry.key()).replace("{path}", entry.path());
+        let message = message.replace("{value}", &entry.written());
+        entry.error(message, Some(self.hint.to_owned()).filter(|hint| !hint.is_empty()))
+    }
+}
+
+impl<'a> Tables<'a> {
+    /// The entry of a dotted key, where it is given.
+    fn at(&self, key: &str) -> Option<Entry<'a>> {
+        fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
+            match key.split_once('.') {
+                None => table.get(key),
+                Some((first, rest)) => find(&table.table(first).ok()??, rest),
+            }
+        }
+        find(self.root, key)
+    }
+
+    /// The first of some keys of a table that is given.
+    fn first(&self, table: &str, keys: &[&str]) -> Option<Entry<'a>> {
+        keys.iter().find_map(|key| self.at(&format!("{table}.{key}")))
+    }
+
+    /// The entry of a key in the first body of this kind that gives it.
+    fn of_body(&self, key: &str, is: impl Fn(&Body) -> bool) -> Option<Entry<'a>> {
+        let bodies = [("lower", &self.case.lower), ("upper", &self.case.upper)];
+        bodies
+            .into_iter()
+            .filter(|(_, body)| is(body))
+            .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
+    }
+
+    /// The key of a sweep in [contact].
+    fn sweep(&self) -> Option<Entry<'a>> {
+        self.first("contact", &super::sweep::KEYS)
+    }
+
+    /// The stages of the history, or the history where it has none.
+    fn stages(&self) -> Vec<Entry<'a>> {
+        let Some(history) = self.at("history") else { return Vec::new() };
+        match history.items("") {
+            Ok(stages) if !stages.is_empty() => stages,
+            _ => vec![history],
+        }
+    }
+
+    /// The first of some keys that a stage of the history gives.
+    fn of_stage(&self, keys: &[&str]) -> Option<Entry<'a>> {
+        let stages = self.stages().into_iter().filter_map(|stage| stage.table().ok());
+        let mut given = stages.filter_map(|stage| keys.iter().find_map(|key| stage.get(key)));
+        given.next()
+    }
+
+    /// The boundary, where it is periodic along one axis alone.
+    fn line(&self) -> Option<Entry<'a>> {
+        let boundary = self.case.contact.boundary;
+        self.at("contact.boundary").filter(|_| boundary.repeats(0) != boundary.repeats(1))
+    }
+
+    fn motion(&self) -> Option<&'a MotionSpec> {
+        self.case.motion.as_ref()
+    }
+
+    fn friction(&self) -> Option<&'a FrictionSpec> {
+        self.case.friction.as_ref()
+    }
+
+    /// The motion of an overlap.
+    fn overlap(&self) -> Option<&'a MotionSpec> {
+        self.motion().filter(|motion| motion.strategy == Strategy::Overlap)
+    }
+
+    /// The motion of a shift.
+    fn shift(&self) -> Option<&'a MotionSpec> {
+        self.motion().filter(|motion| motion.strategy != Strategy::Overlap)
+    }
+
+    /// Whether the bodies slide over each other.
+    fn slides(&self) -> bool {
+        self.case.motion.is_some() || self.case.sliding.is_some()
+    }
+
+    fn rolls(&self) -> bool {
+        self.friction().is_some_and(FrictionSpec::rolls)
+    }
+
+    /// Whether a body deforms plastically below its surface.
+    fn flows(&self) -> bool {
+        [&self.case.lower, &self.case.upper].iter().any(|body| body.plasticity.is_some())
+    }
+
+    fn yields(&self) -> bool {
+        [&self.case.lower, &self.case.upper].iter().any(|body| body.hardness.yields())
+    }
+
+    /// Whether passes extrapolate.
+    fn jumps(&self) -> bool {
+        self.case.acceleration.is_some_and(|acceleration| acceleration.max_jump > 1)
+    }
+
+    /// The place of a flash temperature, where one is computed.
+    fn flash(&self) -> Option<Entry<'a>> {
+        let wanted = self.case.temperature.is_some_and(|temperature| temperature.every > 0);
+        self.at("temperature.every").or(self.at("temperature")).filter(|_| wanted)
+    }
+
+    /// The key `every`, where the flash temperature of a computed pass is kept for others.
+    fn seldom(&self) -> Option<Entry<'a>> {
+        let every = self.case.temperature.map_or(0, |temperature| temperature.every);
+        self.at("temperature.every").filter(|_| every > 1)
+    }
+}

@@ -1,0 +1,67 @@
+//! Rules of coatings, and of the stress under the surface.
+
+use super::Rule;
+use super::examples::{AT_ANY_SPEED, COATED, LINE};
+use crate::solver::Coupling;
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "`step` in [subsurface]",
+        with: "a contact at rest",
+        message: "'step' has no meaning without [motion]",
+        hint: "a static contact has one position; leave it out",
+        at: "subsurface.step",
+        example: &[r#"subsurface = { to = "20 um", step = 3 }"#],
+        broken: |tables| tables.at("subsurface.step").filter(|_| tables.case.motion.is_none()),
+    },
+    Rule {
+        this: "[subsurface]",
+        with: "a boundary periodic along one axis alone",
+        message: "a boundary periodic along one axis alone has no [subsurface] yet",
+        hint: "leave [subsurface] out, or use \"free\" or \"periodic\"",
+        at: "contact.boundary",
+        example: &[LINE, r#"subsurface = { to = "20 um" }"#],
+        broken: |tables| tables.at("subsurface").and(tables.line()),
+    },
+    Rule {
+        this: "a coating",
+        with: "[friction] of a static contact",
+        message: "what shear does to a coated body is not known yet",
+        hint: "leave [friction] or the coating out",
+        at: "friction",
+        example: &[COATED, r#"friction = { coefficient = 0.3, force = "0.1 N" }"#],
+        broken: |tables| tables.at("friction").filter(|_| tables.case.is_coated() && !tables.slides()),
+    },
+    Rule {
+        this: "a coating",
+        with: "[friction] with another `coupling` than `\"none\"`",
+        message: "what shear does to a coated body is not known yet",
+        hint: "set `coupling = \"none\"`, or leave the coating out",
+        at: "friction.coupling",
+        example: &[COATED, r#"friction = { coefficient = 0.3, coupling = "full" }"#, AT_ANY_SPEED],
+        broken: |tables| {
+            tables
+                .friction()
+                .filter(|friction| tables.case.is_coated() && friction.law.coupling != Coupling::None)?;
+            tables.at("friction.coupling").or(tables.at("friction"))
+        },
+    },
+    Rule {
+        this: "a coating",
+        with: "a boundary periodic along one axis alone",
+        message: "a coated body has no boundary that is periodic along one axis alone yet",
+        hint: "use \"free\" or \"periodic\", or leave the coating out",
+        at: "contact.boundary",
+        example: &[COATED, LINE],
+        broken: |tables| tables.line().filter(|_| tables.case.is_coated()),
+    },
+    Rule {
+        this: "a coating",
+        with: "[subsurface]",
+        message: "stresses under a coating are not known yet",
+        hint: "leave [subsurface] or the coating out",
+        at: "subsurface",
+        example: &[COATED, r#"subsurface = { to = "20 um" }"#],
+        broken: |tables| tables.at("subsurface").filter(|_| tables.case.is_coated()),
+    },
+];

@@ -1,0 +1,161 @@
+//! Rules of temperatures.
+
+use super::super::CounterBody;
+use super::Rule;
+use super::examples::{AT_ANY_SPEED, CONDUCTS, GENERATED, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS};
+use crate::motion::PlasticUpdate;
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "thermal constants of [lower]",
+        with: "none of [upper]",
+        message: "[lower] has thermal constants, [upper] has none",
+        hint: "heat is divided between both: give them to [upper], too",
+        at: "lower.conductivity",
+        example: &[CONDUCTS, MOVES, WARM],
+        broken: |tables| {
+            let alone = tables.case.lower.thermal.is_some() && tables.case.upper.thermal.is_none();
+            tables.at("lower.conductivity").filter(|_| alone)
+        },
+    },
+    Rule {
+        this: "thermal constants of [upper]",
+        with: "none of [lower]",
+        message: "[upper] has thermal constants, [lower] has none",
+        hint: "heat is divided between both: give them to [lower], too",
+        at: "upper.conductivity",
+        example: &[UPPER_CONDUCTS, MOVES, WARM],
+        broken: |tables| {
+            let alone = tables.case.upper.thermal.is_some() && tables.case.lower.thermal.is_none();
+            tables.at("upper.conductivity").filter(|_| alone)
+        },
+    },
+    Rule {
+        this: "thermal constants",
+        with: "no [temperature]",
+        message: "thermal constants are those of a case with [temperature]",
+        hint: "add `[temperature]` with `bulk = \"100 °C\"`",
+        at: "lower.conductivity",
+        example: &[CONDUCTS, UPPER_CONDUCTS],
+        broken: |tables| tables.at("lower.conductivity").filter(|_| tables.case.temperature.is_none()),
+    },
+    Rule {
+        this: "[temperature]",
+        with: "a contact at rest",
+        message: "a contact at rest has no [temperature]",
+        hint: "",
+        at: "temperature",
+        example: &[WARM],
+        broken: |tables| tables.at("temperature").filter(|_| !tables.slides()),
+    },
+    Rule {
+        this: "`every` above 1",
+        with: "[sliding]",
+        message: "'every' is {value}, expected 1, the flash temperature of each update, or 0, none",
+        hint: "",
+        at: "temperature.every",
+        example: &[WEARS, SLIDES, r#"temperature = { bulk = "100 °C", every = 3 }"#],
+        broken: |tables| tables.seldom().filter(|_| tables.case.sliding.is_some()),
+    },
+    Rule {
+        this: "`every` above 1",
+        with: "`counter = \"fresh\"`",
+        message: "'every' is {value}, expected 1 or 0: a fresh counter-body has not been warm before",
+        hint: "",
+        at: "temperature.every",
+        example: &[
+            GENERATED,
+            r#"motion = { speed = "0.5 m/s", counter = "fresh" }"#,
+            r#"temperature = { bulk = "100 °C", every = 2 }"#,
+        ],
+        broken: |tables| {
+            tables.motion().filter(|motion| motion.counter == CounterBody::Fresh)?;
+            tables.seldom()
+        },
+    },
+    Rule {
+        this: "a flash temperature",
+        with: "no thermal constants",
+        message: "a flash temperature needs thermal constants",
+        hint: "give both bodies `conductivity`, `heat_capacity` and `density`, or set `every = 0`",
+        at: "temperature.every",
+        example: &[RUBS, MOVES, r#"temperature = { bulk = "100 °C", every = 1 }"#],
+        broken: |tables| tables.flash().filter(|_| tables.case.lower.thermal.is_none()),
+    },
+    Rule {
+        this: "a flash temperature",
+        with: "no [friction]",
+        message: "without [friction] nothing is heated",
+        hint: "add a [friction] table, or set `every = 0`",
+        at: "temperature",
+        example: &[CONDUCTS, UPPER_CONDUCTS, MOVES, WARM],
+        broken: |tables| tables.flash().filter(|_| tables.case.friction.is_none()),
+    },
+    Rule {
+        this: "a flash temperature in [sliding]",
+        with: "no `speed`",
+        message: "a flash temperature needs a speed",
+        hint: "for example `speed = \"10 mm/s\"` in [sliding]",
+        at: "temperature",
+        example: &[
+            r#"lower.conductivity = "46 W/(m K)""#,
+            r#"lower.heat_capacity = "460 J/(kg K)""#,
+            r#"lower.density = "7850 kg/m3""#,
+            WEARS,
+            UPPER_CONDUCTS,
+            RUBS,
+            SLIDES,
+            WARM,
+        ],
+        broken: |tables| {
+            tables.flash().filter(|_| tables.case.sliding.is_some_and(|sliding| sliding.speed.is_none()))
+        },
+    },
+    Rule {
+        this: "a flash temperature in an overlap",
+        with: "no `speed`",
+        message: "a flash temperature needs a speed",
+        hint: "for example `speed = \"0.5 m/s\"` in [motion]",
+        at: "temperature",
+        example: &[CONDUCTS, UPPER_CONDUCTS, RUBS, AT_ANY_SPEED, WARM],
+        broken: |tables| {
+            tables.flash().filter(|_| tables.overlap().is_some_and(|motion| motion.speed.is_none()))
+        },
+    },
+    Rule {
+        this: "a flash temperature in a shift",
+        with: "a boundary that is free along x",
+        message: "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+        hint: "set `boundary = \"periodic\"` in [contact], or `every = 0`",
+        at: "temperature",
+        example: &[
+            CONDUCTS,
+            UPPER_CONDUCTS,
+            RUBS,
+            r#"motion = { strategy = "shift", speed_upper = "0.5 m/s" }"#,
+            WARM,
+        ],
+        broken: |tables| {
+            tables.shift().filter(|_| !tables.case.contact.boundary.repeats(0))?;
+            tables.flash()
+        },
+    },
+    Rule {
+        this: "a flash temperature",
+        with: "`plastic_update = \"step\"`",
+        message: "a flash temperature is that of bodies that stay as they are in a pass",
+        hint: "set `plastic_update = \"pass\"`",
+        at: "temperature",
+        example: &[
+            CONDUCTS,
+            UPPER_CONDUCTS,
+            RUBS,
+            r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#,
+            WARM,
+        ],
+        broken: |tables| {
+            tables.motion().filter(|motion| motion.plastic_update == PlasticUpdate::Step)?;
+            tables.flash()
+        },
+    },
+];

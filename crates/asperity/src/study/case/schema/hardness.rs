@@ -1,0 +1,36 @@
+//! The keys of a map of the hardness.
+
+use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
+use crate::units::Dimension;
+
+/// A map of the hardness.
+pub(in crate::study) mod map {
+    use super::*;
+
+    section! { &["lower.hardness", "upper.hardness"], "";
+        FILE: Typed<String> = required(
+            "file",
+            TEXT,
+            "\"hardness.npy\"",
+            "a file of numbers alone: npy, csv, text, tiff or HDF5, relative to the case file",
+        );
+        CHANNEL: Optional<String> =
+            optional("channel", TEXT, "the first", "\"hardness\"", "the channel, where the file has several");
+        UNIT: Typed<f64> = super::super::typed::defaulted(
+            "unit",
+            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
+            "\"Pa\"",
+            "\"GPa\"",
+            "what a 1 in the file stands for",
+        );
+    }
+}
+
+/// A map of the hardness that the caller has in memory.
+pub(in crate::study) mod given {
+    use super::*;
+
+    section! { &["lower.hardness", "upper.hardness"], "given";
+        GIVEN: Typed<String> = required("given", TEXT, "\"map\"", "the name under which a program gives the map");
+    }
+}

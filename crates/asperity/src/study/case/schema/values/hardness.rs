@@ -1,0 +1,28 @@
+//! The hardness of a body.
+
+use std::path::PathBuf;
+
+use super::super::hardness::{given, map as keys};
+use crate::error::Result;
+use crate::study::case::cursor::Entry;
+use crate::study::case::{GivenMap, Hardness, HardnessMap};
+use crate::units::Dimension;
+
+/// One pressure or a table; a file as the table names it.
+pub(in crate::study::case) fn hardness(entry: &Entry<'_>) -> Result<Hardness> {
+    if !entry.is_table() {
+        let infinite = "an elastic body, as is leaving it out";
+        return entry.positive_or_infinite(Dimension::Pressure, infinite).map(Hardness::Uniform);
+    }
+    let map = entry.clone().table()?;
+    if given::GIVEN.entry(&map).is_some() {
+        map.known(&["given"], |_| None)?;
+        return Ok(Hardness::Given(GivenMap { name: given::GIVEN.of(&map)? }));
+    }
+    map.known(&["file", "channel", "unit"], |_| None)?;
+    let path = match keys::FILE.of(&map)?.as_str() {
+        "" => return Err(keys::FILE.demand(&map)?.unexpected("the name of a file", None)),
+        path => PathBuf::from(path),
+    };
+    Ok(Hardness::Map(HardnessMap { path, channel: keys::CHANNEL.of(&map)?, unit: keys::UNIT.of(&map)? }))
+}

@@ -1,0 +1,10 @@
+//! Values of keys whose form is their own: how they are read, and the words among them.
+
+pub(in crate::study::case) mod contact;
+pub(in crate::study::case) mod hardness;
+pub(in crate::study::case) mod motion;
+pub(in crate::study::case) mod plasticity;
+pub(in crate::study::case) mod running;
+pub(in crate::study::case) mod subsurface;
+pub(in crate::study::case) mod sweep;
+pub(in crate::study::case) mod topography;

@@ -1,0 +1,169 @@
+//! The tables of docs/input.md are those that the program declares: its keys, and what does not go together.
+//!
+//! `UPDATE_DOCS=1 cargo test -p asperity --test it case_file::` writes them anew. Above each stands a comment that names it:
+//! `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`, `<!-- rules -->`.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::study;
+use asperity::study::Case;
+use asperity::study::case::rules::Rule;
+use asperity::study::case::schema::{Key, Section};
+use asperity::units::Dimension;
+
+/// Dimensions whose units docs/input.md lists.
+const COMMON: [Dimension; 5] =
+    [Dimension::Length, Dimension::Pressure, Dimension::Force, Dimension::Speed, Dimension::Angle];
+
+#[test]
+fn the_tables_of_the_document_are_those_of_the_program() {
+    let sections = study::keys().iter().filter(|section| section.kind != "given");
+    let mut sections: BTreeMap<String, &Section> = sections.map(|section| (name(section), section)).collect();
+    let page = fs::read_to_string(page()).unwrap();
+    let mut lines = page.lines().peekable();
+    let mut written = String::new();
+    let mut has_rules = false;
+    while let Some(line) = lines.next() {
+        written += &format!("{line}\n");
+        let table = match line.strip_prefix("<!-- ").and_then(|rest| rest.strip_suffix(" -->")) {
+            Some("rules") => {
+                has_rules = true;
+                table_of_rules()
+            }
+            Some(mark) => match mark.strip_prefix("keys: ") {
+                Some(names) => {
+                    let named = names.split(", ").map(|name| {
+                        sections
+                            .remove(name)
+                            .unwrap_or_else(|| panic!("`{name}` is no section, or has two tables"))
+                    });
+                    table_of_keys(&named.collect::<Vec<_>>())
+                }
+                None => continue,
+            },
+            None => continue,
+        };
+        written += &format!("\n{table}");
+        while lines.next_if(|line| line.is_empty() || line.starts_with('|')).is_some() {}
+        if lines.peek().is_some() {
+            written.push('\n');
+        }
+    }
+    assert!(sections.is_empty(), "docs/input.md has no table of {:?}", sections.keys());
+    assert!(has_rules, "docs/input.md does not say what does not go together");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(self::page(), &written).unwrap();
+        return;
+    }
+    let differs = page.lines().zip(written.lines()).position(|(is, should)| is != should);
+    assert!(
+        page == written,
+        "line {differs:?} of docs/input.md, from 0, is not as the program has it: UPDATE_DOCS=1"
+    );
+}
+
+#[test]
+fn every_key_and_every_rule_is_explained_in_one_line() {
+    for section in study::keys() {
+        for key in section.keys {
+            let text = key.text;
+            assert!(!text.is_empty() && !text.ends_with('.'), "{}: {}", name(section), key.name);
+            assert!(!text.contains(['|', '\n']) && !text.contains("  "), "{}: {}", name(section), key.name);
+        }
+    }
+    for Rule { this, with, message, hint, .. } in study::rules() {
+        let texts = [this, with, message];
+        assert!(texts.iter().all(|text| !text.is_empty() && !text.contains(['|', '\n'])), "{message}");
+        assert!(!hint.contains(['|', '\n']) && !hint.contains("  "), "{message}");
+    }
+}
+
+#[test]
+fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
+    let mut wrong = Vec::new();
+    for rule in study::rules() {
+        let text = case(rule.example);
+        let found = match Case::parse(&text, Path::new("case.toml"), Path::new("")) {
+            Err(Error::Case(error)) => error,
+            other => {
+                wrong.push(format!("{} with {}: {:?}\n{text}", rule.this, rule.with, other.err()));
+                continue;
+            }
+        };
+        let key = found.key.rsplit('.').next().unwrap();
+        let value = found.text[found.span.clone()].split_whitespace().collect::<Vec<_>>().join(" ");
+        let message =
+            rule.message.replace("{key}", key).replace("{path}", &found.key).replace("{value}", &value);
+        let hint = Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty());
+        // A stage is known by its array.
+        let at = found.key.replace(['[', ']'], "");
+        if (&found.message, &found.hint, at.as_str()) != (&message, &hint, rule.at) || found.span.is_empty() {
+            wrong.push(format!("{} with {}: {}: {}\n{text}", rule.this, rule.with, found.key, found.message));
+        }
+    }
+    assert!(wrong.is_empty(), "{} rules:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A ball on a plate, with what an example has in place of its keys.
+fn case(example: &[&str]) -> String {
+    const BASE: [(&str, &str); 7] = [
+        ("lower.young", "\"210 GPa\""),
+        ("lower.poisson", "0.3"),
+        ("lower.topography", "{ form = \"flat\", shape = [64, 64], pitch = \"1 um\" }"),
+        ("upper.young", "\"210 GPa\""),
+        ("upper.poisson", "0.3"),
+        ("upper.topography", "{ form = \"sphere\", radius = \"1 mm\" }"),
+        ("contact", "{ load = \"2 N\" }"),
+    ];
+    let given = |key: &str| example.iter().flat_map(|text| text.lines()).any(|line| line.starts_with(key));
+    let base = BASE.iter().filter(|(key, _)| !given(key)).map(|(key, value)| format!("{key} = {value}"));
+    base.chain(example.iter().map(|text| (*text).to_owned())).collect::<Vec<_>>().join("\n")
+}
+
+/// What a comment calls a section: its first table, and the choice with which its keys have a meaning.
+fn name(section: &Section) -> String {
+    let table = section.tables.first().unwrap_or(&"root");
+    if section.kind.is_empty() { (*table).to_owned() } else { format!("{table} with {}", section.kind) }
+}
+
+/// The table of some sections; where they belong to several choices, these stand in the first column.
+fn table_of_keys(sections: &[&Section]) -> String {
+    let choices = sections.iter().any(|section| section.kind != sections[0].kind);
+    let mut text = match choices {
+        true => "| with | key | meaning | value | default |\n|---|---|---|---|---|\n".to_owned(),
+        false => "| key | meaning | value | default |\n|---|---|---|---|\n".to_owned(),
+    };
+    for section in sections {
+        for Key { name, kind, default, example, text: meaning } in section.keys {
+            if choices {
+                text += &format!("| `{}` ", section.kind);
+            }
+            let within = if section.tables.is_empty() { "" } else { "…." };
+            let name = match kind.to_string().as_str() {
+                "table" => format!("[{within}{name}]"),
+                "tables" => format!("[[{within}{name}]]"),
+                _ => (*name).to_owned(),
+            };
+            // What the units of the table of quantities are not enough for has an example.
+            let value = match kind.dimension() {
+                Some(dimension) if !COMMON.contains(&dimension) => format!("{kind}, as `{example}`"),
+                _ => kind.to_string(),
+            };
+            text += &format!("| `{name}` | {meaning} | {value} | {default} |\n");
+        }
+    }
+    text
+}
+
+fn table_of_rules() -> String {
+    let row = |rule: &Rule| format!("| {} | {} | {} |\n", rule.this, rule.with, rule.hint);
+    let rows: String = study::rules().map(row).collect();
+    format!("| this | does not go with | instead |\n|---|---|---|\n{rows}")
+}
+
+fn page() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/input.md")
+}
