@@ -9,17 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _core
+from ._contact import Contact
 from ._progress import Teller, Told
-from ._run import _path, open
+from ._run import Run, _path, open
 from ._same import Comparable
 from ._units import path
 from .errors import FailedCases, NoResults, NotResumable, _make, bad_input, warn
 
 if TYPE_CHECKING:
     import pathlib
-
-    from ._contact import Contact
-    from ._run import Run
 
 _State = NDArray[np.str_]
 
