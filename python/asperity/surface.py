@@ -108,6 +108,11 @@ class Surface(Comparable):
         surface._made = None
         return surface
 
+    @classmethod
+    def _made_as(cls, how: str, kind: str, arguments: dict[str, Any]) -> Surface:
+        """The surface of a form or a generator; its keys are those of the `arguments` that are given."""
+        return cls._of({how: kind, **{key: value for key, value in arguments.items() if value is not None}})
+
     def _with(self, **steps: Any) -> Surface:
         """The same surface with further steps."""
         steps = {key: value for key, value in steps.items() if value is not None}
