@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 from . import _case, _contact, _core, fields
 from ._contact import Contact
 from ._flow import Flow, of_results
-from ._progress import Teller, Told
+from ._keywords import Execution, takes
+from ._progress import Teller
+from ._optional import need
 from ._same import Comparable
+from ._show import unit_of
 from ._temporary import Temporary
 from ._units import path as paths
 from .errors import _make, bad_input
@@ -21,6 +24,8 @@ from .surface import Surface
 
 if TYPE_CHECKING:
     import pathlib
+
+    from typing_extensions import Unpack
 
 
 class Run(Comparable):
@@ -167,16 +172,31 @@ class Run(Comparable):
         return number
 
     def to_xarray(self) -> Any:
-        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`."""
-        from ._convert import run
+        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`.
 
-        return run(self)
+        Each body has coordinates of its own, from its own corner.
+        """
+        xarray = need("xarray", "to_xarray()")
+        passes = self.passes
+        columns = {
+            name: ("pass", passes[name], {"units": unit_of(name)}) for name in passes.dtype.names or () if name != "pass"
+        }
+        coordinates: dict[str, Any] = {"pass": passes["pass"], "after": np.arange(len(passes) + 1)}
+        after = [self.fields(number) for number in range(len(passes) + 1)]
+        surfaces = {}
+        for body in ("lower", "upper"):
+            first = after[0][body]
+            axes = [f"{axis}_{body}" for axis in first.axes]
+            for axis, own in zip(first.axes, axes, strict=True):
+                coordinates[own] = (own, first.coordinate(axis), {"units": "m"})
+            heights = np.stack([found[body].values for found in after])
+            surfaces[body] = (("after", *axes), heights, {"units": first.unit})
+        attributes = {"title": self.case["title"], "identity": self.case["identity"]}
+        return xarray.Dataset({**columns, **surfaces}, coordinates, attributes)
 
     def to_pandas(self) -> Any:
         """The passes as a DataFrame of pandas."""
-        from ._convert import frame
-
-        return frame(self.passes, "pass")
+        return fields.frame(self.passes, "pass")
 
     def plot(self, quantity: str | None = None, **options: Any) -> Any:
         """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass.
@@ -216,14 +236,12 @@ def _path(path: str | os.PathLike[str]) -> pathlib.Path:
     return pathlib.Path(path)
 
 
+@takes(Execution)
 def run(
     case: str | os.PathLike[str],
     *,
     out: str | os.PathLike[str],
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[Execution],
 ) -> Run | Contact:
     """Compute a case file, as the command ``asperity run`` does, without the figures.
 
@@ -233,8 +251,7 @@ def run(
         The case file.
     out : path
         Directory for the results.
-    resume, overwrite, threads, progress
-        As of :func:`contact`.
+    **options
 
     Returns
     -------
@@ -246,10 +263,10 @@ def run(
     asperity.errors.CaseError
         For a mistake in the file, with its line and column.
     """
-    count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+    count, existing = _case.execution(options)
     handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
-    with Teller(progress) as tell:
-        _core.run(paths("case", case), handed, _case.directory(out), existing, count, tell)
+    with Teller(options["progress"]) as tell:
+        _core.run(paths("case", case), handed, paths("out", out), existing, count, tell)
     return open(out)
 
 

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core, fields
-from ._contact import Friction
-from ._progress import Teller, Told
+from ._keywords import MotionKeywords, takes
+from ._progress import Teller
 from ._run import Run
 from ._temporary import Temporary
-from ._units import Quantity
+from ._units import path
 from .body import Body, Handed, bodies, heights_like
 from .errors import bad_input, warn
 from .material import Material
 from .surface import Surface
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Contacts(NamedTuple):
@@ -212,75 +214,26 @@ class Simulation(_Moving):
     (2,)
     """
 
+    @takes(MotionKeywords)
     def __init__(
         self,
         lower: Surface | Body,
         upper: Surface | Body,
         lower_material: Material | None = None,
         upper_material: Material | None = None,
-        *,
-        load: Quantity | None = None,
-        mean_pressure: Quantity | None = None,
-        approach: Quantity | None = None,
-        passes: int | None = None,
-        stride: int | None = None,
-        strategy: str | None = None,
-        speed_lower: Quantity | None = None,
-        speed_upper: Quantity | None = None,
-        control: str | None = None,
-        plastic_update: str | None = None,
-        load_tolerance: float | None = None,
-        speed: Quantity | None = None,
-        path: str | None = None,
-        offset_y: int | str | None = None,
-        seed: int | None = None,
-        counter: str | None = None,
-        acceleration: Mapping[str, Any] | None = None,
-        temperature: Mapping[str, Any] | None = None,
-        plasticity: Mapping[str, Any] | None = None,
-        boundary: str | Sequence[str] | None = None,
-        method: str | None = None,
-        tolerance: float | None = None,
-        friction: Friction | None = None,
-        subsurface: Mapping[str, Any] | None = None,
-        pressure_every: int | None = None,
-        rim: float | None = None,
-        paraview: bool | None = None,
-        title: str | None = None,
-        out: str | os.PathLike[str] | None = None,
-        resume: bool = False,
-        overwrite: bool = False,
-        threads: int | None = None,
-        progress: Told = True,
+        **options: Unpack[MotionKeywords],
     ) -> None:
         handed = Handed(*bodies(lower, upper, lower_material, upper_material))
-        self._case = _case.tables(
-            handed,
-            title=title,
-            contact={
-                "load": load, "mean_pressure": mean_pressure, "approach": approach, "boundary": boundary,
-                "method": method, "tolerance": tolerance,
-            },
-            friction=friction,
-            motion={
-                "strategy": strategy, "speed_lower": speed_lower, "speed_upper": speed_upper, "passes": passes,
-                "stride": stride, "control": control, "plastic_update": plastic_update, "load_tolerance": load_tolerance,
-                "speed": speed, "path": path, "offset_y": offset_y, "seed": seed, "counter": counter,
-            },
-            acceleration=acceleration,
-            temperature=temperature,
-            plasticity=plasticity,
-            subsurface=subsurface,
-            output={"pressure_every": pressure_every, "rim": rim, "paraview": paraview},
-        )  # fmt: skip
-        self._progress = progress
-        count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+        case = _case.tables(handed, MotionKeywords, options)
+        count, existing = _case.execution(options)
+        self._progress = options["progress"]
         self._temporary: Temporary | None = None
+        out = options["out"]
         if out is None:
             self._temporary = Temporary()
             out = self._temporary.path
-        self.directory = _case.directory(out)
-        self._core = _core.Passes(self._case, handed.given, self.directory, existing, count)
+        self.directory = path("out", out)
+        self._core = _core.Passes(case, handed.given, self.directory, existing, count)
 
     @property
     def done(self) -> int:
@@ -316,46 +269,15 @@ Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
 """What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
 
 
+@takes(MotionKeywords)
 def simulate(
     lower: Surface | Body,
     upper: Surface | Body,
     lower_material: Material | None = None,
     upper_material: Material | None = None,
     *,
-    load: Quantity | None = None,
-    mean_pressure: Quantity | None = None,
-    approach: Quantity | None = None,
-    passes: int | None = None,
-    stride: int | None = None,
-    strategy: str | None = None,
-    speed_lower: Quantity | None = None,
-    speed_upper: Quantity | None = None,
-    control: str | None = None,
-    plastic_update: str | None = None,
-    load_tolerance: float | None = None,
-    speed: Quantity | None = None,
-    path: str | None = None,
-    offset_y: int | str | None = None,
-    seed: int | None = None,
-    counter: str | None = None,
-    acceleration: Mapping[str, Any] | None = None,
-    temperature: Mapping[str, Any] | None = None,
-    plasticity: Mapping[str, Any] | None = None,
-    boundary: str | Sequence[str] | None = None,
-    method: str | None = None,
-    tolerance: float | None = None,
-    friction: Friction | None = None,
-    subsurface: Mapping[str, Any] | None = None,
-    pressure_every: int | None = None,
-    rim: float | None = None,
-    paraview: bool | None = None,
-    title: str | None = None,
     law: Law | None = None,
-    out: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[MotionKeywords],
 ) -> Run:
     """Let two bodies pass over each other, pass after pass.
 
@@ -363,58 +285,10 @@ def simulate(
     ----------
     lower, upper, lower_material, upper_material
         The bodies, as of :func:`contact`.
-    load, mean_pressure, approach
-        What is prescribed, one of them: in the mean over a pass, or at every position (`control`).
-    passes : int, optional
-        Number of passes; 1 by default.
-    stride : int, optional
-        Cells from one position to the next; 1 by default.
-    strategy : {"overlap", "shift"}, optional
-        Only what faces each other is solved, or both surfaces are shifted circularly.
-    speed_lower, speed_upper : float or str, optional
-        Speeds of the surfaces in a shift, m/s; only their ratio matters. The slower one moves by parts of a cell.
-    control : {"pass-load", "step-load", "approach"}, optional
-        Where the load holds.
-    plastic_update : {"pass", "step"}, optional
-        When plastic deformation changes the surfaces.
-    load_tolerance : float, optional
-        Relative tolerance on the mean load of a pass; 1e-4 by default.
-    speed : float or str, optional
-        Speed of the upper body in an overlap, m/s, where bodies wear, grow films or are heated.
-    path : {"one-way", "reciprocating"}, optional
-        Whether a pass goes one way, or there and back.
-    offset_y : int or "random", optional
-        Cells by which the upper body lies further along y in each pass than in the one before, or anywhere, drawn from the `seed` and
-        the number of the pass.
-    seed : int, optional
-        Of ``offset_y="random"``; 0 by default.
-    counter : {"same", "fresh"}, optional
-        Whether the passes after the first have an upper body of their own, made by its generator from another seed. The upper surface is
-        then a generator's that is not made yet, such as ``asp.generate.low_pass(...)``.
-    acceleration : mapping, optional
-        How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed.
-    temperature : mapping, optional
-        `bulk`, K or text such as ``"100 °C"``, and `every`, whether the flash temperature is computed.
-    plasticity : mapping, optional
-        Of bodies that flow, see :class:`Plasticity`, the keys of `[plasticity]` in a motion: `depth`, `layers`, `growth`, `tolerance`,
-        `keep`.
-    boundary, method, tolerance, friction, title
-        As of :func:`contact`; with friction the upper body slides.
-    subsurface : mapping, optional
-        The stress under the surface that is looked at, with the keys of `[subsurface]`.
-    pressure_every : int, optional
-        Pressures of every n-th position are kept, 0 of none; 8 by default.
-    rim : float, optional
-        Part of a body's length at free ends that is left out of what is told of its interior; 0.1 by default.
-    paraview : bool, optional
-        Whether fields are written for ParaView, too.
     law : callable, optional
         Called with each :class:`Pass` once it is solved, by the calling thread; it gives the depths that the pass takes off the
         lower and the upper body, m, or `None`. The volumes are columns `wear_volume_lower` … of :attr:`Run.passes`.
-    out : path, optional
-        Directory for the results; without it one that is gone with the :class:`Run`.
-    resume, overwrite, threads, progress
-        As of :func:`contact`. Results of an interrupted run stay, and `resume` goes on after the last pass.
+    **options
 
     Returns
     -------
@@ -425,16 +299,7 @@ def simulate(
     asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
         As of :func:`contact`. What `law` raises ends the run; its pass does not count.
     """
-    simulation = Simulation(
-        lower, upper, lower_material, upper_material,
-        load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
-        speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
-        load_tolerance=load_tolerance, speed=speed, path=path, offset_y=offset_y, seed=seed, counter=counter,
-        acceleration=acceleration, temperature=temperature, plasticity=plasticity,
-        boundary=boundary, method=method, tolerance=tolerance, friction=friction,
-        subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
-        out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,
-    )  # fmt: skip
+    simulation = Simulation(lower, upper, lower_material, upper_material, **options)
     for each in simulation:
         removed = None if law is None else law(each)
         if removed is not None:
