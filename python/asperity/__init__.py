@@ -16,7 +16,7 @@ from ._core import __version__
 from ._contact import Contact, contact, slide
 from ._flow import Flow
 from ._progress import Progress
-from ._run import Run, open, run, simulate
+from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
 from ._study import Study, study
 from .body import Body
@@ -37,7 +37,7 @@ from .describe import (
 )
 from .fields import Field, Fields
 from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, tangential_modulus
-from .simulation import Contacts, Pass, Simulation
+from .simulation import Contacts, Pass, Simulation, simulate
 from .surface import Surface, channels, read
 from .verification import Check, Verification, verification_cases, verify
 

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _core, fields
 from ._flow import Flow, of_results
-from ._progress import Teller, Told
+from ._keywords import ContactKeywords, SlideKeywords, takes
+from ._progress import Teller
 from ._same import Comparable
-from ._units import Quantity
+from ._units import path
 from .body import Body, Handed, bodies
 from .errors import bad_input, warn
 from .fields import Fields
 from .material import Material
 from .surface import Surface
 
-Friction = float | Mapping[str, Any]
-"""The coefficient of friction, or the keys of the table `[friction]` of a case."""
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Contact(Comparable):
@@ -209,33 +209,13 @@ class Contact(Comparable):
         return contact(self)
 
 
+@takes(ContactKeywords)
 def contact(
     lower: Surface | Body,
     upper: Surface | Body,
     lower_material: Material | None = None,
     upper_material: Material | None = None,
-    *,
-    load: Quantity | None = None,
-    mean_pressure: Quantity | None = None,
-    approach: Quantity | None = None,
-    loads: Sequence[Quantity] | None = None,
-    mean_pressures: Sequence[Quantity] | None = None,
-    approaches: Sequence[Quantity] | None = None,
-    boundary: str | Sequence[str] | None = None,
-    method: str | None = None,
-    tolerance: float | None = None,
-    friction: Friction | None = None,
-    history: Sequence[Mapping[str, Any]] | None = None,
-    plasticity: Mapping[str, Any] | None = None,
-    subsurface: Mapping[str, Any] | None = None,
-    pressure_every: int | None = None,
-    paraview: bool | None = None,
-    title: str | None = None,
-    out: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[ContactKeywords],
 ) -> Contact:
     """Press two bodies together.
 
@@ -248,42 +228,7 @@ def contact(
         :class:`Body`.
     lower_material, upper_material : Material, optional
         What the surfaces are made of.
-    load, mean_pressure, approach : float or str
-        What is prescribed, one of them: the normal force, above 0, N; its mean over all cells, Pa; the approach from the heights
-        as they are, m.
-    loads, mean_pressures, approaches : sequence
-        In place of these: one after the other, each on virgin bodies.
-    boundary : str or pair of str, optional
-        What lies beyond the rim: ``"free"`` or ``"periodic"``, for both axes or for each.
-    method : str, optional
-        ``"auto"``, ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``.
-    tolerance : float, optional
-        Residual at which the solver stops, above 0, below 1; 1e-6 by default.
-    friction : float or mapping, optional
-        The coefficient, or the keys of `[friction]`: `coefficient`, `coupling`, `shear_strength`, `junction_growth`; `force`,
-        `displacement` or `sliding`; of a rolling contact `creepage`, `creepages` or `rolling_force`, and `spin`; `increments`.
-    history : sequence of mappings, optional
-        Stages of the loading after the first; what a stage does not name stays.
-    plasticity : mapping, optional
-        Of bodies that flow, see :class:`Plasticity`, the keys of `[plasticity]`: `depth`, `layers`, `growth`, `increments`,
-        `tolerance`, `unload`.
-    subsurface : mapping, optional
-        The stress under the surface that is written to the results: `to`, `layers`, `planes` … It needs `out`;
-        :func:`asperity.stress` computes stresses without.
-    pressure_every : int, optional
-        Of a sweep, the fields of every n-th point are kept; 0 of none.
-    paraview : bool, optional
-        Whether fields are written for ParaView, too.
-    title : str, optional
-        Title of the results.
-    out : path, optional
-        Directory for the results; without it nothing is written.
-    resume, overwrite : bool
-        Go on from results in `out` that were interrupted, or replace what is there.
-    threads : int, optional
-        Threads that share the work; one for each core by default.
-    progress : bool or callable
-        Whether a bar shows how far it is, where tqdm is installed; or what is called with a :class:`Progress`.
+    **options
 
     Returns
     -------
@@ -308,49 +253,16 @@ def contact(
     >>> bool(abs(c.max_pressure / asp.reference.HertzSphere(10e-3, 115.4e9, 10.0).peak_pressure() - 1) < 0.01)
     True
     """
-    handed = Handed(*bodies(lower, upper, lower_material, upper_material))
-    case = _case.tables(
-        handed,
-        title=title,
-        contact={
-            "load": load, "mean_pressure": mean_pressure, "approach": approach,
-            "loads": loads, "mean_pressures": mean_pressures, "approaches": approaches,
-            "boundary": boundary, "method": method, "tolerance": tolerance,
-        },
-        friction=friction,
-        history=history,
-        plasticity=plasticity,
-        subsurface=subsurface,
-        output={"pressure_every": pressure_every, "paraview": paraview},
-    )  # fmt: skip
-    needs_out = {"subsurface": subsurface, "paraview": paraview}
-    return _solved(handed, case, needs_out, out, resume, overwrite, threads, progress)
+    return _solved(bodies(lower, upper, lower_material, upper_material), ContactKeywords, options)
 
 
+@takes(SlideKeywords)
 def slide(
     lower: Surface | Body,
     upper: Surface | Body,
     lower_material: Material | None = None,
     upper_material: Material | None = None,
-    *,
-    distance: Quantity,
-    load: Quantity | None = None,
-    mean_pressure: Quantity | None = None,
-    approach: Quantity | None = None,
-    speed: Quantity | None = None,
-    updates: int | None = None,
-    temperature: Mapping[str, Any] | None = None,
-    boundary: str | Sequence[str] | None = None,
-    method: str | None = None,
-    tolerance: float | None = None,
-    friction: Friction | None = None,
-    paraview: bool | None = None,
-    title: str | None = None,
-    out: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[SlideKeywords],
 ) -> Contact:
     """Slide two bodies in place: the same cells face each other all the way, as a ball on a disc or a punch, and wear.
 
@@ -358,18 +270,7 @@ def slide(
     ----------
     lower, upper, lower_material, upper_material
         The bodies, as of :func:`contact`; one of them at least wears or grows a film, see :class:`Body`.
-    distance : float or str
-        The distance slid, above 0, m.
-    load, mean_pressure, approach : float or str
-        What is prescribed all the way, one of them.
-    speed : float or str, optional
-        Of the upper body, above 0, m/s; where films grow or bodies are heated.
-    updates : int, optional
-        Implicit updates, each a contact solved on the bodies as it leaves them; 40 by default.
-    temperature : mapping, optional
-        `bulk`, and `every`: 1 where friction heats the bodies, 0 where not.
-    boundary, method, tolerance, friction, paraview, title, out, resume, overwrite, threads, progress
-        As of :func:`contact`.
+    **options
 
     Returns
     -------
@@ -391,41 +292,21 @@ def slide(
     >>> f"{worn.updates['wear_volume_upper'][-1]:.4g}"
     '2.128e-13'
     """
-    handed = Handed(*bodies(lower, upper, lower_material, upper_material))
-    case = _case.tables(
-        handed,
-        title=title,
-        contact={
-            "load": load, "mean_pressure": mean_pressure, "approach": approach, "boundary": boundary,
-            "method": method, "tolerance": tolerance,
-        },
-        friction=friction,
-        sliding={"distance": distance, "speed": speed, "updates": updates},
-        temperature=temperature,
-        output={"paraview": paraview},
-    )  # fmt: skip
-    return _solved(handed, case, {"paraview": paraview}, out, resume, overwrite, threads, progress)
+    return _solved(bodies(lower, upper, lower_material, upper_material), SlideKeywords, options)
 
 
-def _solved(
-    handed: Handed,
-    case: dict[str, Any],
-    needs_out: dict[str, Any],
-    out: str | os.PathLike[str] | None,
-    resume: bool,
-    overwrite: bool,
-    threads: int | None,
-    progress: Told,
-) -> Contact:
-    """The contact at rest of a case, in memory, or of the results that it leaves."""
-    count = _case.threads(threads)
-    existing = _case.existing(resume, overwrite)
-    if out is None:
-        for key, value in {**needs_out, "resume": resume or None}.items():
+def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) -> Contact:
+    """The contact at rest of two bodies, in memory, or of the results that it leaves."""
+    handed = Handed(*pair)
+    case = _case.tables(handed, keywords, options)
+    count, existing = _case.execution(options)
+    if options["out"] is None:
+        written = {key: options.get(key) for key in ("subsurface", "paraview")}
+        for key, value in {**written, "resume": options["resume"] or None}.items():
             if value is not None:
                 message = f"'{key}' is given without 'out', the directory for what it writes"
                 raise bad_input(key, message)
-        with Teller(progress) as tell:
+        with Teller(options["progress"]) as tell:
             found = _core.rest(case, handed.given, count, tell)
         pitch = (found["pitch"][0], found["pitch"][1])
         arrays = fields.of_cells(found["fields"], pitch)
@@ -440,9 +321,10 @@ def _solved(
             found["case"],
             {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
         )
-    with Teller(progress) as tell:
-        _core.run(case, handed.given, _case.directory(out), existing, count, tell)
-    answer = stored(_core.Results(_case.directory(out)))
+    out = path("out", options["out"])
+    with Teller(options["progress"]) as tell:
+        _core.run(case, handed.given, out, existing, count, tell)
+    answer = stored(_core.Results(out))
     warn(answer.warnings)
     return answer
 

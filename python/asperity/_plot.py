@@ -14,7 +14,6 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from ._run import Run
     from .fields import Field
-    from .surface import Surface
 
 _MISSING = "0.75"
 """The grey of cells without a value."""
@@ -89,14 +88,6 @@ def field(field: Field, ax: Any = None, **options: Any) -> Any:
     ax.set(xlabel=f"{field.axes[0]} ({length.unit})", ylabel=f"{field.axes[1]} ({length.unit})", aspect="equal")
     ax.yaxis.set_inverted(field.axes[1] == "z")
     return ax
-
-
-def surface(surface: Surface, ax: Any = None, **options: Any) -> Any:
-    """Draw the heights of a surface; gives the axes."""
-    from .fields import Field
-
-    dx, dy = surface.pitch
-    return field(Field("heights", surface.heights, "m", ("x", "y"), (dx, dy), (0.5 * dx, 0.5 * dy)), ax, **options)
 
 
 def run(run: Run, quantity: str | None = None, ax: Any = None, **options: Any) -> Any:

@@ -1,34 +1,31 @@
-"""Motions, and results in a directory."""
+"""Results in a directory, and case files that lead to them."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import _case, _contact, _core, fields
+from ._contact import Contact
 from ._flow import Flow, of_results
-from ._progress import Teller, Told
+from ._keywords import Execution, takes
+from ._progress import Teller
+from ._optional import need
 from ._same import Comparable
+from ._show import unit_of
 from ._temporary import Temporary
-from ._units import Quantity
 from ._units import path as paths
-from .body import Body
-from ._contact import Contact, Friction
-from .errors import _make, bad_input, warn
+from .errors import _make, bad_input
 from .fields import Fields
-from .material import Material
-from .simulation import Pass, Simulation
 from .surface import Surface
 
 if TYPE_CHECKING:
     import pathlib
 
-Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
-"""What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
+    from typing_extensions import Unpack
 
 
 class Run(Comparable):
@@ -175,16 +172,31 @@ class Run(Comparable):
         return number
 
     def to_xarray(self) -> Any:
-        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`."""
-        from ._convert import run
+        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`.
 
-        return run(self)
+        Each body has coordinates of its own, from its own corner.
+        """
+        xarray = need("xarray", "to_xarray()")
+        passes = self.passes
+        columns = {
+            name: ("pass", passes[name], {"units": unit_of(name)}) for name in passes.dtype.names or () if name != "pass"
+        }
+        coordinates: dict[str, Any] = {"pass": passes["pass"], "after": np.arange(len(passes) + 1)}
+        after = [self.fields(number) for number in range(len(passes) + 1)]
+        surfaces = {}
+        for body in ("lower", "upper"):
+            first = after[0][body]
+            axes = [f"{axis}_{body}" for axis in first.axes]
+            for axis, own in zip(first.axes, axes, strict=True):
+                coordinates[own] = (own, first.coordinate(axis), {"units": "m"})
+            heights = np.stack([found[body].values for found in after])
+            surfaces[body] = (("after", *axes), heights, {"units": first.unit})
+        attributes = {"title": self.case["title"], "identity": self.case["identity"]}
+        return xarray.Dataset({**columns, **surfaces}, coordinates, attributes)
 
     def to_pandas(self) -> Any:
         """The passes as a DataFrame of pandas."""
-        from ._convert import frame
-
-        return frame(self.passes, "pass")
+        return fields.frame(self.passes, "pass")
 
     def plot(self, quantity: str | None = None, **options: Any) -> Any:
         """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass.
@@ -224,152 +236,12 @@ def _path(path: str | os.PathLike[str]) -> pathlib.Path:
     return pathlib.Path(path)
 
 
-def simulate(
-    lower: Surface | Body,
-    upper: Surface | Body,
-    lower_material: Material | None = None,
-    upper_material: Material | None = None,
-    *,
-    load: Quantity | None = None,
-    mean_pressure: Quantity | None = None,
-    approach: Quantity | None = None,
-    passes: int | None = None,
-    stride: int | None = None,
-    strategy: str | None = None,
-    speed_lower: Quantity | None = None,
-    speed_upper: Quantity | None = None,
-    control: str | None = None,
-    plastic_update: str | None = None,
-    load_tolerance: float | None = None,
-    speed: Quantity | None = None,
-    path: str | None = None,
-    offset_y: int | str | None = None,
-    seed: int | None = None,
-    counter: str | None = None,
-    acceleration: Mapping[str, Any] | None = None,
-    temperature: Mapping[str, Any] | None = None,
-    plasticity: Mapping[str, Any] | None = None,
-    boundary: str | Sequence[str] | None = None,
-    method: str | None = None,
-    tolerance: float | None = None,
-    friction: Friction | None = None,
-    subsurface: Mapping[str, Any] | None = None,
-    pressure_every: int | None = None,
-    rim: float | None = None,
-    paraview: bool | None = None,
-    title: str | None = None,
-    law: Law | None = None,
-    out: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
-) -> Run:
-    """Let two bodies pass over each other, pass after pass.
-
-    Parameters
-    ----------
-    lower, upper, lower_material, upper_material
-        The bodies, as of :func:`contact`.
-    load, mean_pressure, approach
-        What is prescribed, one of them: in the mean over a pass, or at every position (`control`).
-    passes : int, optional
-        Number of passes; 1 by default.
-    stride : int, optional
-        Cells from one position to the next; 1 by default.
-    strategy : {"overlap", "shift"}, optional
-        Only what faces each other is solved, or both surfaces are shifted circularly.
-    speed_lower, speed_upper : float or str, optional
-        Speeds of the surfaces in a shift, m/s; only their ratio matters. The slower one moves by parts of a cell.
-    control : {"pass-load", "step-load", "approach"}, optional
-        Where the load holds.
-    plastic_update : {"pass", "step"}, optional
-        When plastic deformation changes the surfaces.
-    load_tolerance : float, optional
-        Relative tolerance on the mean load of a pass; 1e-4 by default.
-    speed : float or str, optional
-        Speed of the upper body in an overlap, m/s, where bodies wear, grow films or are heated.
-    path : {"one-way", "reciprocating"}, optional
-        Whether a pass goes one way, or there and back.
-    offset_y : int or "random", optional
-        Cells by which the upper body lies further along y in each pass than in the one before, or anywhere, drawn from the `seed` and
-        the number of the pass.
-    seed : int, optional
-        Of ``offset_y="random"``; 0 by default.
-    counter : {"same", "fresh"}, optional
-        Whether the passes after the first have an upper body of their own, made by its generator from another seed. The upper surface is
-        then a generator's that is not made yet, such as ``asp.generate.low_pass(...)``.
-    acceleration : mapping, optional
-        How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed.
-    temperature : mapping, optional
-        `bulk`, K or text such as ``"100 °C"``, and `every`, whether the flash temperature is computed.
-    plasticity : mapping, optional
-        Of bodies that flow, see :class:`Plasticity`, the keys of `[plasticity]` in a motion: `depth`, `layers`, `growth`, `tolerance`,
-        `keep`.
-    boundary, method, tolerance, friction, title
-        As of :func:`contact`; with friction the upper body slides.
-    subsurface : mapping, optional
-        The stress under the surface that is looked at, with the keys of `[subsurface]`.
-    pressure_every : int, optional
-        Pressures of every n-th position are kept, 0 of none; 8 by default.
-    rim : float, optional
-        Part of a body's length at free ends that is left out of what is told of its interior; 0.1 by default.
-    paraview : bool, optional
-        Whether fields are written for ParaView, too.
-    law : callable, optional
-        Called with each :class:`Pass` once it is solved, by the calling thread; it gives the depths that the pass takes off the
-        lower and the upper body, m, or `None`. The volumes are columns `wear_volume_lower` … of :attr:`Run.passes`.
-    out : path, optional
-        Directory for the results; without it one that is gone with the :class:`Run`.
-    resume, overwrite, threads, progress
-        As of :func:`contact`. Results of an interrupted run stay, and `resume` goes on after the last pass.
-
-    Returns
-    -------
-    Run
-
-    Raises
-    ------
-    asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
-        As of :func:`contact`. What `law` raises ends the run; its pass does not count.
-    """
-    simulation = Simulation(
-        lower, upper, lower_material, upper_material,
-        load=load, mean_pressure=mean_pressure, approach=approach, passes=passes, stride=stride, strategy=strategy,
-        speed_lower=speed_lower, speed_upper=speed_upper, control=control, plastic_update=plastic_update,
-        load_tolerance=load_tolerance, speed=speed, path=path, offset_y=offset_y, seed=seed, counter=counter,
-        acceleration=acceleration, temperature=temperature, plasticity=plasticity,
-        boundary=boundary, method=method, tolerance=tolerance, friction=friction,
-        subsurface=subsurface, pressure_every=pressure_every, rim=rim, paraview=paraview, title=title,
-        out=out, resume=resume, overwrite=overwrite, threads=threads, progress=progress,
-    )  # fmt: skip
-    for each in simulation:
-        removed = None if law is None else law(each)
-        if removed is not None:
-            if not isinstance(removed, tuple) or len(removed) != 2:
-                message = f"'law' gave {type(removed).__name__}, expected None, or the depths off the lower and the upper body"
-                raise bad_input("law", message)
-            each.remove(*removed)
-    return _finished(simulation)
-
-
-def _finished(simulation: Simulation) -> Run:
-    """The results of a simulation; they keep its directory where that is a temporary one."""
-    simulation.close()
-    run = Run(simulation.directory)
-    run._temporary = simulation._temporary
-    warn(run.warnings)
-    return run
-
-
+@takes(Execution)
 def run(
     case: str | os.PathLike[str],
     *,
     out: str | os.PathLike[str],
-    resume: bool = False,
-    overwrite: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[Execution],
 ) -> Run | Contact:
     """Compute a case file, as the command ``asperity run`` does, without the figures.
 
@@ -379,8 +251,7 @@ def run(
         The case file.
     out : path
         Directory for the results.
-    resume, overwrite, threads, progress
-        As of :func:`contact`.
+    **options
 
     Returns
     -------
@@ -392,10 +263,10 @@ def run(
     asperity.errors.CaseError
         For a mistake in the file, with its line and column.
     """
-    count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+    count, existing = _case.execution(options)
     handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
-    with Teller(progress) as tell:
-        _core.run(paths("case", case), handed, _case.directory(out), existing, count, tell)
+    with Teller(options["progress"]) as tell:
+        _core.run(paths("case", case), handed, paths("out", out), existing, count, tell)
     return open(out)
 
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
+from ._contact import Contact
 from ._optional import need
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
 from .errors import bad_input
 from .material import Material, _poisson
-
-if TYPE_CHECKING:
-    from ._contact import Contact
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 """The components, in the order in which they are stored."""
@@ -272,7 +270,7 @@ def stress(
     """
     if body not in ("lower", "upper"):
         raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
-    if isinstance(source, Comparable) and hasattr(source, "fields"):
+    if isinstance(source, Contact):
         for key, value in (
             ("poisson", poisson), ("material", material), ("boundary", boundary), ("shear", shear), ("pitch", pitch),
         ):  # fmt: skip
@@ -284,7 +282,7 @@ def stress(
     return SubsurfaceStress(given, _depths(depths), _case.threads(threads))
 
 
-def _of_contact(contact: Any, body: str) -> Any:
+def _of_contact(contact: Contact, body: str) -> Any:
     if "coating" in contact.case[body]:
         raise bad_input("coating", "stresses under a coating are not known yet")
     found = contact.fields

@@ -8,18 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _case, _core
-from ._progress import Teller, Told
-from ._run import _path, open
+from . import _case, _core, fields
+from ._contact import Contact
+from ._keywords import Tasks, takes
+from ._progress import Teller
+from ._run import Run, _path, open
 from ._same import Comparable
 from ._units import path
 from .errors import FailedCases, NoResults, NotResumable, _make, bad_input, warn
 
 if TYPE_CHECKING:
-    import pathlib
-
-    from ._contact import Contact
-    from ._run import Run
+    from typing_extensions import Unpack
 
 _State = NDArray[np.str_]
 
@@ -122,14 +121,8 @@ class Study(Comparable):
         """
         return self._records(self._core.table())
 
-    def run(
-        self,
-        *,
-        task: tuple[int, int] | None = None,
-        retry: bool = False,
-        threads: int | None = None,
-        progress: Told = True,
-    ) -> None:
+    @takes(Tasks)
+    def run(self, **options: Unpack[Tasks]) -> None:
         """Compute what is left, as the command ``asperity study`` does; who finishes the last case makes tables and page.
 
         A case that cannot be computed is a row of the :attr:`table` with its message; the others are computed. Stopped, killed or
@@ -137,15 +130,7 @@ class Study(Comparable):
 
         Parameters
         ----------
-        task : tuple of two int, optional
-            Of the cases only a share: ``(3, 40)`` is the third case and every fortieth after it.
-        retry : bool
-            Whether what has failed is computed again.
-        threads : int, optional
-            So many cases at a time; one for each core by default. Where fewer are left, each gets several.
-        progress : bool or callable
-            Whether a bar shows how far it is, where tqdm is installed; or what is called with a :class:`Progress`, whose
-            positions are the cases that were left.
+        **options
 
         Raises
         ------
@@ -161,9 +146,9 @@ class Study(Comparable):
         asperity.errors.FailedCases
             If cases of the study have failed.
         """
-        count = _case.threads(threads)
-        with Teller(progress) as tell:
-            failed = self._core.run(_share(task), bool(retry), count, tell)
+        count = _case.threads(options["threads"])
+        with Teller(options["progress"]) as tell:
+            failed = self._core.run(_share(options["task"]), bool(options["retry"]), count, tell)
         if failed:
             case, message = failed[0]
             warn([f"{len(failed)} of {len(self)} cases have failed, the first is case {case}: {message}"], FailedCases)
@@ -199,9 +184,7 @@ class Study(Comparable):
 
     def to_pandas(self) -> Any:
         """The :attr:`table` as a DataFrame of pandas over `case`, with its units as the attribute `units`."""
-        from ._convert import frame
-
-        made = frame(self.table, "case")
+        made = fields.frame(self.table, "case")
         for key, values in self.axes.items():
             made.attrs["units"][key] = self.units[key] or ("1" if values.dtype.kind in "iuf" else "")
         return made
@@ -217,14 +200,12 @@ class Study(Comparable):
         return _records(table)
 
 
+@takes(Tasks)
 def study(
     file: str | os.PathLike[str],
     *,
     out: str | os.PathLike[str] | None = None,
-    task: tuple[int, int] | None = None,
-    retry: bool = False,
-    threads: int | None = None,
-    progress: Told = True,
+    **options: Unpack[Tasks],
 ) -> Study:
     """Compute a study file, as the command ``asperity study`` does.
 
@@ -232,8 +213,7 @@ def study(
     ----------
     file, out
         As of :class:`Study`.
-    task, retry, threads, progress
-        As of :meth:`Study.run`.
+    **options
 
     Returns
     -------
@@ -250,7 +230,7 @@ def study(
         If cases have failed.
     """
     study = Study(file, out)
-    study.run(task=task, retry=retry, threads=threads, progress=progress)
+    study.run(**options)
     return study
 
 

@@ -148,7 +148,7 @@ class LoadNotReached(Failed):
 
 
 class BeyondPass(Failed):
-    """One approach for a whole pass bears no such load: `load`, `most`, N; `approach`, m."""
+    """One approach for a whole pass bears no such load: `load`, `most`, N; `approach`, m; `cause`, why."""
 
 
 class AtPosition(Failed):
@@ -224,7 +224,7 @@ class MissingFile(File, FileNotFoundError):
 
 
 class ResultsExist(FileProblem, FileExistsError):
-    """A directory that is to take results is not empty: `path`."""
+    """A directory that is to take results is not empty: `path`; `results`, whether it holds results."""
 
 
 class WithinResults(FileProblem):
@@ -307,7 +307,7 @@ def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None)
         name = "MissingFile"
     error: AsperityError = globals()[name](message)
     for key, value in attributes.items():
-        setattr(error, key, str(value) if key in ("path", "results", "file") else value)
+        setattr(error, key, str(value) if isinstance(value, os.PathLike) else value)
     if hint is not None:
         error.hint = hint
         # From Python 3.11 on tracebacks show them.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._same import Comparable, same
+from ._show import unit_of
 
 
 class Field(Comparable):
@@ -163,3 +164,11 @@ def table(rows: list[dict[str, Any]], columns: list[str]) -> NDArray[np.void]:
     for name in names:
         array[name] = [np.nan if row.get(name) is None else row[name] for row in rows]
     return array
+
+
+def frame(table: NDArray[np.void], index: str) -> Any:
+    """A structured array as a DataFrame of pandas, with its units as the attribute `units`."""
+    pandas = need("pandas", "to_pandas()")
+    made = pandas.DataFrame(table).set_index(index)
+    made.attrs["units"] = {name: unit_of(name) for name in made.columns}
+    return made

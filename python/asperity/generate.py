@@ -7,15 +7,9 @@ the same heights on every machine.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from ._units import Pair, Quantity
 from .surface import Surface
-
-
-def _generated(kind: str, keys: dict[str, Any]) -> Surface:
-    given = {key: value for key, value in keys.items() if value is not None}
-    return Surface._of({"generate": kind, **given})
 
 
 def low_pass(
@@ -52,8 +46,7 @@ def low_pass(
     ----------
     Hu and Tonder, Int. J. Mach. Tools Manufact. 32, 83 (1992).
     """
-    keys = {"shape": shape, "pitch": pitch, "sq": sq, "cutoff": cutoff, "band": band, "ssk": ssk, "sku": sku}
-    return _generated("low-pass", {**keys, "seed": seed})
+    return Surface._made_as("generate", "low-pass", locals())
 
 
 def autocorrelation(
@@ -85,8 +78,7 @@ def autocorrelation(
     ssk, sku, seed
         As of :func:`low_pass`.
     """
-    keys = {"shape": shape, "pitch": pitch, "sq": sq, "correlation_length": correlation_length, "decay": decay}
-    return _generated("autocorrelation", {**keys, "lay": lay, "ssk": ssk, "sku": sku, "seed": seed})
+    return Surface._made_as("generate", "autocorrelation", locals())
 
 
 def self_affine(
@@ -119,5 +111,4 @@ def self_affine(
     seed : int
         Seed of the random numbers, at least 0.
     """
-    keys = {"shape": shape, "pitch": pitch, "hurst": hurst, "sq": sq, "sdq": sdq, "rolloff": rolloff}
-    return _generated("self-affine", {**keys, "shortest": shortest, "seed": seed})
+    return Surface._made_as("generate", "self-affine", locals())

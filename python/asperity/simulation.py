@@ -1,24 +1,27 @@
-"""A motion, pass after pass, for laws of one's own."""
+"""Motions: all at once, or pass after pass for laws of one's own."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core, fields
-from ._progress import Teller, Told
+from ._keywords import MotionKeywords, takes
+from ._progress import Teller
+from ._run import Run
 from ._temporary import Temporary
-from ._units import Quantity
+from ._units import path
 from .body import Body, Handed, bodies, heights_like
-from ._contact import Friction
-from .errors import bad_input
+from .errors import bad_input, warn
 from .material import Material
 from .surface import Surface
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Contacts(NamedTuple):
@@ -211,75 +214,26 @@ class Simulation(_Moving):
     (2,)
     """
 
+    @takes(MotionKeywords)
     def __init__(
         self,
         lower: Surface | Body,
         upper: Surface | Body,
         lower_material: Material | None = None,
         upper_material: Material | None = None,
-        *,
-        load: Quantity | None = None,
-        mean_pressure: Quantity | None = None,
-        approach: Quantity | None = None,
-        passes: int | None = None,
-        stride: int | None = None,
-        strategy: str | None = None,
-        speed_lower: Quantity | None = None,
-        speed_upper: Quantity | None = None,
-        control: str | None = None,
-        plastic_update: str | None = None,
-        load_tolerance: float | None = None,
-        speed: Quantity | None = None,
-        path: str | None = None,
-        offset_y: int | str | None = None,
-        seed: int | None = None,
-        counter: str | None = None,
-        acceleration: Mapping[str, Any] | None = None,
-        temperature: Mapping[str, Any] | None = None,
-        plasticity: Mapping[str, Any] | None = None,
-        boundary: str | Sequence[str] | None = None,
-        method: str | None = None,
-        tolerance: float | None = None,
-        friction: Friction | None = None,
-        subsurface: Mapping[str, Any] | None = None,
-        pressure_every: int | None = None,
-        rim: float | None = None,
-        paraview: bool | None = None,
-        title: str | None = None,
-        out: str | os.PathLike[str] | None = None,
-        resume: bool = False,
-        overwrite: bool = False,
-        threads: int | None = None,
-        progress: Told = True,
+        **options: Unpack[MotionKeywords],
     ) -> None:
         handed = Handed(*bodies(lower, upper, lower_material, upper_material))
-        self._case = _case.tables(
-            handed,
-            title=title,
-            contact={
-                "load": load, "mean_pressure": mean_pressure, "approach": approach, "boundary": boundary,
-                "method": method, "tolerance": tolerance,
-            },
-            friction=friction,
-            motion={
-                "strategy": strategy, "speed_lower": speed_lower, "speed_upper": speed_upper, "passes": passes,
-                "stride": stride, "control": control, "plastic_update": plastic_update, "load_tolerance": load_tolerance,
-                "speed": speed, "path": path, "offset_y": offset_y, "seed": seed, "counter": counter,
-            },
-            acceleration=acceleration,
-            temperature=temperature,
-            plasticity=plasticity,
-            subsurface=subsurface,
-            output={"pressure_every": pressure_every, "rim": rim, "paraview": paraview},
-        )  # fmt: skip
-        self._progress = progress
-        count, existing = _case.threads(threads), _case.existing(resume, overwrite)
+        case = _case.tables(handed, MotionKeywords, options)
+        count, existing = _case.execution(options)
+        self._progress = options["progress"]
         self._temporary: Temporary | None = None
+        out = options["out"]
         if out is None:
             self._temporary = Temporary()
             out = self._temporary.path
-        self.directory = _case.directory(out)
-        self._core = _core.Passes(self._case, handed.given, self.directory, existing, count)
+        self.directory = path("out", out)
+        self._core = _core.Passes(case, handed.given, self.directory, existing, count)
 
     @property
     def done(self) -> int:
@@ -301,8 +255,56 @@ class Simulation(_Moving):
         self._core.finish()
         self._core.end()
 
-    def results(self) -> Any:
-        """Finish the pass under way, if there is one; the results as a :class:`Run`."""
-        from ._run import _finished
+    def results(self) -> Run:
+        """Finish the pass under way, if there is one; the results."""
+        self.close()
+        run = Run(self.directory)
+        # They keep the directory where that is a temporary one.
+        run._temporary = self._temporary
+        warn(run.warnings)
+        return run
 
-        return _finished(self)
+
+Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
+"""What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
+
+
+@takes(MotionKeywords)
+def simulate(
+    lower: Surface | Body,
+    upper: Surface | Body,
+    lower_material: Material | None = None,
+    upper_material: Material | None = None,
+    *,
+    law: Law | None = None,
+    **options: Unpack[MotionKeywords],
+) -> Run:
+    """Let two bodies pass over each other, pass after pass.
+
+    Parameters
+    ----------
+    lower, upper, lower_material, upper_material
+        The bodies, as of :func:`contact`.
+    law : callable, optional
+        Called with each :class:`Pass` once it is solved, by the calling thread; it gives the depths that the pass takes off the
+        lower and the upper body, m, or `None`. The volumes are columns `wear_volume_lower` … of :attr:`Run.passes`.
+    **options
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
+        As of :func:`contact`. What `law` raises ends the run; its pass does not count.
+    """
+    simulation = Simulation(lower, upper, lower_material, upper_material, **options)
+    for each in simulation:
+        removed = None if law is None else law(each)
+        if removed is not None:
+            if not isinstance(removed, tuple) or len(removed) != 2:
+                message = f"'law' gave {type(removed).__name__}, expected None, or the depths off the lower and the upper body"
+                raise bad_input("law", message)
+            each.remove(*removed)
+    return simulation.results()

@@ -30,6 +30,7 @@ from .describe import (
     Window,
 )
 from .errors import _make, bad_input
+from .fields import Field
 
 _STEPS = (
     "window", "despike", "fill", "level", "mirror", "rotate", "s_filter", "l_filter", "filter", "resample", "interpolate",
@@ -106,6 +107,11 @@ class Surface(Comparable):
         surface._given_pitch = None if given is None else given._given_pitch
         surface._made = None
         return surface
+
+    @classmethod
+    def _made_as(cls, how: str, kind: str, arguments: dict[str, Any]) -> Surface:
+        """The surface of a form or a generator; its keys are those of the `arguments` that are given."""
+        return cls._of({how: kind, **{key: value for key, value in arguments.items() if value is not None}})
 
     def _with(self, **steps: Any) -> Surface:
         """The same surface with further steps."""
@@ -381,15 +387,16 @@ class Surface(Comparable):
 
     def to_xarray(self) -> Any:
         """The heights as a DataArray of xarray, with the centres of the cells as coordinates, m."""
-        from .fields import Field
-
-        return Field("heights", self.heights, "m", ("x", "y"), self.pitch, (0.5 * self.pitch[0], 0.5 * self.pitch[1])).to_xarray()
+        return self._field.to_xarray()
 
     def plot(self, **options: Any) -> Any:
         """Draw the heights with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
-        from ._plot import surface
+        return self._field.plot(**options)
 
-        return surface(self, **options)
+    @property
+    def _field(self) -> Field:
+        dx, dy = self.pitch
+        return Field("heights", self.heights, "m", ("x", "y"), (dx, dy), (0.5 * dx, 0.5 * dy))
 
 
 def read(

@@ -1,16 +1,9 @@
-//! Exceptions: one for each variant of the library's error, in `asperity.errors`, with its numbers as attributes.
+//! Exceptions: one for each variant of the library's error, in `asperity.errors`, with its fields as attributes.
 
 use asperity::Error;
+use asperity::error::Detail;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-
-/// The name of the variant and its fields, for the exception of that name.
-macro_rules! variant {
-    ($attributes:ident, $name:literal $(, $field:ident = $value:expr)* $(,)?) => {{
-        $($attributes.set_item(stringify!($field), $value)?;)*
-        $name
-    }};
-}
 
 /// The exception of an error of the library.
 pub(crate) fn exception(py: Python<'_>, error: &Error) -> PyErr {
@@ -20,6 +13,14 @@ pub(crate) fn exception(py: Python<'_>, error: &Error) -> PyErr {
 /// The exception of a mistake of ours.
 pub(crate) fn internal(py: Python<'_>, message: &str) -> PyErr {
     let made = make(py, "InternalError", message, &PyDict::new(py), None);
+    made.map(PyErr::from_value).unwrap_or_else(|failure| failure)
+}
+
+/// The exception of an argument that has no meaning, as of a key of a case.
+pub(crate) fn bad_input(py: Python<'_>, key: &str, message: &str, hint: Option<String>) -> PyErr {
+    let attributes = PyDict::new(py);
+    let made =
+        attributes.set_item("key", key).and_then(|()| make(py, "CaseError", message, &attributes, hint));
     made.map(PyErr::from_value).unwrap_or_else(|failure| failure)
 }
 
@@ -34,145 +35,51 @@ fn make<'py>(
 }
 
 fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
-    let a = PyDict::new(py);
-    let mut message = error.to_string();
-    let mut hint = error.hint();
-    let name = match error {
-        Error::OutOfRange { quantity, value, expected, .. } => {
-            variant!(a, "OutOfRange", quantity = quantity, value = value, expected = expected)
+    let attributes = PyDict::new(py);
+    if let Error::Case(case) = error {
+        attributes.set_item("key", &case.key)?;
+        // Of a call there is no file; what names one names the place, too.
+        if case.file.as_os_str().is_empty() {
+            return make(py, "CaseError", &case.message, &attributes, case.hint.clone());
         }
-        Error::GridMismatch { what, left, right } => {
-            variant!(a, "GridMismatch", what = what, left = left, right = right)
-        }
-        Error::Unsupported(_) => "Unsupported",
-        Error::NotATopography { path, reason } => variant!(a, "NotATopography", path = path, reason = reason),
-        Error::CorruptTopography { path, format, reason } => {
-            variant!(a, "CorruptTopography", path = path, format = format, reason = reason.to_string())
-        }
-        Error::NoChannel { path, channel, available } => {
-            variant!(a, "NoChannel", path = path, channel = channel, available = available)
-        }
-        Error::OwnUnit { path, format } => variant!(a, "OwnUnit", path = path, format = format),
-        Error::NoPitch { path, format } => variant!(a, "NoPitch", path = path, format = format),
-        Error::NoFormat { path } => variant!(a, "NoFormat", path = path),
-        Error::UndefinedSamples { undefined, samples } => {
-            variant!(a, "UndefinedSamples", undefined = undefined, samples = samples)
-        }
-        Error::NothingDefined { samples } => variant!(a, "NothingDefined", samples = samples),
-        Error::WindowOutside { window, shape } => {
-            variant!(a, "WindowOutside", window = window.to_vec(), shape = shape.to_vec())
-        }
-        Error::Case(case) => {
-            // Of a call there is no file; what names one names the place, too.
-            if case.file.as_os_str().is_empty() {
-                message.clone_from(&case.message);
-            } else {
-                a.set_item("path", &case.file)?;
-                a.set_item("line", case.line)?;
-                a.set_item("column", case.column)?;
+        attributes.set_item("path", &case.file)?;
+        attributes.set_item("line", case.line)?;
+        attributes.set_item("column", case.column)?;
+        return make(py, "CaseError", &error.to_string(), &attributes, case.hint.clone());
+    }
+    for (field, detail) in error.details() {
+        // The field is a keyword of Python.
+        let field = if field == "pass" { "pass_number" } else { field };
+        match detail {
+            Detail::Text(text) => attributes.set_item(field, text)?,
+            Detail::Path(path) => attributes.set_item(field, path)?,
+            Detail::Number(number) => attributes.set_item(field, number)?,
+            Detail::Count(count) => attributes.set_item(field, count)?,
+            Detail::Counts(counts) => attributes.set_item(field, counts)?,
+            Detail::Texts(texts) => attributes.set_item(field, texts)?,
+            Detail::Flag(flag) => attributes.set_item(field, flag)?,
+            Detail::Cause(cause) => attributes.set_item("cause", raised(py, cause)?)?,
+            Detail::System(error) => {
+                attributes.set_item("errno", error.raw_os_error())?;
+                attributes.set_item("reason", error.to_string())?;
             }
-            hint.clone_from(&case.hint);
-            variant!(a, "CaseError", key = &case.key)
+            // The message has the unit.
+            _ => {}
         }
-        Error::BeyondPlasticLimit { load, limit } => {
-            variant!(a, "BeyondPlasticLimit", load = load, limit = limit)
-        }
-        Error::BeyondFriction { force, limit } => variant!(a, "BeyondFriction", force = force, limit = limit),
-        Error::NotConverged { iterations, residual, tolerance } => {
-            variant!(a, "NotConverged", iterations = iterations, residual = residual, tolerance = tolerance)
-        }
-        Error::PeriodicFullContact { approach, mean_gap } => {
-            variant!(a, "PeriodicFullContact", approach = approach, mean_gap = mean_gap)
-        }
-        Error::LoadNotReached { load, below, trials, approach } => {
-            variant!(a, "LoadNotReached", load = load, below = below, trials = trials, approach = approach)
-        }
-        Error::BeyondPass { load, most, approach, .. } => {
-            variant!(a, "BeyondPass", load = load, most = most, approach = approach)
-        }
-        Error::AtPosition { pass, position, positions, source } => {
-            a.set_item("pass_number", pass)?;
-            hint = hint.or(source.hint());
-            a.set_item("cause", raised(py, source)?)?;
-            variant!(a, "AtPosition", position = position, positions = positions)
-        }
-        Error::AtPoint { point, points, source } => {
-            hint = hint.or(source.hint());
-            a.set_item("cause", raised(py, source)?)?;
-            variant!(a, "AtPoint", point = point, points = points)
-        }
-        Error::AtIncrement { increment, source } => {
-            hint = hint.or(source.hint());
-            a.set_item("cause", raised(py, source)?)?;
-            variant!(a, "AtIncrement", increment = increment)
-        }
-        Error::AtPass { pass, source } => {
-            a.set_item("pass_number", pass)?;
-            hint = hint.or(source.hint());
-            a.set_item("cause", raised(py, source)?)?;
-            "AtPass"
-        }
-        Error::AtUpdate { update, source } => {
-            hint = hint.or(source.hint());
-            a.set_item("cause", raised(py, source)?)?;
-            variant!(a, "AtUpdate", update = update)
-        }
-        Error::NotFinite { field, cell } => variant!(a, "NotFinite", field = field, cell = cell),
-        Error::FlowNotConverged { products, mismatch, tolerance } => {
-            variant!(a, "FlowNotConverged", products = products, mismatch = mismatch, tolerance = tolerance)
-        }
-        Error::Memory { needed, available } => variant!(a, "Memory", needed = needed, available = available),
-        Error::Threads { reason } => {
-            hint = Some("one needs none: threads=1".to_owned());
-            variant!(a, "Threads", reason = reason)
-        }
-        Error::Interrupted => "Interrupted",
-        Error::ResultsExist { path, results } => {
-            hint = Some("overwrite=True replaces them, resume=True goes on from them".to_owned())
-                .filter(|_| *results);
-            variant!(a, "ResultsExist", path = path)
-        }
-        Error::WithinResults { path, results } => {
-            variant!(a, "WithinResults", path = path, results = results)
-        }
-        Error::OtherCase { path, key, before, now } => {
-            variant!(a, "OtherCase", path = path, key = key, before = before, now = now)
-        }
-        Error::SurfaceChanged { path, file } => variant!(a, "SurfaceChanged", path = path, file = file),
-        Error::NotResumable { path, reason } => variant!(a, "NotResumable", path = path, reason = reason),
-        Error::OtherRows { path, rows, ranks, expected, expected_ranks } => variant!(
-            a,
-            "OtherRows",
-            path = path,
-            rows = rows.to_vec(),
-            ranks = ranks,
-            expected = expected.to_vec(),
-            expected_ranks = expected_ranks
-        ),
-        Error::InUse { path } => variant!(a, "InUse", path = path),
-        Error::TooManyRanks { ranks, rows } => variant!(a, "TooManyRanks", ranks = ranks, rows = rows),
-        Error::RanksDiffer { rank, what } => variant!(a, "RanksDiffer", rank = rank, what = what),
-        Error::NotThisStudy { path, what } => {
-            hint = Some("out= names another directory".to_owned());
-            variant!(a, "NotThisStudy", path = path, what = what)
-        }
-        Error::NoResults { path } => variant!(a, "NoResults", path = path),
-        Error::File { path, source } => {
-            variant!(a, "File", path = path, errno = source.raw_os_error(), reason = source.to_string())
-        }
-        Error::NoField { path, name, available } => {
-            variant!(a, "NoField", path = path, name = name, available = available)
-        }
-        // The library may grow variants; its message is whole in any case.
-        _ => "AsperityError",
-    };
-    make(py, name, &message, &a, hint)
+    }
+    make(py, error.name(), &error.to_string(), &attributes, hint(error))
 }
 
-/// The exception of an argument that has no meaning, as of a key of a case.
-pub(crate) fn bad_input(py: Python<'_>, key: &str, message: &str, hint: Option<String>) -> PyErr {
-    let attributes = PyDict::new(py);
-    let made =
-        attributes.set_item("key", key).and_then(|()| make(py, "CaseError", message, &attributes, hint));
-    made.map(PyErr::from_value).unwrap_or_else(|failure| failure)
+/// What to do about it, in words of Python where the library has none.
+fn hint(error: &Error) -> Option<String> {
+    let words = match error {
+        Error::Threads { .. } => "one needs none: threads=1",
+        Error::ResultsExist { results: true, .. } => {
+            "overwrite=True replaces them, resume=True goes on from them"
+        }
+        Error::NotThisStudy { .. } => "out= names another directory",
+        Error::NotExclusive { .. } => "out= names a directory on another file system",
+        _ => return error.hint(),
+    };
+    Some(words.to_owned())
 }

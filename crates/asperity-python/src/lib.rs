@@ -64,6 +64,7 @@ mod _core {
         module.add("MAX_THREADS", asperity_cli::MAX_THREADS)?;
         module.add("COUPLED_PUNCHES", crate::reference::coupled_punches())?;
         module.add("AREA_COEFFICIENTS", [rough::BGT_COEFFICIENT, rough::PERSSON_COEFFICIENT])?;
-        module.add("WOLF_PRUNING", WOLF_PRUNING)
+        module.add("WOLF_PRUNING", WOLF_PRUNING)?;
+        module.add("ERRORS", asperity::Error::VARIANTS.to_vec())
     }
 }

@@ -1,10 +1,12 @@
 //! The one error of the library: each variant carries the numbers needed to act on it.
 
 mod case;
+mod detail;
 
 use std::path::PathBuf;
 
 pub use case::CaseError;
+pub use detail::Detail;
 
 use crate::units::{Dimension, Metre, Newton, bytes, format, format_distinct, format_number};
 
@@ -28,6 +30,8 @@ pub(crate) fn check_in(
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension, expected }) }
 }
 
+// The macro also tells the name and the fields of each variant.
+detail::causes! {
 /// Everything that can go wrong, by cause.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -420,6 +424,7 @@ pub enum Error {
         available: Vec<String>,
     },
 }
+}
 
 /// Why the load of a pass under one approach has a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -472,7 +477,8 @@ impl Error {
             Self::NotFinite { .. } => Some(
                 "a quantity of the input is far too large or too small, for example one whose unit is missing".into(),
             ),
-            Self::AtIncrement { source, .. }
+            Self::AtPosition { source, .. }
+            | Self::AtIncrement { source, .. }
             | Self::AtPass { source, .. }
             | Self::AtUpdate { source, .. }
             | Self::AtPoint { source, .. } => source.hint(),

@@ -1,0 +1,235 @@
+"""The keywords of contacts and motions: each once, with its type, its table in a case and its meaning.
+
+The table is empty for a key at the top of a case. A keyword without a table says how a case is computed.
+"""
+
+# Annotations are not postponed here: types and texts are read when the package is imported.
+
+import functools
+import inspect
+import os
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from types import NoneType, UnionType
+from typing import Annotated, Any, TypedDict, TypeVar, Union, cast, get_args, get_origin
+
+from ._progress import Told
+from ._units import Quantity
+
+Friction = float | Mapping[str, Any]
+"""The coefficient of friction, or the keys of the table `[friction]` of a case."""
+
+Table = Mapping[str, Any]
+"""A table of a case, by the names of its keys."""
+
+
+# fmt: off
+class Common(TypedDict, total=False):
+    """Keywords of every contact."""
+
+    load: Annotated[Quantity | None, "contact", "Normal force, above 0, N. Give one of `load`, `mean_pressure` and `approach`."]
+    mean_pressure: Annotated[Quantity | None, "contact", "Normal force over the area of all cells, above 0, Pa."]
+    approach: Annotated[Quantity | None, "contact", "Approach of the bodies from the heights as they are, m."]
+    boundary: Annotated[str | Sequence[str] | None, "contact",
+        'What lies beyond the rim: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.']
+    method: Annotated[str | None, "contact",
+        'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same answer.']
+    tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]
+    friction: Annotated[Friction | None, "",
+        "The coefficient, or the keys of `[friction]`: `coefficient`, `coupling`, `shear_strength`, `junction_growth`. In a "
+        "motion and in place the upper body slides. At rest also `force`, `displacement` or `sliding`; in rolling `creepage`,"
+        " `creepages` or `rolling_force`, and `spin`; `increments`."]
+
+
+class Rest(TypedDict, total=False):
+    """Keywords of a contact at rest."""
+
+    loads: Annotated[Sequence[Quantity] | None, "contact", "In place of `load`: one after the other, each on virgin bodies, N."]
+    mean_pressures: Annotated[Sequence[Quantity] | None, "contact",
+        "In place of `mean_pressure`: one after the other, each on virgin bodies, Pa."]
+    approaches: Annotated[Sequence[Quantity] | None, "contact",
+        "In place of `approach`: one after the other, each on virgin bodies, m."]
+    history: Annotated[Sequence[Table] | None, "", "Stages of the loading after the first. What a stage does not name stays."]
+    plasticity: Annotated[Table | None, "",
+        "The keys of `[plasticity]`, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
+        "`tolerance`, `unload`."]
+    subsurface: Annotated[Table | None, "",
+        "The stress under the surface that is written to `out`: the keys of `[subsurface]`, such as `to`, `layers`, `planes`."
+        " Without `out`, :func:`asperity.stress` computes stresses."]
+    pressure_every: Annotated[int | None, "output",
+        "In a sweep, the fields of every n-th point are kept; 0 keeps none, 8 by default."]
+
+
+class Distance(TypedDict):
+    """The keyword that sliding in place requires."""
+
+    distance: Annotated[Quantity, "sliding", "Distance slid, above 0, m."]
+
+
+class Sliding(TypedDict, total=False):
+    """Keywords of sliding in place."""
+
+    speed: Annotated[Quantity | None, "sliding",
+        "Speed of the upper body, above 0, m/s, if films grow or bodies are heated."]
+    updates: Annotated[int | None, "sliding",
+        "Number of implicit updates, each a contact solved on the bodies as it leaves them; 40 by default."]
+    temperature: Annotated[Table | None, "",
+        '`bulk`, K or text such as ``"100 °C"``, and `every`: 1 if friction heats the bodies, 0 if not.']
+
+
+class Motion(TypedDict, total=False):
+    """Keywords of a motion."""
+
+    passes: Annotated[int | None, "motion", "Number of passes; 1 by default."]
+    stride: Annotated[int | None, "motion", "Cells from one position to the next; 1 by default."]
+    strategy: Annotated[str | None, "motion",
+        '``"overlap"`` (by default) solves only the cells that face each other; ``"shift"`` shifts both surfaces circularly.']
+    speed_lower: Annotated[Quantity | None, "motion",
+        "Speed of the lower surface in a shift, m/s; 0 by default. Only the ratio of both speeds matters. The slower surface "
+        "moves by parts of a cell."]
+    speed_upper: Annotated[Quantity | None, "motion", "Speed of the upper surface in a shift, m/s; 1 by default."]
+    control: Annotated[str | None, "motion",
+        'Where the load holds: ``"pass-load"`` in the mean over a pass (by default), ``"step-load"`` at every position. '
+        '``"approach"`` holds the approach.']
+    plastic_update: Annotated[str | None, "motion",
+        'When plastic deformation changes the surfaces: after the ``"pass"``, or at every ``"step"``.']
+    load_tolerance: Annotated[float | None, "motion",
+        "Relative tolerance on the mean load of a pass, above 0, below 1; 1e-4 by default."]
+    speed: Annotated[Quantity | None, "motion",
+        "Speed of the upper body in an overlap, above 0, m/s, if bodies wear, grow films or are heated."]
+    path: Annotated[str | None, "motion", 'A pass goes ``"one-way"`` (by default), or there and back: ``"reciprocating"``.']
+    offset_y: Annotated[int | str | None, "motion",
+        'Cells by which the upper body lies further along y in each pass than in the one before; 0 by default. ``"random"`` '
+        "draws its place from the `seed` and the number of the pass."]
+    seed: Annotated[int | None, "motion", 'Seed of ``offset_y="random"``; 0 by default.']
+    counter: Annotated[str | None, "motion",
+        'The upper body of the passes after the first: the ``"same"`` (by default), or a ``"fresh"`` one, made by its '
+        "generator from another seed. A fresh one requires an upper surface of a generator without heights yet, such as "
+        "``asp.generate.low_pass(...)``."]
+    acceleration: Annotated[Table | None, "",
+        "How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed."]
+    temperature: Annotated[Table | None, "",
+        '`bulk`, K or text such as ``"100 °C"``, and `every`: the flash temperature is computed in every n-th pass, 0 for '
+        "none."]
+    plasticity: Annotated[Table | None, "",
+        "The keys of `[plasticity]` in a motion, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, "
+        "`tolerance`, `keep`."]
+    subsurface: Annotated[Table | None, "",
+        "The stress under the surface that is computed: the keys of `[subsurface]`, such as `to`, `layers`."]
+    pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are kept; 0 keeps none, 8 by default."]
+    rim: Annotated[float | None, "output",
+        "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]
+
+
+class Output(TypedDict, total=False):
+    """Keywords of the results."""
+
+    paraview: Annotated[bool | None, "output", "Whether fields are also written for ParaView."]
+    title: Annotated[str | None, "", "Title of the results."]
+    out: Annotated[str | os.PathLike[str] | None,
+        "Directory for the results. Without it a contact writes nothing, and the results of a motion live as long as its "
+        ":class:`Run`."]
+
+
+class Execution(TypedDict, total=False):
+    """Keywords of a computation."""
+
+    resume: Annotated[bool, "Go on from interrupted results in `out`; a motion goes on after its last pass."]
+    overwrite: Annotated[bool, "Replace the results in `out`."]
+    threads: Annotated[int | None, "Number of threads that share the work; one for each core by default."]
+    progress: Annotated[Told,
+        "Whether a progress bar is shown, if tqdm is installed; or a function that is called with each :class:`Progress`."]
+
+
+class Tasks(TypedDict, total=False):
+    """Keywords of the computation of a study."""
+
+    task: Annotated[tuple[int, int] | None,
+        "Compute only a share of the cases: ``(3, 40)`` is the third case and every fortieth after it."]
+    retry: Annotated[bool, "Compute failed cases again."]
+    threads: Annotated[int | None,
+        "Number of cases at a time; one for each core by default. If fewer are left, each gets several threads."]
+    progress: Annotated[Told,
+        "Whether a progress bar is shown, if tqdm is installed; or a function that is called with each :class:`Progress`, "
+        "whose positions are the cases that were left."]
+
+
+# fmt: on
+class ContactKeywords(Common, Rest, Output, Execution, total=False):
+    """Keywords of :func:`asperity.contact`."""
+
+
+class SlideKeywords(Distance, Common, Sliding, Output, Execution, total=False):
+    """Keywords of :func:`asperity.slide`."""
+
+
+class MotionKeywords(Common, Motion, Output, Execution, total=False):
+    """Keywords of :func:`asperity.simulate` and :class:`asperity.Simulation`."""
+
+
+_FLAGS = {"resume": False, "overwrite": False, "retry": False, "progress": True}
+"""What keywords default to that are not `None` by default."""
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def takes(keywords: Any) -> Callable[[Function], Function]:
+    """Decorate a function whose ``**options`` are these `keywords`, one of the classes above.
+
+    They stand in its signature, and in its docstring in place of ``**options``. The function gets all of them, those that are not
+    given by their defaults.
+    """
+    annotations = keywords.__annotations__
+    types = {key: get_args(annotation)[0] for key, annotation in annotations.items()}
+    defaults = {key: _FLAGS.get(key) for key in types.keys() - keywords.__required_keys__}
+
+    def decorate(function: Function) -> Function:
+        name = function.__qualname__
+        signature = inspect.signature(function)
+        parameters = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]
+        fixed = [each.name for each in parameters]
+        for key, kind in types.items():
+            default = defaults.get(key, inspect.Parameter.empty)
+            parameters.append(inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind))
+
+        @functools.wraps(function)
+        def call(*args: Any, **options: Any) -> Any:
+            for key in options.keys() - types.keys() - set(fixed):
+                raise TypeError(f"{name}() got an unexpected keyword argument {key!r}{_meant(key, [*fixed, *types])}")
+            for key in keywords.__required_keys__ - options.keys():
+                raise TypeError(f"{name}() missing a required keyword-only argument: {key!r}")
+            return function(*args, **{**defaults, **options})
+
+        described: Any = call
+        described.__signature__ = signature.replace(parameters=parameters)
+        described.__annotations__ = {**function.__annotations__, **types}
+        del described.__annotations__["options"]
+        if function.__doc__ is not None:
+            rows = "\n".join(_row(key, annotation) for key, annotation in annotations.items())
+            described.__doc__ = inspect.cleandoc(function.__doc__).replace("**options", rows)
+        return cast(Function, call)
+
+    return decorate
+
+
+def _meant(key: str, known: list[str]) -> str:
+    """A guess at the keyword that was meant, as Python makes it."""
+    import difflib
+
+    close = difflib.get_close_matches(key, known, 1)
+    return f". Did you mean {close[0]!r}?" if close else ""
+
+
+def _row(key: str, annotation: Any) -> str:
+    """A keyword as a row of a docstring."""
+    kind, *_, text = get_args(annotation)
+    optional = ", optional" if NoneType in get_args(kind) else ""
+    return f"{key} : {_words(kind)}{optional}\n" + textwrap.indent(textwrap.fill(text, 116), "    ")
+
+
+def _words(kind: Any) -> str:
+    """A type as docstrings write it: ``float or str``."""
+    if get_origin(kind) in (Union, UnionType):
+        return " or ".join(_words(member) for member in get_args(kind) if member is not NoneType)
+    name: str = (get_origin(kind) or kind).__name__.lower()
+    return "path" if name == "pathlike" else name
