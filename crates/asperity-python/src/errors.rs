@@ -78,7 +78,6 @@ fn hint(error: &Error) -> Option<String> {
             "overwrite=True replaces them, resume=True goes on from them"
         }
         Error::NotThisStudy { .. } => "out= names another directory",
-        Error::NotExclusive { .. } => "out= names a directory on another file system",
         _ => return error.hint(),
     };
     Some(words.to_owned())
