@@ -564,3 +564,10 @@ fn an_animation_shows_each_frame_in_its_time() {
     }
     assert!(animation(&path, &[], Colours::Pressure, 10).unwrap_err().to_string().contains("no frame"));
 }
+
+#[test]
+fn each_unit_is_the_si_unit_of_its_dimension() {
+    for dimension in asperity::units::Dimension::ALL {
+        assert_eq!(Unit::from(dimension).base(), dimension.si(), "{dimension:?}");
+    }
+}

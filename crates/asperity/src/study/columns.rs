@@ -90,12 +90,12 @@ pub fn columns() -> Vec<Column> {
     columns
 }
 
-/// Returns the SI unit of a [`column`]: `"1"` for a pure number or a count, nothing for a text; none where no such column is written.
+/// Returns the SI unit of a [`column()`]: `"1"` for a pure number or a count, nothing for a text; none where no such column is written.
 pub fn unit_of_column(name: &str) -> Option<&'static str> {
     column(name).map(|column| column.unit)
 }
 
-/// Returns what a [`column`] measures; none for pure numbers, for texts, and for a moment or a spin, which no case file asks for.
+/// Returns what a [`column()`] measures; none for pure numbers, for texts, and for a moment or a spin, which no case file asks for.
 pub fn dimension_of_column(name: &str) -> Option<Dimension> {
     let unit = unit_of_column(name)?;
     Dimension::ALL.into_iter().find(|dimension| dimension.si() == unit)

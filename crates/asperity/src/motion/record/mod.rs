@@ -1,7 +1,7 @@
 //! The records of a computation: one for each static contact, increment, update, point of a sweep, position and pass.
 //!
 //! A field of a record is a column of its table, or a key of `summary.json`. It is declared here and nowhere else: its type gives the
-//! unit, its documentation the meaning, see [`columns`].
+//! unit and its documentation gives the meaning (`columns.rs`).
 
 pub(crate) mod columns;
 mod flow;
