@@ -2,7 +2,7 @@
 
 use super::cursor::{Entry, Table};
 use super::prescribed::prescribed;
-use super::schema::contact::contact as keys;
+use super::schema::loading::contact as keys;
 use super::schema::tables::known_in;
 use super::sweep::{Sweep, sweep};
 use super::{Boundary, Contact, Edge};

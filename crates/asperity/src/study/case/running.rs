@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::schema::body::both as body;
+use super::schema::running_in::{acceleration, arrhenius, film, mechano_chemical, temperature, wear};
 use super::schema::tables::{known_in, suits_choice};
-use super::schema::wear::{acceleration, arrhenius, film, mechano_chemical, temperature, wear};
 use super::{Body, Case, Hardness};
 use crate::choice::{Choice, choice};
 use crate::error::Result;

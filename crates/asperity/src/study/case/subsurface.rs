@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cursor::{Entry, Table};
-use super::schema::output::subsurface as keys;
+use super::schema::results::subsurface as keys;
 use super::schema::tables::known_in;
 use crate::choice::choice;
 use crate::error::Result;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cursor::{Entry, Table};
 use super::prescribed::Prescribed;
-use super::schema::contact::{contact, sweep as keys};
+use super::schema::loading::{contact, sweep as keys};
 use super::schema::tables::known_in;
 use crate::choice::choice;
 use crate::error::Result;
