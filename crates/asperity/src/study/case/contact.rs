@@ -3,7 +3,7 @@
 use super::Contact;
 use super::cursor::Table;
 use super::prescribed::prescribed;
-use super::schema::contact::contact as keys;
+use super::schema::loading::contact as keys;
 use super::schema::tables::known_in;
 use super::sweep::{Sweep, sweep};
 use crate::error::Result;

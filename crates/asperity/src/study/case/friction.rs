@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
 use super::prescribed::{Prescribed, prescribed};
-use super::schema::contact::{friction as keys, history};
+use super::schema::loading::{friction as keys, history};
 use super::schema::tables::known_in;
 use super::{Case, Number};
 use crate::error::Result;

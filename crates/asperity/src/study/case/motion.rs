@@ -1,7 +1,7 @@
 //! `[motion]`: how the bodies move.
 
 use super::cursor::Table;
-use super::schema::motion::motion as keys;
+use super::schema::moving::motion as keys;
 use super::schema::tables::known_in;
 use super::{ControlKind, MotionSpec, OffsetY, Prescribed, StrategyKind};
 use crate::error::Result;

@@ -2,7 +2,7 @@
 
 use super::Output;
 use super::cursor::Table;
-use super::schema::output::output as keys;
+use super::schema::results::output as keys;
 use super::schema::tables::known_in;
 use crate::error::Result;
 

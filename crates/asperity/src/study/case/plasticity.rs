@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cursor::Table;
-use super::schema::contact::friction::INCREMENTS;
+use super::schema::loading::friction::INCREMENTS;
 use super::schema::plasticity::{flow, volume as keys};
 use super::schema::tables::known_in;
 use super::schema::values::plasticity::Keep;

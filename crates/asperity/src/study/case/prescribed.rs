@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cursor::Table;
-use super::schema::contact::contact as keys;
+use super::schema::loading::contact as keys;
 use crate::error::Result;
 use crate::solver;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use super::cursor::Table;
 use super::schema::body::both as body;
-use super::schema::tables::{known_in, suits_choice};
-use super::schema::values::running::LawKind;
-use super::schema::wear::{
+use super::schema::running_in::{
     acceleration, arrhenius, film, mechano_chemical, solid_lubricant, temperature, wear,
 };
+use super::schema::tables::{known_in, suits_choice};
+use super::schema::values::running::LawKind;
 use super::{Body, Case, Hardness};
 use crate::choice::Choice;
 use crate::error::Result;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Case;
 use super::cursor::Table;
-use super::schema::motion::sliding as keys;
+use super::schema::moving::sliding as keys;
 use super::schema::tables::known_in;
 use crate::error::Result;
 use crate::motion::Slide;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cursor::Table;
-use super::schema::output::subsurface as keys;
+use super::schema::results::subsurface as keys;
 use super::schema::tables::known_in;
 use super::schema::values::subsurface::Side;
 use crate::error::Result;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cursor::Table;
 use super::prescribed::Prescribed;
-use super::schema::contact::contact;
+use super::schema::loading::contact;
 use crate::error::Result;
 use crate::units::{Metre, Newton, Pascal};
 

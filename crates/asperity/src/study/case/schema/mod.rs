@@ -4,18 +4,18 @@
 //! reader of case files, its messages, the units of study axes and the tables of `docs/input.md` all come from it.
 
 pub(in crate::study) mod body;
-pub(in crate::study) mod contact;
+pub(in crate::study) mod loading;
 pub(in crate::study) mod hardness;
 pub(in crate::study) mod list;
-pub(in crate::study) mod motion;
-pub(in crate::study) mod output;
+pub(in crate::study) mod moving;
+pub(in crate::study) mod results;
 pub(in crate::study) mod plasticity;
 pub(in crate::study) mod root;
 pub(in crate::study) mod tables;
 pub(in crate::study) mod topography;
 pub(in crate::study) mod typed;
 pub(in crate::study) mod values;
-pub(in crate::study) mod wear;
+pub(in crate::study) mod running_in;
 
 use std::fmt;
 
@@ -136,19 +136,19 @@ pub fn keys() -> &'static [Section] {
         body::both::SECTION,
         body::upper::SECTION,
         body::coating::SECTION,
-        contact::contact::SECTION,
-        motion::motion::SECTION,
-        contact::friction::SECTION,
-        output::subsurface::SECTION,
-        output::output::SECTION,
-        wear::acceleration::SECTION,
-        motion::sliding::SECTION,
-        wear::temperature::SECTION,
-        wear::wear::SECTION,
-        wear::film::SECTION,
-        wear::arrhenius::SECTION,
-        wear::mechano_chemical::SECTION,
-        wear::solid_lubricant::SECTION,
+        loading::contact::SECTION,
+        moving::motion::SECTION,
+        loading::friction::SECTION,
+        results::subsurface::SECTION,
+        results::output::SECTION,
+        running_in::acceleration::SECTION,
+        moving::sliding::SECTION,
+        running_in::temperature::SECTION,
+        running_in::wear::SECTION,
+        running_in::film::SECTION,
+        running_in::arrhenius::SECTION,
+        running_in::mechano_chemical::SECTION,
+        running_in::solid_lubricant::SECTION,
         plasticity::flow::SECTION,
         plasticity::volume::SECTION,
         topography::every::SECTION,
@@ -166,7 +166,7 @@ pub fn keys() -> &'static [Section] {
         topography::flat::SECTION,
         topography::sinusoid::SECTION,
         topography::grooves::SECTION,
-        contact::history::SECTION,
+        loading::history::SECTION,
         list::SECTION,
         hardness::map::SECTION,
         hardness::given::SECTION,
