@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
 
 /// Room between the columns of neighbouring planes: without it those of a power of two share their places in the caches.
 const ROOM: usize = 4;
@@ -48,15 +47,13 @@ impl Planes {
     /// If the planes are larger than the transforms.
     pub(crate) fn new(shape: [usize; 2], cells: [usize; 2]) -> Self {
         assert!(cells[0] <= shape[0] && cells[1] <= shape[1], "shape of the planes");
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
         Self {
             shape,
             cells,
-            along_y: real.plan_fft_forward(shape[1]),
-            back_y: real.plan_fft_inverse(shape[1]),
-            along_x: complex.plan_fft_forward(shape[0]),
-            back_x: complex.plan_fft_inverse(shape[0]),
+            along_y: f64::plan_real_forward(shape[1]),
+            back_y: f64::plan_real_inverse(shape[1]),
+            along_x: f64::plan_forward(shape[0]),
+            back_x: f64::plan_inverse(shape[0]),
         }
     }
 

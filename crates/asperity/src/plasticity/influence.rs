@@ -1,8 +1,8 @@
 //! The stress in the layers under tractions on the surface, and its transpose.
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::Zip;
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use super::waves::INDEPENDENT;
 use super::{COMPONENTS, Layers};

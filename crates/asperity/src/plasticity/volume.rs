@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
+use asperity_transforms::num_complex::Complex64;
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use super::images::{Coarsening, Images};
 use super::influence::Influence;

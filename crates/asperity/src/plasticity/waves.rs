@@ -1,7 +1,7 @@
 //! Plastic strain in Fourier space, and the residual stress that comes back from there.
 
+use asperity_transforms::num_complex::Complex64;
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use super::sweep::{Sweep, SweepScratch};
 use super::{COMPONENTS, Layers};

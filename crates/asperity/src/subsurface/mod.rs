@@ -27,9 +27,9 @@ mod maximum;
 pub use layered::LayeredStress;
 pub use maximum::{Extreme, Maximum};
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::s;
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use crate::grid::{Field, Grid};
 use crate::kernel::{Traction, harmonic_stress, stress_table};

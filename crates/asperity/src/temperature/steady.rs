@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex64;
 use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid};

@@ -9,9 +9,9 @@ use crate::grid::{Field, Grid};
 use crate::math::good_size;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::{Fft, Precision};
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 
 /// How the smooth surface of a filter is found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -151,8 +151,7 @@ impl Line {
         const REACH: f64 = 1.65;
         let reach = ((REACH * length).ceil() as usize).min(n - 1);
         let size = if n == 1 { 1 } else { good_size(n + reach) };
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        let (forward, inverse) = (f64::plan_forward(size), f64::plan_inverse(size));
         let variance = LN_2 / PI * length * length; // (αλ)²
         let mut kernel = vec![Complex64::ZERO; size];
         for offset in 0..=reach {
