@@ -7,11 +7,11 @@ use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::good_size;
+use crate::math::parallel::{self, Pool};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::{Fft, Precision};
-use rayon::prelude::*;
 
 /// How the smooth surface of a filter is found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -169,7 +169,10 @@ impl Line {
         let (n, size) = (rows.ncols(), self.spectrum.len());
         let scratch = self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len());
         let rows = rows.as_slice_mut().expect("standard layout");
-        rows.par_chunks_mut(n).for_each_init(
+        parallel::each(
+            rows.chunks_mut(n),
+            1,
+            &Pool::default(),
             || (vec![Complex64::ZERO; size], vec![Complex64::ZERO; scratch]),
             |(line, scratch), row| {
                 line[..n].copy_from_slice(row);
