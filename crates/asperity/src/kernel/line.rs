@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
 use crate::grid::Field;
 use crate::kernel::Coefficients;
 use crate::kernel::cell::{asinh_term, gauss_points, integral, logarithm_term};
 use crate::material::Compliances;
+use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
 /// Cells that stand in an endless line along an axis, a period L apart: what repeats itself along that axis alone.
@@ -61,7 +60,7 @@ impl Line {
         let ([rows, columns], [across, along]) = (self.turned(shape), self.turned(pitch));
         let mut table = Field::zeros([rows, columns]);
         let values = table.as_slice_mut().expect("standard layout");
-        values.par_chunks_exact_mut(columns).enumerate().for_each(|(i, row)| {
+        parallel::tasks(values.chunks_exact_mut(columns).enumerate(), |(i, row)| {
             let seen = self.seen_from(i as f64 * across, pitch);
             for (j, value) in row.iter_mut().enumerate() {
                 *value = seen.inverse_distance(j as f64 * along) / (PI * modulus);

@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn a_harmonic_is_in_equilibrium_and_compatible_and_bears_its_traction() {
-        use realfft::num_complex::Complex64;
+        use asperity_transforms::num_complex::Complex64;
         let (k, l, poisson) = (0.7, -1.1, 0.3);
         for traction in Traction::ALL {
             let stress = |z: f64| {

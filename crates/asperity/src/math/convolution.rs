@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex;
+use asperity_transforms::num_traits::Zero;
+use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 use ndarray::{Array2, ArrayView1, ArrayViewMut1, ArrayViewMut2, Axis};
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::num_traits::Zero;
-use rustfft::{Fft, FftNum, FftPlanner};
 
 use crate::grid::Field;
 use crate::math::fft::SHARE;
@@ -26,18 +25,16 @@ pub(crate) struct Plans<T> {
     pub(super) back_x: Arc<dyn Fft<T>>,
 }
 
-impl<T: FftNum> Plans<T> {
+impl<T: Precision> Plans<T> {
     /// The plans of a grid of `shape`.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
         let [mx, my] = shape;
         Self {
             shape,
-            along_y: real.plan_fft_forward(my),
-            back_y: real.plan_fft_inverse(my),
-            along_x: complex.plan_fft_forward(mx),
-            back_x: complex.plan_fft_inverse(mx),
+            along_y: T::plan_real_forward(my),
+            back_y: T::plan_real_inverse(my),
+            along_x: T::plan_forward(mx),
+            back_x: T::plan_inverse(mx),
         }
     }
 
@@ -220,7 +217,7 @@ pub(crate) struct Convolution<T> {
     scratch: Pool<Scratch<T>>,
 }
 
-impl<T: FftNum> Convolution<T> {
+impl<T: Precision> Convolution<T> {
     /// The convolution of fields of `shape`.
     ///
     /// # Panics
@@ -258,7 +255,7 @@ impl<T: FftNum> Convolution<T> {
 
 /// A number in the precision of the transforms.
 #[inline]
-pub(super) fn real<T: FftNum>(value: f64) -> T {
+pub(super) fn real<T: Precision>(value: f64) -> T {
     T::from_f64(value).expect("a real number")
 }
 
@@ -271,7 +268,7 @@ pub(super) struct Scratch<T> {
     plan: Vec<Complex<T>>,
 }
 
-impl<T: FftNum> Scratch<T> {
+impl<T: Precision> Scratch<T> {
     pub(super) fn new(plans: &Plans<T>) -> Self {
         Self {
             row: vec![T::zero(); plans.shape[1]],
@@ -286,7 +283,7 @@ pub(super) struct Transform<T> {
     rows: Array2<Complex<T>>,
 }
 
-impl<T: FftNum> Transform<T> {
+impl<T: Precision> Transform<T> {
     /// A transform of fields of `shape`, which may be smaller than the plans.
     pub(super) fn new(plans: &Plans<T>, shape: [usize; 2]) -> Self {
         let [mx, my] = plans.shape;
@@ -345,7 +342,7 @@ pub(super) struct Strip<'a, T> {
     rows: ArrayViewMut2<'a, Complex<T>>,
 }
 
-impl<T: FftNum> Strip<'_, T> {
+impl<T: Precision> Strip<'_, T> {
     /// Frequency along y and column of each, in the scratch.
     pub(super) fn columns<'s>(
         &self,
@@ -386,7 +383,7 @@ impl<T: FftNum> Strip<'_, T> {
     }
 }
 
-impl<T: FftNum> Plans<T> {
+impl<T: Precision> Plans<T> {
     /// Transforms a row, continued by zeros, into `half`; `row` and `scratch` are room to work in.
     pub(super) fn row_forward(
         &self,
@@ -427,7 +424,7 @@ impl<T: FftNum> Plans<T> {
 }
 
 /// Multiplies the transform of a column by that of an even kernel, of which `spectrum` is the first half.
-pub(super) fn multiply<T: FftNum>(column: &mut [Complex<T>], spectrum: &[f64]) {
+pub(super) fn multiply<T: Precision>(column: &mut [Complex<T>], spectrum: &[f64]) {
     let (front, back) = column.split_at_mut(column.len() / 2 + 1);
     front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));
     back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(real(*k)));

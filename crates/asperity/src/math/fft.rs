@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 use ndarray::{Array2, Axis};
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex, num_complex::Complex64};
-use rustfft::{Fft, FftPlanner};
 
 use crate::grid::Field;
 use crate::math::parallel::{self, Pool};
@@ -24,14 +24,12 @@ pub(crate) struct RealFft2 {
 impl RealFft2 {
     /// Plans for fields of `shape`.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
         Self {
             shape,
-            along_y: real.plan_fft_forward(shape[1]),
-            back_y: real.plan_fft_inverse(shape[1]),
-            along_x: complex.plan_fft_forward(shape[0]),
-            back_x: complex.plan_fft_inverse(shape[0]),
+            along_y: f64::plan_real_forward(shape[1]),
+            back_y: f64::plan_real_inverse(shape[1]),
+            along_x: f64::plan_forward(shape[0]),
+            back_x: f64::plan_inverse(shape[0]),
         }
     }
 
@@ -174,8 +172,7 @@ impl RealFft2 {
 /// If `half` has another shape than `[nx/2 + 1, ny]`.
 pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
     assert_eq!(half.dim(), (nx / 2 + 1, ny), "shape of the half field");
-    let mut planner = RealFftPlanner::new();
-    let (along_y, along_x) = (planner.plan_fft_forward(ny), planner.plan_fft_inverse(nx));
+    let (along_y, along_x) = (f64::plan_real_forward(ny), f64::plan_real_inverse(nx));
     let mut columns = Array2::zeros([ny / 2 + 1, nx / 2 + 1]);
     let mut row = |ix: usize, values: &mut [f64]| {
         values.iter_mut().zip(half.row(ix)).for_each(|(v, z)| *v = *z);

@@ -4,54 +4,93 @@ use std::ops::Range;
 use std::slice::{Chunks, ChunksMut};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use rayon::prelude::*;
+use rayon::FnContext;
 
 use crate::grid::Field;
 
-/// Whether other threads may be given a share of the present work.
-///
-/// Not where a thread has tasks of its own that wait for others to take them: they are larger, such as the other positions of
-/// a pass, and come first.
-fn shared_out() -> bool {
-    rayon::current_num_threads() > 1 && rayon_core::current_thread_has_pending_tasks() != Some(true)
-}
-
-/// The results of a `task` on each of some [`Bands`], in their order.
+/// Returns the results of a `task` on each of some [`Bands`], in their order.
 ///
 /// Which threads work on them changes nothing: what is summed over the bands is to be summed in this order.
 pub(crate) fn map<T: Send, R: Send>(
     bands: impl ExactSizeIterator<Item = T>,
-    task: impl Fn(T) -> R + Sync + Send,
+    task: impl Fn(T) -> R + Sync,
 ) -> Vec<R> {
-    if bands.len() > BANDS_AT_ONCE && shared_out() {
-        let bands: Vec<T> = bands.collect();
-        bands.into_par_iter().with_min_len(BANDS_AT_ONCE).map(task).collect()
-    } else {
-        bands.map(task).collect()
-    }
+    each(bands, BANDS_AT_ONCE, &Pool::default(), || (), |(), band| task(band))
 }
 
 /// Bands that a thread takes at the least, so that it is worth its while.
 pub(crate) const BANDS_AT_ONCE: usize = 4;
 
-/// Performs a `task` on each of some parts, with scratch that no other thread has meanwhile; `new` makes what the `pool` lacks.
+/// Returns the results of a `task` on each of some parts, in their order. The task has scratch that no other thread has
+/// meanwhile; `new` makes what the `pool` lacks.
 ///
-/// At least `at_once` parts go to a thread, and few parts all to the present one.
-pub(crate) fn each<T: Send, S: Send>(
+/// At least `at_once` parts go to a thread. The present thread does all parts if they are few, or if it has tasks of its own
+/// that wait for other threads: those are larger, such as the other positions of a pass, and come first.
+pub(crate) fn each<T: Send, S: Send, R: Send>(
     parts: impl ExactSizeIterator<Item = T>,
     at_once: usize,
     pool: &Pool<S>,
-    new: impl Fn() -> S + Sync + Send,
-    task: impl Fn(&mut S, T) + Sync + Send,
-) {
-    if parts.len() > at_once && shared_out() {
-        let parts: Vec<T> = parts.collect();
-        let task = |lent: &mut Lent<S>, part| task(lent.scratch(), part);
-        parts.into_par_iter().with_min_len(at_once).for_each_init(|| pool.lend(&new), task);
-    } else {
+    new: impl Fn() -> S + Sync,
+    task: impl Fn(&mut S, T) -> R + Sync,
+) -> Vec<R> {
+    let has_tasks = rayon_core::current_thread_has_pending_tasks() == Some(true);
+    if parts.len() <= at_once || has_tasks || rayon::current_num_threads() == 1 {
         let mut lent = pool.lend(&new);
-        parts.for_each(|part| task(lent.scratch(), part));
+        return parts.map(|part| task(lent.scratch(), part)).collect();
     }
+    shared(parts.collect(), at_once, &|| pool.lend(&new), &|lent, part| task(lent.scratch(), part))
+}
+
+/// Returns the results of a `task` on each of some parts, in their order. Each part is worth a thread of its own.
+pub(crate) fn tasks<T: Send, R: Send>(
+    parts: impl IntoIterator<Item = T>,
+    task: impl Fn(T) -> R + Sync,
+) -> Vec<R> {
+    let parts = parts.into_iter();
+    if rayon::current_num_threads() == 1 {
+        return parts.map(task).collect();
+    }
+    shared(parts.collect(), 1, &|| (), &|(), part| task(part))
+}
+
+/// Returns the results of a `task` on each of the `parts`, in their order, worked on by all threads.
+fn shared<T: Send, S, R: Send>(
+    parts: Vec<T>,
+    at_once: usize,
+    new: &(dyn Fn() -> S + Sync),
+    task: &(dyn Fn(&mut S, T) -> R + Sync),
+) -> Vec<R> {
+    let parts: Vec<Mutex<(Option<T>, Option<R>)>> =
+        parts.into_iter().map(|part| Mutex::new((Some(part), None))).collect();
+    share(0..parts.len(), at_once, rayon::current_num_threads(), &|some| {
+        let mut scratch = new();
+        for part in &parts[some] {
+            let mut part = part.lock().unwrap_or_else(PoisonError::into_inner);
+            let (waiting, done) = &mut *part;
+            *done = waiting.take().map(|part| task(&mut scratch, part));
+        }
+    });
+    let done = parts.into_iter().map(|part| part.into_inner().unwrap_or_else(PoisonError::into_inner).1);
+    done.map(|done| done.expect("every part is done")).collect()
+}
+
+/// Performs a `task` on ranges that make up the `whole`, each of at least `at_once` numbers.
+///
+/// The range is halved until there are `wanted` ranges; one that another thread takes is halved further, so that threads
+/// with less to do help the others. This function is not generic: rayon is compiled for it once, whatever the task is.
+fn share(whole: Range<usize>, at_once: usize, wanted: usize, task: &(dyn Fn(Range<usize>) + Sync)) {
+    if wanted == 0 || whole.len() < 2 * at_once.max(1) {
+        return task(whole);
+    }
+    let middle = whole.start + whole.len() / 2;
+    let half = |half: Range<usize>, context: FnContext| {
+        let taken = if context.migrated() { rayon::current_num_threads() } else { 0 };
+        share(half, at_once, taken.max(wanted / 2), task);
+    };
+    rayon::join_context(
+        |context| half(whole.start..middle, context),
+        |context| half(middle..whole.end, context),
+    );
 }
 
 /// Scratch for as many threads as have worked at the same time: it is made once, and then lent.
@@ -93,7 +132,7 @@ impl<S> Drop for Lent<'_, S> {
 }
 
 /// The field of a `shape` with this `value` at each `(i, j)`, worked out row by row.
-pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Sync + Send) -> Field {
+pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Sync) -> Field {
     let mut field = Field::zeros(shape);
     let at_once = FIELD_SHARE.div_ceil(shape[1]);
     each(

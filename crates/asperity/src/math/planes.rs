@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use crate::math::parallel::{self, Pool};
+
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 
 /// Room between the columns of neighbouring planes: without it those of a power of two share their places in the caches.
 const ROOM: usize = 4;
@@ -48,15 +48,13 @@ impl Planes {
     /// If the planes are larger than the transforms.
     pub(crate) fn new(shape: [usize; 2], cells: [usize; 2]) -> Self {
         assert!(cells[0] <= shape[0] && cells[1] <= shape[1], "shape of the planes");
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
         Self {
             shape,
             cells,
-            along_y: real.plan_fft_forward(shape[1]),
-            back_y: real.plan_fft_inverse(shape[1]),
-            along_x: complex.plan_fft_forward(shape[0]),
-            back_x: complex.plan_fft_inverse(shape[0]),
+            along_y: f64::plan_real_forward(shape[1]),
+            back_y: f64::plan_real_inverse(shape[1]),
+            along_x: f64::plan_forward(shape[0]),
+            back_x: f64::plan_inverse(shape[0]),
         }
     }
 
@@ -135,8 +133,8 @@ impl Planes {
             }
             true
         };
-        let planes = planes.par_iter().zip(rows.par_chunks_exact_mut(half * nx));
-        planes.with_min_len(together(nx * ny)).map_init(make, each).collect()
+        let planes = planes.iter().zip(rows.chunks_exact_mut(half * nx));
+        parallel::each(planes, together(nx * ny), &Pool::default(), make, each)
     }
 
     /// Of what [`Planes::rows_forward`] has written, the numbers of a plane at `ky`, continued by zeros and transformed into
@@ -176,26 +174,32 @@ impl Planes {
                 self.back_y.make_scratch_vec(),
             )
         };
-        let planes = planes.par_chunks_exact_mut(nx * ny).with_min_len(together(nx * ny)).enumerate();
-        planes.for_each_init(make, |(values, block, scratch), (plane, to)| {
-            for (first, rows) in (0..nx).step_by(BLOCK).zip(to.chunks_mut(BLOCK * ny)) {
-                for ky in 0..half {
-                    let from = &columns[(ky * count + plane) * stride..][first..];
-                    for (n, value) in from.iter().take(rows.len() / ny).enumerate() {
-                        block[n * half + ky] = *value;
+        let planes = planes.chunks_exact_mut(nx * ny).enumerate();
+        parallel::each(
+            planes,
+            together(nx * ny),
+            &Pool::default(),
+            make,
+            |(values, block, scratch), (plane, to)| {
+                for (first, rows) in (0..nx).step_by(BLOCK).zip(to.chunks_mut(BLOCK * ny)) {
+                    for ky in 0..half {
+                        let from = &columns[(ky * count + plane) * stride..][first..];
+                        for (n, value) in from.iter().take(rows.len() / ny).enumerate() {
+                            block[n * half + ky] = *value;
+                        }
+                    }
+                    for (row, spectrum) in rows.chunks_exact_mut(ny).zip(block.chunks_exact_mut(half)) {
+                        spectrum[0].im = 0.0;
+                        if self.shape[1].is_multiple_of(2) {
+                            spectrum[half - 1].im = 0.0;
+                        }
+                        let back = self.back_y.process_with_scratch(spectrum, values, scratch);
+                        back.expect("lengths come from the plan");
+                        row.iter_mut().zip(values.iter()).for_each(|(r, v)| *r = *v * scale);
                     }
                 }
-                for (row, spectrum) in rows.chunks_exact_mut(ny).zip(block.chunks_exact_mut(half)) {
-                    spectrum[0].im = 0.0;
-                    if self.shape[1].is_multiple_of(2) {
-                        spectrum[half - 1].im = 0.0;
-                    }
-                    let back = self.back_y.process_with_scratch(spectrum, values, scratch);
-                    back.expect("lengths come from the plan");
-                    row.iter_mut().zip(values.iter()).for_each(|(r, v)| *r = *v * scale);
-                }
-            }
-        });
+            },
+        );
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::num_traits::Zero;
 use ndarray::Array2;
-use realfft::num_complex::Complex64;
-use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
 use crate::math::convolution::{Plans, Scratch, Transform};

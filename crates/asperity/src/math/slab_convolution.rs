@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use asperity_transforms::Precision;
+use asperity_transforms::num_complex::Complex;
+use asperity_transforms::num_traits::Zero;
 use ndarray::Array2;
-use realfft::num_complex::Complex;
-use rustfft::FftNum;
-use rustfft::num_traits::Zero;
 
 use super::convolution::{Kernel, Parity, Plans, largest, multiply, real};
 use super::mixed::{Latest, MixedKernel};
@@ -127,7 +127,7 @@ struct Workspace<T> {
     plan: Vec<Complex<T>>,
 }
 
-impl<T: FftNum + Number> Workspace<T> {
+impl<T: Precision + Number> Workspace<T> {
     fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: Arc<Kernel<T>>) -> Self {
         let (plans, [mx, my]) = (&kernel.plans, kernel.plans.shape);
         let columns = Parts::even(plans.half(), ranks.count());

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::num_traits::Zero;
 use ndarray::{Array2, ArrayView1};
-use realfft::num_complex::Complex64;
-use rustfft::num_traits::Zero;
 
 use super::convolution::Plans;
 use super::transposition::Transposition;

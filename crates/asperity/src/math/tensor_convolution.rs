@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use asperity_transforms::Precision;
+use asperity_transforms::num_complex::Complex;
+use asperity_transforms::num_traits::Zero;
 use ndarray::Array2;
-use realfft::num_complex::Complex;
-use rustfft::FftNum;
-use rustfft::num_traits::Zero;
 
 use crate::grid::Field;
 use crate::math::convolution::{Parity, Plans, Scratch, Strip, Transform, real};
@@ -111,7 +111,7 @@ pub(crate) struct TensorConvolution<T> {
     strips: Pool<[Scratch<T>; 3]>,
 }
 
-impl<T: FftNum> TensorConvolution<T> {
+impl<T: Precision> TensorConvolution<T> {
     /// The convolution of fields of `shape`.
     ///
     /// # Panics
@@ -181,11 +181,11 @@ impl<T: FftNum> TensorConvolution<T> {
 }
 
 /// Scratch for the transforms of three fields.
-fn scratch<T: FftNum>(plans: &Plans<T>) -> [Scratch<T>; 3] {
+fn scratch<T: Precision>(plans: &Plans<T>) -> [Scratch<T>; 3] {
     std::array::from_fn(|_| Scratch::new(plans))
 }
 
-impl<T: FftNum> TensorKernel<T> {
+impl<T: Precision> TensorKernel<T> {
     /// Multiplies the columns of three strips by the tensor; `in_plane` where there is nothing along z.
     fn multiply(&self, strips: &[Strip<T>; 3], scratch: &mut [Scratch<T>; 3], in_plane: bool) {
         let half = self.plans.shape[0] / 2 + 1;
@@ -213,7 +213,7 @@ impl<T: FftNum> TensorKernel<T> {
 }
 
 /// Multiplies the bins of the three fields by the tensor, whose parts that are odd in x have this `sign`.
-fn multiply<'a, T: FftNum>(
+fn multiply<'a, T: Precision>(
     x: impl Iterator<Item = &'a mut Complex<T>>,
     y: impl Iterator<Item = &'a mut Complex<T>>,
     z: impl Iterator<Item = &'a mut Complex<T>>,
@@ -233,7 +233,7 @@ fn multiply<'a, T: FftNum>(
 }
 
 /// As [`multiply`] where there is nothing along z.
-fn multiply_in_plane<'a, T: FftNum>(
+fn multiply_in_plane<'a, T: Precision>(
     x: impl Iterator<Item = &'a mut Complex<T>>,
     y: impl Iterator<Item = &'a mut Complex<T>>,
     [xx, xy, yy, ..]: [&[f64]; 6],
@@ -247,7 +247,7 @@ fn multiply_in_plane<'a, T: FftNum>(
     }
 }
 
-fn times_i<T: FftNum>(value: Complex<T>) -> Complex<T> {
+fn times_i<T: Precision>(value: Complex<T>) -> Complex<T> {
     Complex::new(-value.im, value.re)
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex;
+use asperity_transforms::num_complex::Complex;
 
 use crate::ranks::{Number, Parts, Ranks};
 

@@ -1,15 +1,15 @@
 //! A body that may flow.
 
+use std::slice::{ChunksExact, ChunksExactMut};
 use std::sync::Arc;
 
 use ndarray::s;
-use rayon::prelude::*;
 
 use super::flow::{CellState, FlowLaw, Tensor, contract, equivalent};
 use super::{COMPONENTS, TensorField, Volume, VolumeField};
 use crate::grid::Field;
 use crate::kernel::Traction;
-use crate::math::together;
+use crate::math::parallel;
 use crate::subsurface::Tractions;
 use crate::units::{CubicMetre, Joule, Pascal};
 
@@ -312,7 +312,7 @@ impl PlasticBody {
         let stiffness = self.stiffness();
         let Trial { predictor, strain, stress, .. } = &mut self.trial;
         let layers = layers_mut(predictor).zip(layers(stress)).zip(layers(strain));
-        layers.for_each(|((y, stress), strain)| {
+        parallel::tasks(layers, |((y, stress), strain)| {
             each_cell(stress, strain, stiffness, |cell, cells, g| {
                 (0..COMPONENTS).for_each(|c| y[c * cells + cell] = g[c]);
             });
@@ -326,52 +326,48 @@ impl PlasticBody {
         let Self { law, state, trial, .. } = self;
         let Trial { predictor, strain: trial, flows, .. } = trial;
         let yields = law.yield_stress();
-        let moved = layers_mut(trial)
-            .zip(flows.as_slice_mut().expect("standard layout").par_chunks_exact_mut(cells))
-            .enumerate()
-            .map(|(layer, (trial, flows))| {
-                let before = Before::new(layer, state);
-                let y = layer_of(predictor, layer);
-                let mut moved = 0.0f64;
-                for (cell, flows) in flows.iter_mut().enumerate() {
-                    let state = before.at(cell);
-                    let y = tensor(y, cell, cells);
-                    let next = law.flow(&y, stiffness, &state);
-                    *flows = next.is_some();
-                    let next = next.map_or(state.strain, |next| next.strain);
-                    for c in 0..COMPONENTS {
-                        let from = match start {
-                            Start::Before => state.strain[c],
-                            Start::Trial => trial[c * cells + cell],
-                        };
-                        moved = moved.max((next[c] - from).abs());
-                        trial[c * cells + cell] = next[c];
-                    }
+        let layers =
+            layers_mut(trial).zip(flows.as_slice_mut().expect("standard layout").chunks_exact_mut(cells));
+        let moved = parallel::tasks(layers.enumerate(), |(layer, (trial, flows))| {
+            let before = Before::new(layer, state);
+            let y = layer_of(predictor, layer);
+            let mut moved = 0.0f64;
+            for (cell, flows) in flows.iter_mut().enumerate() {
+                let state = before.at(cell);
+                let y = tensor(y, cell, cells);
+                let next = law.flow(&y, stiffness, &state);
+                *flows = next.is_some();
+                let next = next.map_or(state.strain, |next| next.strain);
+                for c in 0..COMPONENTS {
+                    let from = match start {
+                        Start::Before => state.strain[c],
+                        Start::Trial => trial[c * cells + cell],
+                    };
+                    moved = moved.max((next[c] - from).abs());
+                    trial[c * cells + cell] = next[c];
                 }
-                moved
-            })
-            .reduce(|| 0.0, f64::max);
-        stiffness * moved / yields
+            }
+            moved
+        });
+        stiffness * moved.into_iter().fold(0.0, f64::max) / yields
     }
 
     /// The largest mismatch of the predictor, of what the trial stress and strain make of it, over the yield stress.
     pub(super) fn mismatch(&self) -> f64 {
         let stiffness = self.stiffness();
         let Trial { predictor, strain, stress, .. } = &self.trial;
-        let largest = layers(predictor)
-            .zip(layers(stress))
-            .zip(layers(strain))
-            .map(|((y, stress), strain)| {
-                let mut largest = 0.0f64;
-                each_cell(stress, strain, stiffness, |cell, cells, g| {
-                    for c in 0..COMPONENTS {
-                        let f = (g[c] - y[c * cells + cell]).abs();
-                        largest = if f > largest || f.is_nan() { f } else { largest };
-                    }
-                });
-                largest
-            })
-            .reduce(|| 0.0, |a, b| if a > b || a.is_nan() { a } else { b });
+        let layers = layers(predictor).zip(layers(stress)).zip(layers(strain));
+        let largest = parallel::tasks(layers, |((y, stress), strain)| {
+            let mut largest = 0.0f64;
+            each_cell(stress, strain, stiffness, |cell, cells, g| {
+                for c in 0..COMPONENTS {
+                    let f = (g[c] - y[c * cells + cell]).abs();
+                    largest = if f > largest || f.is_nan() { f } else { largest };
+                }
+            });
+            largest
+        });
+        let largest = largest.into_iter().fold(0.0, |a, b| if a > b || a.is_nan() { a } else { b });
         largest / self.law.yield_stress()
     }
 
@@ -379,20 +375,16 @@ impl PlasticBody {
     pub(super) fn candidates(&self) -> Vec<Place> {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let least = MAY_FLOW * self.law.yield_stress();
-        let per_layer: Vec<Vec<Place>> = (0..self.volume.layers().count())
-            .into_par_iter()
-            .map(|layer| {
-                let before = Before::new(layer, &self.state);
-                let y = layer_of(&self.trial.predictor, layer);
-                let may = |cell: usize| {
-                    let (y, state) = (tensor(y, cell, cells), before.at(cell));
-                    let xi: Tensor =
-                        std::array::from_fn(|c| y[c] - stiffness * state.strain[c] - state.back[c]);
-                    equivalent(&xi) > least
-                };
-                (0..cells).filter(|cell| may(*cell)).map(|cell| layer * cells + cell).collect()
-            })
-            .collect();
+        let per_layer = parallel::tasks(0..self.volume.layers().count(), |layer| {
+            let before = Before::new(layer, &self.state);
+            let y = layer_of(&self.trial.predictor, layer);
+            let may = |cell: usize| {
+                let (y, state) = (tensor(y, cell, cells), before.at(cell));
+                let xi: Tensor = std::array::from_fn(|c| y[c] - stiffness * state.strain[c] - state.back[c]);
+                equivalent(&xi) > least
+            };
+            (0..cells).filter(|cell| may(*cell)).map(|cell| layer * cells + cell).collect::<Vec<Place>>()
+        });
         per_layer.concat()
     }
 
@@ -544,14 +536,14 @@ fn layer_of(field: &TensorField, layer: usize) -> &[f64] {
     &field.as_slice().expect("standard layout")[layer * length..][..length]
 }
 
-fn layers(field: &TensorField) -> impl IndexedParallelIterator<Item = &[f64]> {
+fn layers(field: &TensorField) -> ChunksExact<'_, f64> {
     let length = field.len() / field.shape()[0];
-    field.as_slice().expect("standard layout").par_chunks_exact(length).with_min_len(together(length))
+    field.as_slice().expect("standard layout").chunks_exact(length)
 }
 
-fn layers_mut(field: &mut TensorField) -> impl IndexedParallelIterator<Item = &mut [f64]> {
+fn layers_mut(field: &mut TensorField) -> ChunksExactMut<'_, f64> {
     let length = field.len() / field.shape()[0];
-    field.as_slice_mut().expect("standard layout").par_chunks_exact_mut(length).with_min_len(together(length))
+    field.as_slice_mut().expect("standard layout").chunks_exact_mut(length)
 }
 
 /// g = dev σ + κ ε.

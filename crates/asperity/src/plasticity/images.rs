@@ -6,12 +6,11 @@
 //! it as much as these are given back from it, so that the operator stays symmetric.
 
 use ndarray::{ArrayView4, s};
-use rayon::prelude::*;
 
 use super::waves::Waves;
 use super::{COMPONENTS, Layers, TensorField};
 use crate::grid::Grid;
-use crate::math::good_size;
+use crate::math::{good_size, parallel};
 use crate::units::Pascal;
 
 /// Coarse cells along an axis, at least, where there are more cells than that.
@@ -71,9 +70,9 @@ impl Images {
         let share = 1.0 / self.coarsening.iter().map(|c| c.factor as f64).product::<f64>();
         let coarse = self.near.planes.cells();
         let planes =
-            self.strain.as_slice_mut().expect("standard layout").par_chunks_exact_mut(coarse[0] * coarse[1]);
+            self.strain.as_slice_mut().expect("standard layout").chunks_exact_mut(coarse[0] * coarse[1]);
         let strain = strain.to_slice().expect("standard layout");
-        planes.zip(strain.par_chunks_exact(cells[0] * cells[1])).for_each(|(to, strain)| {
+        parallel::tasks(planes.zip(strain.chunks_exact(cells[0] * cells[1])), |(to, strain)| {
             to.fill(0.0);
             for (x, row) in x.iter().zip(strain.chunks_exact(cells[1])) {
                 for (y, value) in y.iter().zip(row).filter(|(_, value)| **value != 0.0) {
@@ -115,8 +114,8 @@ impl Images {
         let [x, y] = self.interpolations(shape);
         let far = &self.stress[1];
         let cells = shape[0] * shape[1];
-        let planes = stress.as_slice_mut().expect("standard layout").par_chunks_exact_mut(cells).enumerate();
-        planes.for_each(|(plane, stress)| {
+        let planes = stress.as_slice_mut().expect("standard layout").chunks_exact_mut(cells).enumerate();
+        parallel::tasks(planes, |(plane, stress)| {
             let coarse = far.slice(s![plane / COMPONENTS, plane % COMPONENTS, .., ..]);
             for (x, row) in x.iter().zip(stress.chunks_exact_mut(shape[1])) {
                 for (y, value) in y.iter().zip(row) {

@@ -1,16 +1,15 @@
 //! The stress in the layers under tractions on the surface, and its transpose.
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::Zip;
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use super::waves::INDEPENDENT;
 use super::{COMPONENTS, Layers};
 use crate::grid::{Field, Grid};
 use crate::kernel::{Traction, harmonic_stress, stress_table};
-use crate::math::Planes;
 use crate::math::convolution::{Parity, Plans};
 use crate::math::fft::angular_frequency;
+use crate::math::{Planes, parallel};
 use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
@@ -38,22 +37,18 @@ impl Influence {
         traction: Traction,
     ) -> Self {
         let plans = Plans::new(period);
-        let spectra = (0..layers.count() * COMPONENTS)
-            .into_par_iter()
-            .map(|index| {
-                let (layer, component) = (index / COMPONENTS, Component::ALL[index % COMPONENTS]);
-                let faces = [layers.faces()[layer], layers.faces()[layer + 1]];
-                if boundary.leaves_mean_free() {
-                    periodic(grid, faces, poisson, component, traction)
-                } else {
-                    let half = period.map(|n| n / 2 + 1);
-                    let table = free(half, grid.pitch, faces, poisson, component, traction);
-                    let parity =
-                        traction.odd(component).map(|odd| if odd { Parity::Odd } else { Parity::Even });
-                    plans.spectrum(&table, parity)
-                }
-            })
-            .collect();
+        let spectra = parallel::tasks(0..layers.count() * COMPONENTS, |index| {
+            let (layer, component) = (index / COMPONENTS, Component::ALL[index % COMPONENTS]);
+            let faces = [layers.faces()[layer], layers.faces()[layer + 1]];
+            if boundary.leaves_mean_free() {
+                periodic(grid, faces, poisson, component, traction)
+            } else {
+                let half = period.map(|n| n / 2 + 1);
+                let table = free(half, grid.pitch, faces, poisson, component, traction);
+                let parity = traction.odd(component).map(|odd| if odd { Parity::Odd } else { Parity::Even });
+                plans.spectrum(&table, parity)
+            }
+        });
         let thickness = (0..layers.count()).map(|layer| layers.thickness(layer)).collect();
         Self { spectra, odd: Component::ALL.map(|component| traction.odd(component)), thickness }
     }

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 /// The amplitudes of the wave vectors (q_x, q_y) and (−q_x, q_y): real part, imaginary part, real part, imaginary part. What
 /// depends on |q| alone acts on all four.

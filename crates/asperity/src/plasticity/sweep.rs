@@ -24,7 +24,7 @@
 //! The strain is uniform in each layer, and the stress is its mean over each, so that the operator is symmetric. What a layer
 //! passes on decays by e^−X over one of thickness X/q: cost is linear in the number of layers, and nothing is stored.
 
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 use super::lanes::Lanes;
 use super::layers::Layers;

@@ -2,8 +2,7 @@
 
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 use super::images::{Coarsening, Images};
 use super::influence::Influence;
@@ -13,6 +12,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
 use crate::kernel::Traction;
 use crate::material::Material;
+use crate::math::parallel::{self, Pool};
 use crate::math::together;
 use crate::operator::Boundary;
 use crate::subsurface::Tractions;
@@ -192,9 +192,11 @@ impl Volume {
         let influence = self.influence[traction as usize].get().expect("made before");
         let (planes, chunk, stride) =
             (&self.waves.planes, self.waves.at_frequency(), self.waves.planes.stride());
-        let columns = self.waves.columns.par_chunks_exact(chunk);
-        let work = self.surface.par_chunks_exact_mut(stride).zip(columns).with_min_len(together(chunk));
-        work.enumerate().for_each_init(
+        let columns = self.surface.chunks_exact_mut(stride).zip(self.waves.columns.chunks_exact(chunk));
+        parallel::each(
+            columns.enumerate(),
+            together(chunk),
+            &Pool::default(),
             || planes.scratch(),
             |scratch, (ky, (column, strain))| {
                 influence.transpose(planes, ky, strain, column);

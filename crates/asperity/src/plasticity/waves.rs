@@ -1,11 +1,11 @@
 //! Plastic strain in Fourier space, and the residual stress that comes back from there.
 
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 use super::sweep::{Sweep, SweepScratch};
 use super::{COMPONENTS, Layers};
 use crate::grid::Grid;
+use crate::math::parallel::{self, Pool};
 use crate::math::{Planes, together};
 use crate::units::Pascal;
 
@@ -61,7 +61,10 @@ impl Waves {
         }
         let (chunk, stride) = (self.at_frequency(), self.planes.stride());
         let Self { planes, rows, columns, .. } = self;
-        columns.par_chunks_exact_mut(chunk).with_min_len(together(chunk)).enumerate().for_each_init(
+        parallel::each(
+            columns.chunks_exact_mut(chunk).enumerate(),
+            together(chunk),
+            &Pool::default(),
             || planes.scratch(),
             |scratch, (ky, columns)| {
                 for (layer, columns) in columns.chunks_exact_mut(COMPONENTS * stride).enumerate() {
@@ -94,7 +97,10 @@ impl Waves {
             column: vec![Complex64::default(); stride],
             sweep: sweep.scratch(),
         };
-        columns.par_chunks_exact_mut(chunk).with_min_len(together(chunk)).enumerate().for_each_init(
+        parallel::each(
+            columns.chunks_exact_mut(chunk).enumerate(),
+            together(chunk),
+            &Pool::default(),
             make,
             |scratch, (ky, columns)| {
                 match any {

@@ -1,6 +1,6 @@
 //! Hamilton and Goodman: the stress under a sphere that slides.
 
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 use crate::reference::HertzSphere;
 use crate::stress::Stress;

@@ -27,13 +27,12 @@ mod maximum;
 pub use layered::LayeredStress;
 pub use maximum::{Extreme, Maximum};
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::s;
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
 
 use crate::grid::{Field, Grid};
 use crate::kernel::{Traction, harmonic_stress, stress_table};
-use crate::math::{RealFft2, fft::angular_frequency};
+use crate::math::{RealFft2, fft::angular_frequency, parallel};
 use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
 use crate::units::Metre;
@@ -135,7 +134,7 @@ impl Subsurface {
 
     /// What `look` makes of the plane at each of the `depths`, in their order; in parallel, a plane for each thread.
     pub fn planes<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane) -> T + Sync) -> Vec<T> {
-        depths.par_iter().map(|&depth| look(self.plane(depth))).collect()
+        parallel::tasks(depths, |&depth| look(self.plane(depth)))
     }
 
     fn component(&self, component: Component, depth: Metre) -> Field {

@@ -4,11 +4,10 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use ndarray::s;
-use rayon::prelude::*;
 
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
-use crate::math::{Convolution, Kernel, good_size};
+use crate::math::{Convolution, Kernel, good_size, parallel};
 use crate::operator::Boundary;
 use crate::temperature::Thermal;
 use crate::temperature::source::Cell;
@@ -111,8 +110,8 @@ pub(super) fn ramps(
         let cell = Cell::new(grid.pitch);
         let mut tables = [Field::zeros(half), Field::zeros(half)];
         let [rising, falling] = tables.each_mut().map(|t| t.as_slice_mut().expect("standard layout"));
-        let rows = rising.par_chunks_mut(half[1]).zip(falling.par_chunks_mut(half[1])).enumerate();
-        rows.for_each(|(i, (rising, falling))| {
+        let rows = rising.chunks_mut(half[1]).zip(falling.chunks_mut(half[1])).enumerate();
+        parallel::tasks(rows, |(i, (rising, falling))| {
             for (j, (rising, falling)) in rising.iter_mut().zip(falling).enumerate() {
                 let at = [i as f64 * grid.pitch[0], j as f64 * grid.pitch[1]];
                 [*rising, *falling] = cell.ramps(at, thermal, step);

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-use realfft::num_complex::Complex64;
+use asperity_transforms::num_complex::Complex64;
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
-use crate::math::{SkewConvolution, SkewKernel};
+use crate::math::{SkewConvolution, SkewKernel, parallel};
 use crate::operator::Boundary;
 use crate::temperature::flash::check_bulk;
 use crate::temperature::partition::{Preconditioner, biconjugate_gradients};
@@ -156,7 +155,7 @@ impl Coefficients {
         let cell = Cell::new(grid.pitch);
         let mut table = Field::zeros(padded);
         let values = table.as_slice_mut().expect("standard layout");
-        values.par_chunks_exact_mut(padded[1]).enumerate().for_each(|(i, row)| {
+        parallel::tasks(values.chunks_exact_mut(padded[1]).enumerate(), |(i, row)| {
             let x = (if 2 * i > padded[0] { i as f64 - padded[0] as f64 } else { i as f64 }) * grid.pitch[0];
             for j in 0..=padded[1] / 2 {
                 row[j] = cell.moving([x, j as f64 * grid.pitch[1]], thermal, speed);

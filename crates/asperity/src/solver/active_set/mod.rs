@@ -6,10 +6,9 @@
 
 mod block;
 
-use rayon::prelude::*;
-
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::math::parallel;
 use crate::ranks::{Largest, Merged, Slab};
 use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
@@ -171,7 +170,7 @@ impl<'a> Iteration<'a> {
             };
             sites.iter().map(guess).collect()
         });
-        let blocks = pressures.into_par_iter().zip(sites).map(|(p, site)| Block::new(*site, p)).collect();
+        let blocks = parallel::tasks(pressures.into_iter().zip(sites), |(p, site)| Block::new(*site, p));
         let mut iteration = Self {
             terms: *terms,
             blocks,
@@ -199,7 +198,9 @@ impl<'a> Iteration<'a> {
     fn each(&mut self, task: impl Fn(&mut Block<'a>) + Sync) {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
-            blocks => blocks.par_iter_mut().for_each(&task),
+            blocks => {
+                parallel::tasks(blocks, task);
+            }
         }
     }
 
@@ -207,7 +208,7 @@ impl<'a> Iteration<'a> {
     fn merged<M: Merged + Send>(&mut self, task: impl Fn(&mut Block<'a>) -> M + Sync) -> M {
         let part = match self.blocks.as_mut_slice() {
             [block] => task(block),
-            blocks => M::of_parts(blocks.par_iter_mut().map(&task).collect::<Vec<_>>()),
+            blocks => M::of_parts(parallel::tasks(blocks, task)),
         };
         self.slab.merged(part)
     }

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::{Array2, Axis};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rustfft::num_complex::Complex64;
 use serde::Serialize;
 
 use super::check_sq;

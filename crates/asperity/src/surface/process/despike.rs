@@ -1,10 +1,9 @@
 //! Removal of spikes.
 
-use rayon::prelude::*;
-
 use super::median::median;
 use crate::error::{Result, check};
 use crate::grid::Field;
+use crate::math::parallel;
 use crate::surface::{NEVER, Stop, Topography, go_on};
 
 /// Samples around the one judged, on each side of it along x and y: 5 × 5 in all.
@@ -168,12 +167,12 @@ fn extent(group: &[(usize, usize)]) -> usize {
 /// Height of each sample above the median of those around, which become fewer towards a rim so that they stay symmetric.
 fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
     let mut deviations = z.clone();
-    let rows = deviations.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(z.ncols());
+    let rows = deviations.as_slice_mut().expect("fields are in standard layout").chunks_mut(z.ncols());
     let symmetric = |i: usize, n: usize| {
         let reach = stride * REACH.min(i.min(n - 1 - i) / stride);
         (i - reach..i + reach + 1).step_by(stride)
     };
-    rows.enumerate().try_for_each(|(ix, row)| {
+    let done: Result<()> = parallel::tasks(rows.enumerate(), |(ix, row)| {
         go_on(stop)?;
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
         for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
@@ -181,8 +180,10 @@ fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
             *deviation -= median(&mut around);
         }
         Ok(())
-    })?;
-    Ok(deviations)
+    })
+    .into_iter()
+    .collect();
+    done.map(|()| deviations)
 }
 
 /// The median, and the median of the absolute deviations from it, which take the values' place.

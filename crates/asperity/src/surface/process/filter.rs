@@ -7,11 +7,11 @@ use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
 use crate::math::good_size;
+use crate::math::parallel::{self, Pool};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
-use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
+use asperity_transforms::num_complex::Complex64;
+use asperity_transforms::{Fft, Precision};
 
 /// How the smooth surface of a filter is found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -151,8 +151,7 @@ impl Line {
         const REACH: f64 = 1.65;
         let reach = ((REACH * length).ceil() as usize).min(n - 1);
         let size = if n == 1 { 1 } else { good_size(n + reach) };
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        let (forward, inverse) = (f64::plan_forward(size), f64::plan_inverse(size));
         let variance = LN_2 / PI * length * length; // (αλ)²
         let mut kernel = vec![Complex64::ZERO; size];
         for offset in 0..=reach {
@@ -170,7 +169,10 @@ impl Line {
         let (n, size) = (rows.ncols(), self.spectrum.len());
         let scratch = self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len());
         let rows = rows.as_slice_mut().expect("standard layout");
-        rows.par_chunks_mut(n).for_each_init(
+        parallel::each(
+            rows.chunks_mut(n),
+            1,
+            &Pool::default(),
             || (vec![Complex64::ZERO; size], vec![Complex64::ZERO; scratch]),
             |(line, scratch), row| {
                 line[..n].copy_from_slice(row);

@@ -1,9 +1,8 @@
 //! Spheres and cylinders of best fit.
 
-use rayon::prelude::*;
-
 use super::normal_equations::NormalEquations;
 use crate::grid::{Field, Grid};
+use crate::math::parallel;
 use crate::surface::Topography;
 use crate::units::Metre;
 
@@ -187,30 +186,28 @@ impl Cloud {
     /// The sums at these parameters, in the order of the rows; none if the surface does not reach all samples.
     fn sums(&self, surface: Surface, p: &[f64; N]) -> Option<Sums> {
         let zero = Sums { squares: 0.0, gradient: [0.0; N], products: [[0.0; N]; N] };
-        let rows: Option<Vec<Sums>> = (0..self.grid.shape[0])
-            .into_par_iter()
-            .map(|ix| {
-                let mut sums = zero;
-                for (iy, z) in self.heights.row(ix).iter().enumerate().filter(|(_, z)| !z.is_nan()) {
-                    let (height, slopes) = self.at(surface, p, ix, iy)?;
-                    let residual = z - height;
-                    sums.squares += residual * residual;
-                    for i in 0..N {
-                        sums.gradient[i] += slopes[i] * residual;
-                        (0..=i).for_each(|j| sums.products[i][j] += slopes[i] * slopes[j]);
-                    }
+        let rows = parallel::tasks(0..self.grid.shape[0], |ix| {
+            let mut sums = zero;
+            for (iy, z) in self.heights.row(ix).iter().enumerate().filter(|(_, z)| !z.is_nan()) {
+                let (height, slopes) = self.at(surface, p, ix, iy)?;
+                let residual = z - height;
+                sums.squares += residual * residual;
+                for i in 0..N {
+                    sums.gradient[i] += slopes[i] * residual;
+                    (0..=i).for_each(|j| sums.products[i][j] += slopes[i] * slopes[j]);
                 }
-                Some(sums)
-            })
-            .collect();
-        Some(rows?.into_iter().fold(zero, |mut sums, row| {
+            }
+            Some(sums)
+        });
+        rows.into_iter().try_fold(zero, |mut sums, row| {
+            let row = row?;
             sums.squares += row.squares;
             for i in 0..N {
                 sums.gradient[i] += row.gradient[i];
                 (0..=i).for_each(|j| sums.products[i][j] += row.products[i][j]);
             }
-            sums
-        }))
+            Some(sums)
+        })
     }
 
     fn at(&self, surface: Surface, p: &[f64; N], ix: usize, iy: usize) -> Option<(f64, [f64; N])> {

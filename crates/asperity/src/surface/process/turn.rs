@@ -3,11 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use ndarray::Axis as Dimension;
-use rayon::prelude::*;
 
 use super::spline::{hermite, slopes};
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
+use crate::math::parallel;
 use crate::surface::{Axis, Fill, Topography};
 use crate::units;
 
@@ -67,8 +67,8 @@ impl Topography {
         let undefined = self.heights().mapv(f64::is_nan);
         let spline = Spline::through(self.fill(Fill::Nearest)?.into_heights());
         let mut heights = new.zeros();
-        let rows = heights.as_slice_mut().expect("fields are in standard layout").par_chunks_mut(shape[1]);
-        rows.enumerate().for_each(|(ix, row)| {
+        let rows = heights.as_slice_mut().expect("fields are in standard layout").chunks_mut(shape[1]);
+        parallel::tasks(rows.enumerate(), |(ix, row)| {
             for (iy, z) in row.iter_mut().enumerate() {
                 let from_middle = |axis: usize, index: usize| {
                     (index as f64 - 0.5 * (shape[axis] - 1) as f64) * old.pitch[axis]

@@ -7,8 +7,8 @@ mod window;
 pub use radial::Bins;
 pub use window::Window;
 
+use asperity_transforms::num_complex::Complex64;
 use ndarray::Array2;
-use rustfft::num_complex::Complex64;
 use serde::Serialize;
 
 use crate::grid::{Field, Grid};
