@@ -95,6 +95,7 @@ impl FlowPath {
 ///
 /// # Panics
 /// If the bodies have different shapes.
+#[expect(clippy::too_many_arguments, reason = "the contact, its path, and who looks on")]
 pub fn press_flowing(
     pair: &Pair,
     boundary: Boundary,

@@ -196,10 +196,11 @@ impl AtRest<'_> {
     /// In stages, with bodies that flow below their surfaces.
     fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<Rest> {
         let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
-        let (pair, boundary) = (&self.pair, self.boundary());
-        let contact =
-            press_flowing(pair, boundary, self.law, bodies, &path, &self.params, self.watch, &mut [])?;
         self.begin()?;
+        let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
+        let (pair, boundary, outputs) = (&self.pair, self.boundary(), &mut outputs(&mut kept));
+        let contact =
+            press_flowing(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
         let of_answer = self.review(contact.solution.normal());
         let warnings = [review::flowed(self.case, &self.pair, &contact), of_answer].concat();
         let FlowedContact { record, solution, slip, flowed, .. } = contact;

@@ -19,7 +19,6 @@ use crate::study::case::Keep;
 use crate::study::fields::{NamedField, RestFields};
 use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::summary::Summary;
-use crate::study::tables::GrowingTable;
 use crate::study::{identity, summary};
 use crate::subsurface::Tractions;
 
@@ -115,8 +114,7 @@ impl Writer {
         let mut file = self.field_file(&self.results.flow_path(None));
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
         add_volumes(&mut file, &contact.volumes, left);
-        file.write()?;
-        GrowingTable::open(self.results.increments_path(), 0)?.add(&contact.increments)
+        file.write()
     }
 
     /// Computes and writes the stress under the surface of a static contact, whose lower body bears `tractions`, and in whose bodies
