@@ -33,8 +33,8 @@ mod wear;
 
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
-#[cfg(feature = "study")]
 pub use course::{Course, Output, Step};
+#[cfg(feature = "study")]
 pub(crate) use film::{
     ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES,
 };

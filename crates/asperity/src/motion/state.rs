@@ -24,7 +24,7 @@ pub struct LoadedContact {
     /// friction.
     pub slip: Option<[Field; 2]>,
     /// How far the energy that friction took may be from what the record says, but for what the first increment brings:
-    /// see [`FrictionalSolution::dissipation_error`].
+    /// see [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
 }
 
@@ -42,7 +42,7 @@ pub struct LoadingState {
     pub flattening: Flattening,
     /// Slip of all increments together along x and y, m; none without friction.
     pub slip: Option<[Field; 2]>,
-    /// Sum over the increments of [`FrictionalSolution::dissipation_error`].
+    /// Sum over the increments of [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
 }
 

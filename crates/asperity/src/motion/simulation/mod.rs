@@ -102,7 +102,7 @@ impl Simulation {
     }
 
     /// The same motion with so many computed `passes` already done; the pair has the heights after them and the hardness of
-    /// before, and `warm` is what they left ([`PassReport::warm`]). It goes on as if it had not stopped, to the last bit.
+    /// before, and `warm` is what they left ([`PassReport::warm`](crate::motion::PassReport::warm)). It goes on as if it had not stopped, to the last bit.
     ///
     /// # Panics
     /// If `warm` has not as many positions as are solved of a pass, or any where passes do not repeat.

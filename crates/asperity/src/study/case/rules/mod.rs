@@ -101,6 +101,11 @@ impl<'a> Tables<'a> {
             .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
     }
 
+    /// A film that changes with time.
+    fn film_that_grows(&self) -> Option<Entry<'a>> {
+        self.of_body("film", |body| body.film.is_some_and(|film| film.law.takes_time()))
+    }
+
     /// The key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
         self.first("contact", &super::sweep::KEYS)

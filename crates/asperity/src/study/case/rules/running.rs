@@ -26,7 +26,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "sliding",
         example: &[GROWS, SLIDES, WARM],
         broken: |tables| {
-            tables.of_body("film", |body| body.film.is_some_and(|film| film.law.takes_time()))?;
+            tables.film_that_grows()?;
             tables.at("sliding").filter(|_| tables.at("sliding.speed").is_none())
         },
     },
@@ -126,13 +126,13 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "a film",
+        this: "a film that grows",
         with: "no [temperature]",
         message: "a film grows at a temperature",
         hint: "add `[temperature]` with `bulk = \"100 °C\"`",
         at: "lower.film",
         example: &[GROWS, MOVES],
-        broken: |tables| tables.of_body("film", |_| true).filter(|_| tables.case.temperature.is_none()),
+        broken: |tables| tables.film_that_grows().filter(|_| tables.case.temperature.is_none()),
     },
     Rule {
         this: "[acceleration]",
