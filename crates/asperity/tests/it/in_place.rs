@@ -573,7 +573,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let wear = Wear::new([Some(coefficient), None], [Some(film.clone()), None]).unwrap();
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
-        let contact = InPlace::new(pair(), Boundary::PERIODIC, slide, EXACT).unwrap();
+        let contact = InPlace::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
         let state = contact.with_law(films).with_law(wear).run(None, &(), &mut []).unwrap().state;
         let left = thickness * (1.0 - share).max(0.0);
         // ∫ f ds over the way, of a film that is gone after its share.

@@ -540,7 +540,10 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
             let film = Film::new(FilmLaw::SolidLubricant { wear: k }, thickness, None).unwrap();
             let films = Films::new([Some(film), None], &pair).unwrap();
             let load = Control::Load(pressure * grid.area());
-            let motion = Motion::new(SLIDE, load).with_passes(passes).with_stride(4);
+            let motion = Motion::new(SLIDE, load)
+                .with_passes(passes)
+                .with_stride(4)
+                .with_load_control(LoadControl::Step);
             let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
                 .unwrap()
                 .with_law(films)
