@@ -574,7 +574,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
         let contact = InPlace::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
-        let state = contact.with_law(films).with_law(wear).run(None, &(), &mut []).unwrap().state;
+        let state = contact.with_law(wear).with_law(films).run(None, &(), &mut []).unwrap().state;
         let left = thickness * (1.0 - share).max(0.0);
         // ∫ f ds over the way, of a film that is gone after its share.
         let covered = thickness * gone * if share < 1.0 { share - 0.5 * share * share } else { 0.5 };
