@@ -22,7 +22,7 @@ use std::ffi::OsString;
 use clap::Parser;
 
 use args::{Arguments, Command};
-pub use machine::{available as available_memory, on_machine as memory_of_machine};
+pub use machine::{available as available_memory, name as machine_name, on_machine as memory_of_machine};
 pub use page::make as write_report;
 pub use report::{Program, print_data, report_error, report_warning};
 pub use run::text as text_of_results;

@@ -35,6 +35,15 @@ pub fn on_machine() -> f64 {
     [free, contained].into_iter().flatten().fold(f64::INFINITY, |least, bytes| least.min(bytes as f64))
 }
 
+/// Returns what this machine is known by: the same for all processes that share its kernel, and for no others.
+pub fn name() -> String {
+    let host = System::host_name().unwrap_or_else(|| "unknown".to_owned());
+    // Containers of one name need not be one machine, nor is a machine after a new start.
+    let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id");
+    let boot = boot.unwrap_or_else(|_| System::boot_time().to_string());
+    format!("{host} {}", boot.trim())
+}
+
 /// What is left of the address space, where it is limited.
 #[cfg(unix)]
 fn address_space() -> Option<u64> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use asperity::Error;
 use asperity::ranks::Ranks;
 use asperity::study::{Case, DemandOfRank, demand_of_collecting, demand_on_ranks};
-use asperity_cli::{available_memory, memory_of_machine, this_process};
+use asperity_cli::{available_memory, machine_name, memory_of_machine};
 
 /// An error on all ranks if a machine has not the memory for its ranks, or a rank not for itself. If the fields are `collected` at the
 /// end, the first rank takes those of all.
@@ -58,7 +58,7 @@ impl Rank {
 fn machine() -> f64 {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let mut hasher = DefaultHasher::new();
-    this_process().machine.hash(&mut hasher);
+    machine_name().hash(&mut hasher);
     // As many binary digits as an `f64` holds exactly.
     (hasher.finish() >> 12) as f64
 }
