@@ -1,4 +1,4 @@
-//! A load in `[contact]`, or a creepage in `[friction]`, that takes one value after another.
+//! A sequence of loads in `[contact]`, or of creepages in `[friction]`.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use super::schema::loading::contact;
 use crate::error::Result;
 use crate::units::{Metre, Newton, Pascal};
 
-/// What a static contact is prescribed, one after the other, each on virgin bodies; at least one of it.
+/// Sequence of prescribed values of a static contact, at least one, each on virgin bodies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sweep {
@@ -16,12 +16,12 @@ pub enum Sweep {
     Loads(Vec<Newton>),
     /// Loads over the apparent area, > 0.
     MeanPressures(Vec<Pascal>),
-    /// Approaches from the heights as prepared; of any sign.
+    /// Approaches relative to the prepared heights; positive or negative.
     Approaches(Vec<Metre>),
 }
 
 impl Sweep {
-    /// The points in their order.
+    /// Iterates over the points in order.
     pub fn prescribed(&self) -> impl Iterator<Item = Prescribed> + '_ {
         let (values, point): (_, fn(f64) -> Prescribed) = match self {
             Self::Loads(loads) => (loads, Prescribed::Load),
@@ -31,7 +31,7 @@ impl Sweep {
         values.iter().copied().map(point)
     }
 
-    /// The largest of them.
+    /// The largest of the values.
     pub fn largest(&self) -> Prescribed {
         let value = |prescribed: &Prescribed| match *prescribed {
             Prescribed::Load(value) | Prescribed::MeanPressure(value) | Prescribed::Approach(value) => value,
@@ -43,7 +43,7 @@ impl Sweep {
 /// Keys of a sweep in `[contact]`.
 pub(super) const KEYS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
 
-/// The sweep of a table, if it has one.
+/// Reads the sweep of a table, if it has one.
 pub(super) fn sweep(table: &Table<'_>) -> Result<Option<Sweep>> {
     let loads = contact::LOADS.of(table)?.map(Sweep::Loads);
     let pressures = contact::MEAN_PRESSURES.of(table)?.map(Sweep::MeanPressures);

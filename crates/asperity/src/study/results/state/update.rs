@@ -1,4 +1,4 @@
-//! What the next update of a contact that slides in place depends on.
+//! State between two updates of a contact that wears in place.
 
 use super::super::Results;
 use super::super::bodies::add_bodies;
@@ -8,13 +8,13 @@ use crate::grid::Field;
 use crate::io::fields::FieldFile;
 use crate::motion::{Pair, SlidingState, UpdateRecord};
 
-/// What an interrupted contact has left.
+/// State of an interrupted contact.
 pub(in crate::study) struct UnderWay {
-    /// The bodies, with the hardness that they had before they slid.
+    /// The bodies, with the hardness they had before sliding.
     pub(in crate::study) pair: Pair,
-    /// The updates done.
+    /// The finished updates.
     pub(in crate::study) updates: Vec<UpdateRecord>,
-    /// The pressure of the last.
+    /// Pressure of the last update.
     pub(in crate::study) pressure: Field,
 }
 
@@ -24,7 +24,7 @@ pub(in crate::study) fn add(file: &mut FieldFile, state: &SlidingState) {
     file.add_field("pressure", "Pa", &state.pair.lower_grid(), [0.0, 0.0], &state.pressure);
 }
 
-/// The state after these `updates` of a contact of the `pair`, as it is `stored`.
+/// Reads the state after these `updates` of a contact of the `pair` from a `stored` state.
 pub(in crate::study) fn read(stored: &Stored, pair: &Pair, updates: Vec<UpdateRecord>) -> Result<UnderWay> {
     let mut pair = pair.clone();
     (pair.lower.heights, pair.upper.heights) = (stored.field("lower")?, stored.field("upper")?);
