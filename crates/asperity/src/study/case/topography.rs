@@ -188,4 +188,4 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
     })
 }
 
-// Values that belong to a form.
+// Values of the forms.
