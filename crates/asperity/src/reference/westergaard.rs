@@ -6,8 +6,8 @@ use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of a one-dimensional sinusoid with a plane, in plane strain.
 ///
-/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, and a crest lies at x = 0. With ψ = πx/λ, s = p̄/p* =
-/// sin²(πa/λ) and the half width a of one contact strip:
+/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, and a crest lies at x = 0. With ψ = πx/λ,
+/// s = p̄/p* = sin²(πa/λ) and the half width a of one contact strip:
 ///
 /// ```text
 /// p* = π E* A/λ                        the mean pressure from which contact is full
