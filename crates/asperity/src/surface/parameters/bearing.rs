@@ -7,7 +7,7 @@ use crate::units::Metre;
 /// Height above which a given fraction of the samples lies, relative to the mean of the samples.
 ///
 /// The `n` defined samples, in descending order, lie at the centres of their fractions of the ratio, z(p = (i − ½)/n) = zᵢ.
-/// Between them the curve is linear, before the first and after the last it is constant. Its integral is therefore the sum
+/// Between them the curve is linear. Before the first and after the last it is constant. Its integral is therefore the sum
 /// of the samples, and a sampled ramp gives a ramp.
 ///
 /// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 define the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`,
