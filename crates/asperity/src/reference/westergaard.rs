@@ -10,7 +10,7 @@ use crate::units::{Metre, Pascal};
 /// s = p̄/p* = sin²(πa/λ) and the half width a of one contact strip:
 ///
 /// ```text
-/// p* = π E* A/λ                        the mean pressure from which contact is full
+/// p* = π E* A/λ                        the mean pressure of full contact
 /// p  = 2 p* cos ψ √(s − sin²ψ)         s < 1, |x| < a
 /// p  = p̄ + p* cos 2ψ                   s ≥ 1
 /// ```

@@ -1,10 +1,10 @@
 //! A static contact on a grid that is distributed over ranks, and its results.
 //!
 //! ```text
-//! DIR/case.json summary.json   as of any run
+//! DIR/case.json summary.json   as for any run
 //!     fields/rank-0000.h5 …    the fields on the rows of each rank
-//!     fields/ranks.json        which rows these are
-//!     fields.h5                all rows, once they are collected
+//!     fields/ranks.json        the rows in each file
+//!     fields.h5                all rows, after collection
 //! ```
 
 mod index; // the rows of the fields in each file
