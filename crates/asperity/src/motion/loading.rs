@@ -36,7 +36,7 @@ pub struct Stage {
 /// increment w grows where p is at its cap, and nowhere shrinks.
 ///
 /// # Errors
-/// Those of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the outputs.
+/// Returns the errors of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; the errors of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -121,7 +121,7 @@ impl Stage {
 /// The steady state of a pair that rolls along x, see [`solver::solve_rolling`].
 ///
 /// # Errors
-/// Those of [`solver::solve_rolling`].
+/// Returns the errors of [`solver::solve_rolling`].
 ///
 /// # Panics
 /// If the bodies have different shapes.

@@ -231,7 +231,7 @@ impl InPlace {
     /// interruption, bit by bit.
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; those of the outputs.
+    /// Returns the errors of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; the errors of the outputs.
     pub fn run(
         self,
         under_way: Option<SlidingState>,

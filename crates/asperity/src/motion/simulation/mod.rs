@@ -33,7 +33,8 @@ use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{Dimension, Newton};
 
 use changes::Changes;
-pub use solved::{FinishedPass, SolvedPass};
+use solved::FinishedPass;
+pub use solved::SolvedPass;
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -319,7 +320,7 @@ impl Simulation {
     /// Runs the passes that are left.
     ///
     /// # Errors
-    /// Those of [`Simulation::solve`], and those of the outputs.
+    /// Returns the errors of [`Simulation::solve`], and the errors of the outputs.
     pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
         course::run(self, watch, outputs)
     }
@@ -327,7 +328,7 @@ impl Simulation {
     /// Solves the next pass and lets the laws change its bodies. It counts once it is [finished](Simulation::finish).
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    /// Returns the errors of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
@@ -383,7 +384,7 @@ impl Simulation {
     /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
     ///
     /// # Errors
-    /// Those of the outputs; the pass then does not count.
+    /// Returns the errors of the outputs; the pass then does not count.
     pub fn finish(
         &mut self,
         pass: SolvedPass,

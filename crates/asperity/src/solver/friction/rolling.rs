@@ -96,7 +96,7 @@ impl RollingSolution {
 /// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
-/// Those of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
+/// Returns the errors of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
