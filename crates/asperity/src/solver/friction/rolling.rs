@@ -129,7 +129,7 @@ pub(crate) fn solve_rolling_watched(
     let boundary = operator.normal().boundary();
     check("spin", rolling.spin, rolling.spin.is_finite(), "a finite number")?;
     if rolling.spin != 0.0 && boundary != Boundary::FREE {
-        return Err(Error::Unsupported("what spins does not repeat itself: its boundary is free"));
+        return Err(Error::Unsupported("spin needs a free boundary"));
     }
     let tangential = match rolling.creep {
         Creep::Creepage(creepage) => {
