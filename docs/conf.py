@@ -5,6 +5,7 @@ import re
 from importlib import metadata
 from pathlib import Path
 
+from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
 
 DOCS = Path(__file__).parent
@@ -32,7 +33,7 @@ html_theme_options = {
     "navbar_persistent": ["search-button"],
     "header_links_before_dropdown": 7,
     "show_toc_level": 2,
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": {"**": ["page-toc"], "index": []},
     "article_footer_items": ["prev-next"],
     "show_prev_next": False,
     "footer_start": ["copyright"],
@@ -47,7 +48,7 @@ html_math_renderer = "mathml"
 
 # The documents are read on the pages of a repository too, which make anchors of headings in the same way.
 myst_heading_anchors = 4
-myst_enable_extensions = ["attrs_block", "colon_fence", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_update_mathjax = False
 
 # A notebook that fails fails the build; a cell may take as long as a slow machine needs.
@@ -81,18 +82,16 @@ def without_aliases(app, what, name, member, skip, options):
 
 def inline_formula(self, node):
     self.body.append(convert(node.astext()))
+    raise SkipNode
 
 
 def displayed_formula(self, node):
     self.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
-
-
-def leave(self, node):
-    pass
+    raise SkipNode
 
 
 def setup(app):
-    app.add_html_math_renderer("mathml", (inline_formula, leave), (displayed_formula, leave))
+    app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     app.connect("autodoc-skip-member", without_aliases)
     app.connect("source-read", links_out_of_the_documents)
     return {"parallel_read_safe": True}
