@@ -38,7 +38,7 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
     let attributes = PyDict::new(py);
     if let Error::Case(case) = error {
         attributes.set_item("key", &case.key)?;
-        // Of a call there is no file; what names one names the place, too.
+        // A call has no file. An error that names a file gives the line and column, too.
         if case.file.as_os_str().is_empty() {
             return make(py, "CaseError", &case.message, &attributes, case.hint.clone());
         }

@@ -30,7 +30,7 @@ pub(crate) fn check_in(
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension, expected }) }
 }
 
-// The macro also tells the name and the fields of each variant.
+// The macro also gives the name and the fields of each variant.
 detail::causes! {
 /// Everything that can go wrong, by cause.
 #[derive(Debug, thiserror::Error)]

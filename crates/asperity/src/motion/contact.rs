@@ -219,7 +219,7 @@ pub struct StaticContact {
 /// Presses a pair whose bodies face each other with all their columns.
 ///
 /// # Errors
-/// Those of [`crate::solver::solve_normal`]; [`crate::Error::Interrupted`].
+/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -243,7 +243,7 @@ pub fn press(
 /// of the whole contact, the solution that of the rows.
 ///
 /// # Errors
-/// Those of [`crate::solver::solve_normal`]. The other ranks wait for one that has an error.
+/// Returns the errors of [`crate::solver::solve_normal`]. The other ranks wait for one that has an error.
 ///
 /// # Panics
 /// If the bodies have another shape than the slab.

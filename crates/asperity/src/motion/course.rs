@@ -9,7 +9,7 @@ use crate::units::Newton;
 
 /// What a contact goes through, step after step: the increments of a loading, the updates of a contact that slides in place, the
 /// points of a sweep, the passes of a motion.
-pub trait Course {
+pub(super) trait Course {
     /// A step that is solved, and does not count yet.
     type Solved;
 
@@ -36,7 +36,7 @@ pub enum Step<'a> {
         /// Increments in all.
         of: usize,
     },
-    /// An increment of a loading in which the bodies flow below their surfaces.
+    /// An increment of a loading of elasto-plastic bodies.
     Flow {
         /// The increment in numbers.
         record: &'a IncrementRecord,
@@ -75,7 +75,7 @@ pub trait Output {
 /// Goes through the steps that are left.
 ///
 /// # Errors
-/// Those of the course and of the outputs; [`Error::Interrupted`].
+/// Returns the errors of the course and of the outputs; [`Error::Interrupted`].
 pub(super) fn run<C: Course>(
     course: &mut C,
     watch: &dyn Watch,
@@ -90,7 +90,8 @@ pub(super) fn run<C: Course>(
 /// Hands a solved step out, and makes it count.
 ///
 /// # Errors
-/// Those of the outputs, and [`Error::NotFinite`] for bodies that are no numbers; the step then does not count.
+/// Returns the errors of the outputs, and [`Error::NotFinite`] if a height or a state of a body is not finite. The step then does
+/// not count.
 pub(super) fn finish<C: Course>(
     course: &mut C,
     solved: C::Solved,
@@ -107,7 +108,7 @@ pub(super) fn finish<C: Course>(
 }
 
 impl<'a> Step<'a> {
-    /// The number of the step: from 1, but for the contact before it slides in place, which is update 0.
+    /// The number of the step. It counts from 1; the contact before it slides in place is update 0.
     pub fn number(&self) -> usize {
         match self {
             Self::Increment { state, .. } => state.increments.len(),
@@ -118,7 +119,18 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// The pass, of a motion.
+    /// Whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
+    pub(crate) fn is_last(&self) -> bool {
+        match self {
+            Self::Increment { of, .. }
+            | Self::Flow { of, .. }
+            | Self::Update { of, .. }
+            | Self::Point { of, .. } => self.number() == *of,
+            Self::Pass(_) => false,
+        }
+    }
+
+    /// The report of the pass, where the step is one.
     pub fn pass(&self) -> Option<&PassReport<'a>> {
         match self {
             Self::Pass(report) => Some(report),

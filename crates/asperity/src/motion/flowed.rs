@@ -1,4 +1,4 @@
-//! What plastic flow has left below the surfaces of bodies.
+//! Plastic strain, residual stress and displacement that plastic flow leaves in elasto-plastic bodies.
 
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
@@ -8,7 +8,7 @@ use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, Te
 use crate::stress::{Component, Stress};
 use crate::units::{CubicMetre, Joule, Metre, Pascal};
 
-/// What has flowed below the surface of a body.
+/// The plastic state of a body: its strain, residual stress and displaced surface.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FlowedVolume {
@@ -26,26 +26,26 @@ pub struct FlowedVolume {
     pub displacement: Field,
     /// Largest accumulated plastic strain, and where it is: x and y from the corner of the body, z from its surface.
     pub max_strain: (f64, [Metre; 3]),
-    /// Volume that has flowed.
+    /// Volume of all cells with plastic strain.
     pub yielded_volume: CubicMetre,
     /// Energy stored in the residual stress, −½ ∫ ε : K ε.
     pub stored_energy: Joule,
 }
 
-/// What a pass has made of bodies that flow.
+/// The plastic flow of a pass.
 pub(super) struct FlowedPass {
-    /// What has flowed, once the load is taken off.
+    /// The plastic state of each body once the load is taken off.
     pub(super) volumes: Vec<FlowedVolume>,
     /// The positions in numbers.
     pub(super) steps: Vec<FlowStepRecord>,
     /// The pass in numbers.
     pub(super) record: PassFlowRecord,
-    /// What has flowed under the load at the position that is looked at; nothing where none is.
+    /// The plastic state under the load at the chosen position; empty if none is chosen.
     pub(super) looked_at: Vec<PlasticState>,
 }
 
 impl FlowedVolume {
-    /// Those of the bodies of a contact under its load.
+    /// Returns the plastic state of each body of a contact under its load.
     pub(super) fn loaded(contact: &mut PlasticContact) -> Vec<Self> {
         let sides = contact.sides().to_vec();
         let of = |(body, side): (&mut PlasticBody, usize)| {
@@ -55,7 +55,7 @@ impl FlowedVolume {
         contact.bodies().iter_mut().zip(sides).map(of).collect()
     }
 
-    /// Those of the bodies of a contact on which nothing acts: their stress is that which flow has left.
+    /// Returns the plastic state of each body of an unloaded contact, whose stress is the residual stress.
     pub(super) fn unloaded(contact: &mut PlasticContact) -> Vec<Self> {
         let sides = contact.sides().to_vec();
         let of = |(body, side): (&mut PlasticBody, usize)| {

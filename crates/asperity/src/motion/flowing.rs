@@ -1,4 +1,4 @@
-//! A static contact of bodies that flow below their surfaces.
+//! A static contact of elasto-plastic bodies.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -15,30 +15,30 @@ use crate::plasticity::{Facing, FlowParams, Interface, PlasticBody, PlasticConta
 use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
 use crate::units::Joule;
 
-/// A static contact whose bodies have flowed below their surfaces.
+/// A solved static contact of elasto-plastic bodies.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FlowedContact {
     /// The contact in numbers, under its last load.
     pub record: StaticRecord,
-    /// The contact under its last load; its gap is that of the bodies with what has flowed.
+    /// The contact under its last load; its gap includes the plastic displacement of the surfaces.
     pub solution: Equilibrium,
     /// Slip of all increments until then together along x and y, m; none without friction.
     pub slip: Option<[Field; 2]>,
     /// How far the energy that friction took may be from what the record says: see
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
-    /// What has flowed.
+    /// The plastic state of the bodies.
     pub flowed: Flowed,
 }
 
-/// What has flowed below the surfaces of a static contact.
+/// The plastic state of the bodies of a static contact.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct Flowed {
     /// The increments, and those in which the load is taken off.
     pub increments: Vec<IncrementRecord>,
-    /// What has flowed in each body that may, under the last load.
+    /// The plastic state of each elasto-plastic body under the last load.
     pub volumes: Vec<FlowedVolume>,
     /// The same once the load is taken off; nothing where it is not.
     pub residual: Vec<FlowedVolume>,
@@ -51,7 +51,7 @@ impl Flowed {
     }
 }
 
-/// How bodies that flow are pressed together.
+/// The loading of elasto-plastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FlowPath {
@@ -131,7 +131,7 @@ pub fn press_flowing(
     flowing.finish()
 }
 
-/// Bodies that flow, under way along their path.
+/// The loading of elasto-plastic bodies as it proceeds.
 struct Flowing<'a> {
     contact: PlasticContact,
     path: &'a FlowPath,
@@ -210,7 +210,7 @@ impl Flowing<'_> {
     }
 
     fn under_the_last_load(&mut self) -> Result<Loaded> {
-        let nothing = Error::Unsupported("a contact without a load does not flow");
+        let nothing = Error::Unsupported("an elasto-plastic contact needs a load");
         let solution = self.contact.equilibrium().cloned().ok_or(nothing)?;
         let volumes = FlowedVolume::loaded(&mut self.contact);
         Ok(Loaded {

@@ -85,9 +85,9 @@ impl Solver<'_> {
 }
 
 /// What is said where a pass wears too much to be solved explicitly, and cannot be solved otherwise.
-const TOO_MUCH_WEAR: &str = "a single pass wears more than pressures of single cells bear without swinging, and where each position bears a load of its \
-     own, or shear displaces the bodies normally, it is not solved with its wear: a smaller wear coefficient, larger cells or a \
-     shorter pass are needed";
+const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
+     cells or a shorter pass; the implicit solution needs one approach for the whole pass and no coupling of shear to normal \
+     displacements";
 
 /// The displacement at all positions of a pass, one above the other in one field, under the pressures at all of them: that of the
 /// bodies, and the depth that their cells have worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the pressures that a

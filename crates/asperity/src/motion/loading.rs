@@ -36,7 +36,7 @@ pub struct Stage {
 /// increment w grows where p is at its cap, and nowhere shrinks.
 ///
 /// # Errors
-/// Those of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; those of the outputs.
+/// Returns the errors of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; the errors of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -54,7 +54,7 @@ pub fn load_in_stages(
     let bodies = Bodies::new(pair, boundary, friction, params)?;
     let mut loading = InStages { bodies, stages, state: under_way };
     course::run(&mut loading, watch, outputs)?;
-    let state = loading.state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
+    let state = loading.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
     Ok(loading.bodies.finish(state))
 }
 
@@ -121,7 +121,7 @@ impl Stage {
 /// The steady state of a pair that rolls along x, see [`solver::solve_rolling`].
 ///
 /// # Errors
-/// Those of [`solver::solve_rolling`].
+/// Returns the errors of [`solver::solve_rolling`].
 ///
 /// # Panics
 /// If the bodies have different shapes.

@@ -113,9 +113,7 @@ impl Slide {
         if let Some(friction) = self.friction {
             friction.checked()?;
             if self.sliding().is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
-                return Err(Error::Unsupported(
-                    "wear in place of bodies whose shear displaces them normally: with coupling \"none\" or \"goodman\" it does not",
-                ));
+                return Err(Error::Unsupported("wear in place needs coupling \"none\" or \"goodman\""));
             }
         }
         Ok(self)
@@ -209,7 +207,7 @@ impl InPlace {
     pub fn with_heat(mut self, thermal: [Thermal; 2]) -> Result<Self> {
         let Slide { friction: Some(_), bulk: Some(bulk), speed: Some(speed), .. } = self.slide else {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies with friction, a speed and temperatures",
+                "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
         let (grid, boundary) = (self.pair.lower_grid(), self.boundary);
@@ -231,7 +229,7 @@ impl InPlace {
     /// interruption, bit by bit.
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; those of the outputs.
+    /// Returns the errors of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; the errors of the outputs.
     pub fn run(
         self,
         under_way: Option<SlidingState>,

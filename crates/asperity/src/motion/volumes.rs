@@ -35,7 +35,7 @@ pub(super) struct Volumes {
 }
 
 impl Volumes {
-    /// Those of the bodies of a `pair`, lower one first, that are given, which begin at a `position`.
+    /// The volumes of the given bodies of a `pair`, lower one first. The motion begins at a `position`.
     pub(super) fn new(
         bodies: [Option<PlasticBody>; 2],
         pair: &Pair,

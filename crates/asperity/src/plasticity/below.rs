@@ -13,7 +13,7 @@ use crate::units::Metre;
 /// a depth `to` which may lie below them, under a contact that is seated on the body. A product of as many layers.
 ///
 /// # Errors
-/// Those of [`Volume::new`].
+/// Returns the errors of [`Volume::new`].
 ///
 /// # Panics
 /// If the strain has another shape.

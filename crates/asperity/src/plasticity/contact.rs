@@ -158,7 +158,7 @@ impl PlasticContact {
     /// may stick alone.
     ///
     /// # Errors
-    /// Those of [`PlasticContact::go_to`], and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
+    /// Returns the errors of [`PlasticContact::go_to`], and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
     pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
         let mut pressing = Pressing {
@@ -189,7 +189,7 @@ impl PlasticContact {
     /// Goes on to a load in so many equal increments from the present one.
     ///
     /// # Errors
-    /// Those of [`PlasticContact::go_to`].
+    /// Returns the errors of [`PlasticContact::go_to`].
     pub fn load_to(&mut self, load: Newton, increments: usize) -> Result<Vec<Increment>> {
         let from = self.normal_force();
         (1..=increments)

@@ -130,7 +130,7 @@ impl Passes {
     /// Solves the next pass; none after the last.
     ///
     /// # Errors
-    /// Those of [`Simulation::solve`].
+    /// Returns the errors of [`Simulation::solve`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
         match self.represented < self.motion.passes {
             true => self.simulation.solve(watch).map(Some),

@@ -188,8 +188,8 @@ impl AtRest<'_> {
         let contact = self.case.wearing(InPlace::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
         let worn = contact.run(state, self.watch, &mut outputs(&mut kept))?;
-        let warnings = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
+        let warnings = review::worn(&worn.state.pair, self.boundary(), &worn.solution.pressure, &updates);
         Ok(Rest { updates, warnings, ..Rest::of(record, worn_fields(worn, friction)) })
     }
 
@@ -259,7 +259,7 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
             (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
         }
     };
-    // Those of the bodies as they are prepared, whatever the course of a loading has left of them.
+    // The gap is that of the bodies as they are prepared; a loading may have lowered those that it solved.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
     let mut fields = Vec::new();

@@ -33,7 +33,8 @@ use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{Dimension, Newton};
 
 use changes::Changes;
-pub use solved::{FinishedPass, SolvedPass};
+use solved::FinishedPass;
+pub use solved::SolvedPass;
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -182,13 +183,11 @@ impl Simulation {
         let acceleration = acceleration.checked()?;
         if acceleration.max_jump > 1 {
             if !self.repeats() {
-                return Err(Error::Unsupported(
-                    "surfaces that meet anew in each pass have none that stands for others",
-                ));
+                return Err(Error::Unsupported("extrapolation needs passes that repeat"));
             }
             if self.changes_at_every_step() {
                 return Err(Error::Unsupported(
-                    "a pass that changes the bodies position by position stands for itself",
+                    "extrapolation needs plastic deformation that is applied after each pass",
                 ));
             }
         }
@@ -214,17 +213,17 @@ impl Simulation {
     /// If none is given, or one has another grid than its surface.
     pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
         let refused = if self.pair.yields() {
-            "bodies that flow below their surfaces have no hardness"
+            "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
-            "bodies that flow below their surfaces neither wear nor grow films"
+            "elasto-plastic bodies do not support wear and films yet"
         } else if self.changes.heat.is_some() {
-            "a flash temperature is that of bodies that stay as they are in a pass"
+            "elasto-plastic bodies do not support a flash temperature yet"
         } else if self.changes.acceleration.max_jump > 1 {
-            "a pass in which bodies flow stands for itself"
+            "elasto-plastic bodies do not support extrapolation over passes"
         } else if self.counter.is_some() && bodies[1].is_some() {
-            "an upper body that is another in each pass does not keep what has flowed"
+            "a fresh counter-body does not keep its plastic state"
         } else if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
-            "plastic strain goes round with the surfaces of a shift: their boundary is periodic along x"
+            "an elasto-plastic body in a shift needs a periodic boundary along x"
         } else {
             ""
         };
@@ -272,17 +271,17 @@ impl Simulation {
         let time = self.motion.step_time(self.pair.pitch()[0]);
         let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies with friction, a speed and temperatures",
+                "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
         if self.changes_at_every_step() {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies that stay as they are in a pass",
+                "a flash temperature needs plastic deformation that is applied after each pass",
             ));
         }
         if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
             return Err(Error::Unsupported(
-                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+                "a flash temperature in a shift needs a boundary that is periodic along x",
             ));
         }
         let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
@@ -319,7 +318,7 @@ impl Simulation {
     /// Runs the passes that are left.
     ///
     /// # Errors
-    /// Those of [`Simulation::solve`], and those of the outputs.
+    /// Returns the errors of [`Simulation::solve`], and the errors of the outputs.
     pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
         course::run(self, watch, outputs)
     }
@@ -327,14 +326,12 @@ impl Simulation {
     /// Solves the next pass and lets the laws change its bodies. It counts once it is [finished](Simulation::finish).
     ///
     /// # Errors
-    /// Those of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    /// Returns the errors of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
         if self.volumes.is_some() && self.changes.laws.len() > 1 {
-            return Err(Error::Unsupported(
-                "bodies that flow below their surfaces neither wear nor grow films",
-            ));
+            return Err(Error::Unsupported("elasto-plastic bodies do not support wear and films yet"));
         }
         let before = self.next_pair()?;
         let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
@@ -383,7 +380,7 @@ impl Simulation {
     /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
     ///
     /// # Errors
-    /// Those of the outputs; the pass then does not count.
+    /// Returns the errors of the outputs; the pass then does not count.
     pub fn finish(
         &mut self,
         pass: SolvedPass,
@@ -471,7 +468,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     if let Some(friction) = motion.friction {
         friction.checked()?;
         if motion.strategy.direction() == 0.0 {
-            return Err(Error::Unsupported("bodies that roll at equal speeds do not slide over each other"));
+            return Err(Error::Unsupported("friction and wear need surfaces with different speeds"));
         }
     }
     if let Control::Approach(approach) = motion.control {
@@ -480,7 +477,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     let (lower, upper) = (pair.lower.columns(), pair.upper.columns());
     match motion.strategy {
         Strategy::Overlap if boundary.repeats(0) => {
-            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free along x"));
+            return Err(Error::Unsupported("an overlap needs a boundary that is free along x"));
         }
         Strategy::Overlap => {}
         Strategy::Shift { .. } if lower != upper => {
@@ -496,9 +493,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
         }
     }
     if motion.offset_y != OffsetY::NONE && !boundary.repeats(1) {
-        return Err(Error::Unsupported(
-            "bodies that are displaced along y continue over their edges there: their boundary is periodic along y",
-        ));
+        return Err(Error::Unsupported("an offset along y needs a boundary that is periodic along y"));
     }
     Ok(motion.positions([lower, upper], pair.lower.width(), 1))
 }

@@ -1,4 +1,4 @@
-//! What presses the bodies together: one of `load`, `mean_pressure`, `approach`.
+//! What presses the bodies together: one of `load`, `mean_pressure`, `approach`, or a list of one of them.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::solver;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
-/// What holds the bodies together.
+/// The load or approach that a case prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Prescribed {
@@ -21,7 +21,7 @@ pub enum Prescribed {
 }
 
 impl Prescribed {
-    /// What the solver is told, on so large an apparent area.
+    /// What the solver is given, on this apparent area.
     pub fn control(&self, apparent_area: SquareMetre) -> solver::Control {
         match *self {
             Self::Load(load) => solver::Control::Load(load),
@@ -29,7 +29,26 @@ impl Prescribed {
             Self::Approach(approach) => solver::Control::Approach(approach),
         }
     }
+
+    /// The value, in the unit of its kind.
+    pub(super) fn value(self) -> f64 {
+        match self {
+            Self::Load(value) | Self::MeanPressure(value) | Self::Approach(value) => value,
+        }
+    }
+
+    /// The key of a list of such values in `[contact]`.
+    pub(super) fn key_of_list(self) -> &'static str {
+        match self {
+            Self::Load(_) => LISTS[0],
+            Self::MeanPressure(_) => LISTS[1],
+            Self::Approach(_) => LISTS[2],
+        }
+    }
 }
+
+/// The keys of a sweep in `[contact]`.
+pub(super) const LISTS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
 
 /// The one of the three that `table`, [contact] or a stage of a [[history]], gives.
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
@@ -41,4 +60,15 @@ pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
     let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
     let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);
     Ok(load.or(pressure).or(approach).expect("one of the three is given"))
+}
+
+/// The points of the sweep that `table` gives; none where it gives no list.
+pub(super) fn sweep(table: &Table<'_>) -> Result<Vec<Prescribed>> {
+    let points = |values: Option<Vec<f64>>, point: fn(f64) -> Prescribed| {
+        values.unwrap_or_default().into_iter().map(point)
+    };
+    let loads = points(keys::LOADS.of(table)?, Prescribed::Load);
+    let pressures = points(keys::MEAN_PRESSURES.of(table)?, Prescribed::MeanPressure);
+    let approaches = points(keys::APPROACHES.of(table)?, Prescribed::Approach);
+    Ok(loads.chain(pressures).chain(approaches).collect())
 }

@@ -81,7 +81,7 @@ impl Preparation {
     /// The grid after all steps, told without doing any.
     ///
     /// # Errors
-    /// Those of the steps that change the grid.
+    /// Returns the errors of the steps that change the grid.
     pub fn grid(&self, mut grid: Grid) -> Result<Grid> {
         if let Some(window) = self.window {
             grid = within(&grid, window)?;
@@ -97,7 +97,7 @@ impl Preparation {
     /// The topography after all steps, and what they came upon. Samples stay undefined where nothing fills them.
     ///
     /// # Errors
-    /// Those of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
+    /// Returns the errors of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
     pub fn apply(&self, topography: Topography) -> Result<(Topography, Findings)> {
         self.apply_until(topography, NEVER)
     }

@@ -108,7 +108,7 @@ impl<'a> Tables<'a> {
 
     /// The key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
-        self.first("contact", &super::sweep::KEYS)
+        self.first("contact", &super::prescribed::LISTS)
     }
 
     /// The stages of the history, or the history where it has none.

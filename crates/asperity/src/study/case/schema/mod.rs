@@ -89,9 +89,9 @@ pub enum Kind {
 pub enum Bounds {
     /// All that are finite.
     Any,
-    /// Those of at least 0.
+    /// Values of at least 0.
     FromZero,
-    /// Those of at least 0, and infinity with its meaning.
+    /// Values of at least 0, and infinity with its meaning.
     FromZeroOrInfinite(&'static str),
     /// Those above 0.
     AboveZero,
@@ -106,7 +106,7 @@ pub enum Bounds {
         /// Whether the ends are left out.
         open: [bool; 2],
     },
-    /// Those of a narrower range of magnitudes, and 0 if true.
+    /// Values in a narrower range of magnitudes, and 0 if true.
     Within(Range, bool),
 }
 

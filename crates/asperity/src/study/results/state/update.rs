@@ -4,19 +4,8 @@ use super::super::Results;
 use super::super::bodies::add_bodies;
 use super::Stored;
 use crate::error::Result;
-use crate::grid::Field;
 use crate::io::fields::FieldFile;
 use crate::motion::{Pair, SlidingState, UpdateRecord};
-
-/// What an interrupted contact has left.
-pub(in crate::study) struct UnderWay {
-    /// The bodies, with the hardness that they had before they slid.
-    pub(in crate::study) pair: Pair,
-    /// The updates done.
-    pub(in crate::study) updates: Vec<UpdateRecord>,
-    /// The pressure of the last.
-    pub(in crate::study) pressure: Field,
-}
 
 /// Adds the state after an update.
 pub(in crate::study) fn add(file: &mut FieldFile, state: &SlidingState) {
@@ -24,10 +13,15 @@ pub(in crate::study) fn add(file: &mut FieldFile, state: &SlidingState) {
     file.add_field("pressure", "Pa", &state.pair.lower_grid(), [0.0, 0.0], &state.pressure);
 }
 
-/// The state after these `updates` of a contact of the `pair`, as it is `stored`.
-pub(in crate::study) fn read(stored: &Stored, pair: &Pair, updates: Vec<UpdateRecord>) -> Result<UnderWay> {
+/// The state after these `updates` of a contact of the `pair`, as it is `stored`. The bodies have the hardness of the `pair`, which
+/// films may have changed since.
+pub(in crate::study) fn read(
+    stored: &Stored,
+    pair: &Pair,
+    updates: Vec<UpdateRecord>,
+) -> Result<SlidingState> {
     let mut pair = pair.clone();
     (pair.lower.heights, pair.upper.heights) = (stored.field("lower")?, stored.field("upper")?);
     [pair.lower.state, pair.upper.state] = Results::states_of(&stored.fields)?;
-    Ok(UnderWay { pair, updates, pressure: stored.field("pressure")? })
+    Ok(SlidingState { pair, updates, pressure: stored.field("pressure")? })
 }
