@@ -1,7 +1,7 @@
 //! What does not go together in a case file: one table.
 //!
 //! Each row has a message, a hint and the key that the error points to. A case is held against the rows once all of its tables
-//! are read, `docs/input.md` lists them, and a test walks them by their examples.
+//! are read, `docs/input/combinations.md` lists them, and a test walks them by their examples.
 
 mod bodies;
 mod examples;

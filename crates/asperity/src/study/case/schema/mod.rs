@@ -1,7 +1,7 @@
 //! The keys of a case file, each declared once.
 //!
 //! A declaration holds the name, the values that are accepted, what holds without the key, an example and the meaning. The
-//! reader of case files, its messages, the units of study axes and the tables of `docs/input.md` all come from it.
+//! reader of case files, its messages, the units of study axes and the tables of `docs/input` all come from it.
 
 pub(in crate::study) mod body;
 pub(in crate::study) mod loading;
