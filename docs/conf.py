@@ -5,8 +5,10 @@ import re
 from importlib import metadata
 from pathlib import Path
 
+from docutils.nodes import SkipNode
+from latex2mathml.converter import convert
+
 DOCS = Path(__file__).parent
-REPOSITORY = "https://github.com/asperity-contact/asperity/blob/main"
 
 project = "asperity"
 author = "the asperity founders"
@@ -16,15 +18,38 @@ try:
 except metadata.PackageNotFoundError:
     release = ""
 
-extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "myst_nb"]
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "sphinx_design", "myst_nb"]
 exclude_patterns = ["_build", "notebooks/_*"]
 templates_path = ["_templates"]
-html_title = "asperity"
-html_theme_options = {"description": "Contact of two rough surfaces that press together and move", "page_width": "1100px"}
 
-# The documents are read on GitHub, too, which makes anchors of headings in the same way.
+html_theme = "pydata_sphinx_theme"
+html_title = "asperity"
+html_static_path = ["_static"]
+html_css_files = ["asperity.css"]
+html_show_sourcelink = False
+html_theme_options = {
+    "logo": {"text": "asperity"},
+    "navbar_end": ["theme-switcher"],
+    "navbar_persistent": ["search-button"],
+    "header_links_before_dropdown": 7,
+    "show_toc_level": 2,
+    "secondary_sidebar_items": {"**": ["page-toc"], "index": []},
+    "article_footer_items": ["prev-next"],
+    "show_prev_next": False,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+html_sidebars = {"index": [], "gallery": []}
+
+# Formulas are MathML, which browsers draw themselves: no script is fetched.
+html_math_renderer = "mathml"
+
+# The documents are read on the pages of a repository too, which make anchors of headings in the same way.
 myst_heading_anchors = 4
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_update_mathjax = False
 
 # A notebook that fails fails the build; a cell may take as long as a slow machine needs.
 nb_execution_mode = "cache"
@@ -40,24 +65,33 @@ numpydoc_xref_param_type = False
 
 
 def links_out_of_the_documents(app, name, source):
-    """Links to files of the repository that are no documents lead to the repository."""
+    """Turns links to files outside the documents into the text of the link."""
     folder = (DOCS / name).parent
 
-    def leads(link):
-        target = Path(os.path.normpath(folder / link[1]))
-        if DOCS in target.parents or not target.exists():
-            return link[0]
-        return f"]({REPOSITORY}/{target.relative_to(DOCS.parent).as_posix()}{link[2]})"
+    def text_alone(link):
+        target = Path(os.path.normpath(folder / link[2]))
+        return link[0] if DOCS in target.parents or not target.exists() else link[1]
 
-    source[0] = re.sub(r"\]\((\.\./[^)#\s]+)(#[^)\s]*)?\)", lambda link: leads([link[0], link[1], link[2] or ""]), source[0])
+    source[0] = re.sub(r"(?<!!)\[([^\]\n]+)\]\((\.\./[^)#\s]+)(?:#[^)\s]*)?\)", text_alone, source[0])
 
 
 def without_aliases(app, what, name, member, skip, options):
-    """The fields of named tuples are told by their classes."""
+    """Skips the fields of named tuples, which their classes explain."""
     return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
 
 
+def inline_formula(self, node):
+    self.body.append(convert(node.astext()))
+    raise SkipNode
+
+
+def displayed_formula(self, node):
+    self.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    raise SkipNode
+
+
 def setup(app):
+    app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     app.connect("autodoc-skip-member", without_aliases)
     app.connect("source-read", links_out_of_the_documents)
     return {"parallel_read_safe": True}

@@ -118,44 +118,45 @@ def page(tables, repeat, machine):
 # The same contact in four programs
 
 A rough steel surface is pressed against a rigid flat: Tamaas 2.9.0, ContactMechanics 1.8.3, slippy 0.5.2 and asperity solve
-the same problem, each with the lines that a user of it writes. This page is written by
-[benches/peers/same_contact.py](../benches/peers/same_contact.py), which runs the very code that it shows.
+the same problem, each with the code that a user would write. The script
+[benches/peers/same_contact.py](../benches/peers/same_contact.py) runs this code and writes this page.
 
-The surface is self-affine, {CELLS} × {CELLS} cells of 1 µm, Hurst exponent 0.8, rms slope {SLOPE}, its shortest wave {SHORTEST} cells, its heights
-handed to all as one matrix. Young's modulus is 210 GPa, Poisson's ratio 0.3, the mean pressure {MEAN} E* h′ =
-{MEAN * SLOPE * MODULUS / 1e6:.0f} MPa; nothing yields.
+The surface is self-affine, {CELLS} × {CELLS} cells of 1 µm, Hurst exponent 0.8, rms slope {SLOPE}, shortest wave {SHORTEST} cells. All
+programs receive the same heights. Young's modulus is 210 GPa, Poisson's ratio 0.3, the mean pressure {MEAN} E* h′ =
+{MEAN * SLOPE * MODULUS / 1e6:.0f} MPa. Nothing yields.
 
 ## Answers and times
 
-The surface repeats itself:
+The boundary is periodic:
 
 {table(tables["periodic"])}
 
-Nothing lies beyond its rim:
+The boundary is free:
 
 {table(tables["free"])}
 
 How it was measured:
 
-- The **residual** η of [theory](theory.md) is computed from every pressure by one and the same function, with influence
-  coefficients of its own, and so is the **error of the load**. Both must be below 10⁻⁶. Each peer has the loosest tolerance, on steps of half a
-  decade from 10⁻⁴, that meets them; asperity's tolerance is η itself.
-- The **real area** is the share of cells with p > 0. Where the residuals are equal the areas are, but for single cells on the rims of
-  spots.
-- The **time** is the processor time of the whole call of `press`, as a user makes it: model, influence coefficients, solution; imports are left out. One
-  thread each, each run a process of its own, the programs in turns, {repeat} rounds; medians, and the median of the ratios within a round. Measured on
+- One function computes the **residual** η of [theory](theory.md#the-residual) and the **error of the load** from every pressure, with its
+  own influence coefficients. Both must be below 10⁻⁶. The tolerance of asperity is η itself. Each peer has the loosest tolerance that meets
+  both, in steps of half a decade from 10⁻⁴.
+- The **real area** is the share of cells with p > 0. At equal residuals the areas agree, apart from single cells at the edges of spots.
+- The **time** is the processor time of the whole call of `press`, as a user makes it: model, influence coefficients, solution. Imports are left out.
+  Each program has one thread, each run its own process, and the programs take turns in {repeat} rounds. The table has
+  medians, and the median of the ratios within a round. The machine is
   {machine}.
-- Tamaas' wheel uses FFTW without wide vector instructions; one built on the machine may be faster. ContactMechanics also has dual conjugate
-  gradients at a given approach, several times faster than its solver under a load. Both, convolutions, other sizes and areas are in
-  [performance](performance.md#beside-the-peers); what must be known to run the peers well in [benches/peers](../benches/peers/README.md).
+- The Tamaas wheel uses FFTW without wide vector instructions; a local build may be faster. ContactMechanics also has dual conjugate
+  gradients at a given approach, several times faster than its solver under a load.
+- [Performance](performance.md#beside-the-peers) has convolutions, other sizes and areas. [benches/peers](../benches/peers/README.md) says how to
+  run the peers well.
 
-## The code, where the surface repeats itself
+## The code, periodic boundary
 
 {codes}
 
-## The code, free
+## The code, free boundary
 
-asperity: `boundary="free"` in place of `"periodic"`.
+In asperity, replace `"periodic"` by `boundary="free"`.
 
 ### Tamaas
 

@@ -284,7 +284,7 @@ def stress(
 
 def _of_contact(contact: Contact, body: str) -> Any:
     if "coating" in contact.case[body]:
-        raise bad_input("coating", "stresses under a coating are not known yet")
+        raise bad_input("coating", "stress under a coating is not supported yet")
     found = contact.fields
     shear = [found[name].values if name in found else None for name in ("traction_x", "traction_y")]
     boundary = contact.case["contact"]["boundary"]
@@ -327,7 +327,7 @@ def _ratio(poisson: float | None, material: Material | None) -> float:
     if material is None:
         return _poisson(poisson)
     if material.coating is not None:
-        raise bad_input("material", "stresses under a coating are not known yet")
+        raise bad_input("material", "stress under a coating is not supported yet")
     return material.poisson
 
 

@@ -23,8 +23,9 @@ PAGES = [page for page in [ROOT / "README.md", *sorted(ROOT.glob("docs/python/*.
 def test_the_snippets_of_a_page_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
-    if "quickstart/results" in text:
-        subprocess.run([sys.executable, "-m", "asperity", "run", "--example", "quickstart"], check=True, capture_output=True)
+    for name, command in [("quickstart/results", ["run", "--example", "quickstart"]), ("measured/disc.x3p", ["example", "measured"])]:
+        if name in text:
+            subprocess.run([sys.executable, "-m", "asperity", *command], check=True, capture_output=True)
     examples = list(SYBIL.parse(page))
     assert len(examples) >= len(re.findall(r"^```python$", text, re.MULTILINE))
     for example in examples:

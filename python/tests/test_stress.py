@@ -103,7 +103,7 @@ def coated():
         ({"poisson": None}, "give 'poisson' or 'material', one of them"),
         ({"material": STEEL}, "give 'poisson' or 'material', one of them"),
         ({"poisson": 0.7}, "'poisson' is 0.7, expected a number from 0 to 0.5"),
-        ({"poisson": None, "material": coated()}, "stresses under a coating are not known yet"),
+        ({"poisson": None, "material": coated()}, "stress under a coating is not supported yet"),
         ({"pitch": None}, "'pitch' is missing"),
         ({"pitch": -1.0}, "'pitch' is -1.0"),
         ({"body": "middle"}, "'body' is 'middle', expected \"lower\" or \"upper\""),
@@ -135,7 +135,7 @@ def test_what_a_contact_has_is_not_given_twice():
     )
     with pytest.raises(asp.errors.CaseError, match="'poisson' is given beside a contact, which has its own"):
         asp.stress(c, 1e-6, poisson=0.3)
-    with pytest.raises(asp.errors.CaseError, match="stresses under a coating are not known yet"):
+    with pytest.raises(asp.errors.CaseError, match=r"\[subsurface\] does not support coatings yet"):
         asp.stress(c, 1e-6, body="upper")
 
 

@@ -137,7 +137,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     };
     let method = case.contact.method.word();
     let mut text = match &estimate.loading_path {
-        Some(LoadingPath::Sweep(points)) if case.contact.sweep.is_some() => swept(points),
+        Some(LoadingPath::Sweep(points)) if !case.contact.sweep.is_empty() => swept(points),
         _ => control,
     };
     if let (Control::Load(load), true) = (estimate.control, estimate.plastic_limit.is_finite()) {
@@ -146,7 +146,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     }
     if let Control::Load(load) = estimate.control {
         let mean = units::format(load / estimate.mean_facing_area, Dimension::Pressure);
-        let at_most = if case.contact.sweep.is_some() { " at most" } else { "" };
+        let at_most = if !case.contact.sweep.is_empty() { " at most" } else { "" };
         let _ = write!(text, ", mean pressure {mean} on what faces{at_most}");
     }
     let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);

@@ -87,7 +87,7 @@ fn compare(text_of_case: &str, count: usize) {
     let case = Case::load(&file).unwrap();
     run(&case, Given::default(), &one, Existing::Keep, &()).unwrap();
     let [ranks, one] = [folder.path().join("ranks"), one].map(|path| Results::open(&path).unwrap());
-    assert_eq!(ranks.case().unwrap(), one.case().unwrap());
+    assert_eq!(ranks.case_json().unwrap(), one.case_json().unwrap());
     let names = one.static_fields().unwrap().names().unwrap();
     assert_eq!(ranks.static_fields().unwrap().names().unwrap(), names);
     for name in names.iter().filter(|name| *name != "gap" && *name != "plastic") {

@@ -35,7 +35,7 @@ impl CoreResults {
     }
 
     fn case<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        object(py, &ok(self.results.case(), py)?)
+        object(py, &ok(self.results.case_json(), py)?)
     }
 
     /// Returns the summary; `None` until the computation is complete.

@@ -116,7 +116,7 @@ pub use choice::Choice;
 pub use error::{Error, Result};
 pub use grid::{CellValues, Field, Grid, SingleField};
 
-/// The programs in the README are tests.
+/// The programs of the document about this library are tests.
 #[cfg(all(doctest, feature = "study"))]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+#[doc = include_str!("../../../docs/rust.md")]
+struct RustDocument;

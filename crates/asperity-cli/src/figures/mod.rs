@@ -104,9 +104,9 @@ fn gather<'a>(
     }
     let points = results.sweep()?;
     if !points.is_empty() {
-        sweep::draw(&points, &results.case()?, &mut sheet)?;
+        sweep::draw(&points, &results.case_json()?, &mut sheet)?;
     }
-    let case = results.case()?;
+    let case = results.case_json()?;
     if !case["plasticity"].is_null() {
         flow::draw(&results.flow_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
     }

@@ -42,7 +42,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         _ => format!("{}, passes 1 to {all}", load(&passes[0])),
     };
     let after_pass = format!("{}, after pass {all}", load(&passes[pass - 1]));
-    let is_fresh = course::has_new_upper(&results.case()?, pass);
+    let is_fresh = course::has_new_upper(&results.case_json()?, pass);
 
     sheet.add("topographies", "topographies before and after", &throughout, || {
         Ok(topographies(&before, &after, all, is_fresh))
@@ -267,7 +267,7 @@ fn pressures(
 /// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
 /// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
 fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
-    let case = results.case()?;
+    let case = results.case_json()?;
     let [lower, upper] = materials(&case)?;
     let bodies = response(&lower, &upper)?;
     let couples = bodies.coupled().is_some_and(|bodies| bodies.couples());

@@ -22,7 +22,7 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
 
     bodies(&fields, sheet, &of)?;
     contact(&fields, &p, sheet, &of)?;
-    if let Some(profile) = profile(&fields, &results.case()?)? {
+    if let Some(profile) = profile(&fields, &results.case_json()?)? {
         sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile))?;
     }
     if fields.names()?.iter().any(|name| name == "stick") {

@@ -31,7 +31,7 @@ impl<'a> Found<'a> {
     /// Reads the records; an error only without a case that can be read.
     pub(super) fn in_results(results: &'a Results) -> asperity::Result<Self> {
         let mut missing = Vec::new();
-        let case = results.case()?;
+        let case = results.case_json()?;
         let finished = results.directory().join("summary.json").exists();
         let summary = if finished { kept(results.summary(), &mut missing) } else { None };
         let passes = kept(results.passes(), &mut missing).unwrap_or_default();

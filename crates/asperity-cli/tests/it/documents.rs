@@ -1,7 +1,8 @@
-//! What README and tutorials say that is printed is what is printed.
+//! README and tutorials show what the program prints.
 //!
 //! The commands of their `sh` and `python` blocks are run in their order, in one folder for each document; a `text` block that
-//! follows is what the last of them prints. With `ASPERITY_DOCUMENTS=write` these blocks are written anew.
+//! follows is what the last of them prints. A `toml` block with a name, such as `toml two.toml`, is a file in that folder.
+//! With `ASPERITY_DOCUMENTS=write` the `text` blocks are written anew.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,11 @@ fn with_outputs(text: &str) -> (String, usize) {
             "sh" => printed = run(&block, folder.path()),
             // The tests of the Python package run what uses it.
             "python" if !block.contains("import asperity") => printed = python(&block, folder.path()),
-            _ => {}
+            _ => {
+                if let Some(name) = language.strip_prefix("toml ") {
+                    fs::write(folder.path().join(name), &block).unwrap();
+                }
+            }
         }
         made += "```\n";
     }

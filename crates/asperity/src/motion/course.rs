@@ -9,7 +9,7 @@ use crate::units::Newton;
 
 /// A computation in steps: increments of a loading, updates of a contact that wears in place, points of a load sweep, or
 /// passes of a motion.
-pub trait Course {
+pub(super) trait Course {
     /// A solved step that is not committed yet.
     type Solved;
 
@@ -116,6 +116,17 @@ impl<'a> Step<'a> {
             Self::Update { state, .. } => state.updates.len() - 1,
             Self::Point { record, .. } => record.point,
             Self::Pass(report) => report.record.pass,
+        }
+    }
+
+    /// Returns whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
+    pub(crate) fn is_last(&self) -> bool {
+        match self {
+            Self::Increment { of, .. }
+            | Self::Flow { of, .. }
+            | Self::Update { of, .. }
+            | Self::Point { of, .. } => self.number() == *of,
+            Self::Pass(_) => false,
         }
     }
 

@@ -479,9 +479,7 @@ impl Films {
             if let Some(soft) = film.as_ref().and_then(|film| film.hardness)
                 && (soft > body.hardness.min() || !body.hardness.max().is_finite())
             {
-                return Err(Error::Unsupported(
-                    "a film with a hardness is softer than its body, which yields too",
-                ));
+                return Err(Error::Unsupported("a film with a hardness needs a body with a hardness"));
             }
         }
         Ok(Self { films })

@@ -211,7 +211,7 @@ impl Flowing<'_> {
     }
 
     fn under_the_last_load(&mut self) -> Result<Loaded> {
-        let nothing = Error::Unsupported("a contact without a load does not flow");
+        let nothing = Error::Unsupported("an elasto-plastic contact needs a load");
         let solution = self.contact.equilibrium().cloned().ok_or(nothing)?;
         let volumes = FlowedVolume::loaded(&mut self.contact);
         Ok(Loaded {

@@ -86,9 +86,9 @@ impl Solver<'_> {
 }
 
 /// Message for a pass with too much wear for an explicit step that cannot be solved implicitly.
-const TOO_MUCH_WEAR: &str = "a single pass wears more than pressures of single cells bear without swinging, and where each position bears a load of its \
-     own, or shear displaces the bodies normally, it is not solved with its wear: a smaller wear coefficient, larger cells or a \
-     shorter pass are needed";
+const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
+     cells or a shorter pass; the implicit solution needs one approach for the whole pass and no coupling of shear to normal \
+     displacements";
 
 /// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is the elastic
 /// displacement of the bodies plus the depth worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the

@@ -56,7 +56,7 @@ pub fn load_in_stages(
     let bodies = Bodies::new(pair, boundary, friction, params)?;
     let mut loading = InStages { bodies, stages, state: under_way };
     course::run(&mut loading, watch, outputs)?;
-    let state = loading.state.ok_or(Error::Unsupported("a loading has at least one increment"))?;
+    let state = loading.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
     Ok(loading.bodies.finish(state))
 }
 

@@ -33,7 +33,7 @@ mod wear;
 
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
-pub use course::{Course, Output, Step};
+pub use course::{Output, Step};
 #[cfg(feature = "study")]
 pub(crate) use film::{
     ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES,
@@ -61,7 +61,7 @@ pub use record::{
 };
 pub use report::PassReport;
 pub use rim::Interior;
-pub use simulation::{FinishedPass, Simulation, SolvedPass};
+pub use simulation::{Simulation, SolvedPass};
 pub use sliding::{InPlace, Slide, WornContact};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;

@@ -119,9 +119,10 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if the response to shear is unknown.
     pub(super) fn check_shear(&self) -> Result<()> {
-        self.response.coupled().map(|_| ()).ok_or(Error::Unsupported(
-            "what shear does to these bodies is not known: their friction is that of full sliding without coupling",
-        ))
+        self.response
+            .coupled()
+            .map(|_| ())
+            .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }
 
     /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support
@@ -137,7 +138,7 @@ impl Pair {
         let line = boundary.line(largest, boundary.datum(largest));
         if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
             return Err(Error::Unsupported(
-                "these bodies have no boundary that is periodic along one axis alone",
+                "these bodies do not support a boundary that is periodic along one axis only",
             ));
         }
         Ok(())

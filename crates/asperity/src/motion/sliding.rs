@@ -113,9 +113,7 @@ impl Slide {
         if let Some(friction) = self.friction {
             friction.checked()?;
             if self.sliding().is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
-                return Err(Error::Unsupported(
-                    "wear in place of bodies whose shear displaces them normally: with coupling \"none\" or \"goodman\" it does not",
-                ));
+                return Err(Error::Unsupported("wear in place needs coupling \"none\" or \"goodman\""));
             }
         }
         Ok(self)
@@ -210,7 +208,7 @@ impl InPlace {
     pub fn with_heat(mut self, thermal: [Thermal; 2]) -> Result<Self> {
         let Slide { friction: Some(_), bulk: Some(bulk), speed: Some(speed), .. } = self.slide else {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies with friction, a speed and temperatures",
+                "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
         let (grid, boundary) = (self.pair.lower_grid(), self.boundary);

@@ -67,7 +67,7 @@ pub fn sweep(
         last: None,
     };
     course::run(&mut sweep, watch, outputs)?;
-    let last = sweep.last.ok_or(Error::Unsupported("a sweep has at least one point"))?;
+    let last = sweep.last.ok_or(Error::Unsupported("a sweep needs at least one point"))?;
     Ok((sweep.records, last))
 }
 

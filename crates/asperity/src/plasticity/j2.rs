@@ -36,7 +36,7 @@ impl J2 {
         check_in(Dimension::Pressure, "kinematic", modulus, good(modulus), "a finite modulus of at least 0")?;
         check("recovery", recovery, good(recovery), "a finite number of at least 0")?;
         if recovery > 0.0 && modulus == 0.0 {
-            return Err(Error::Unsupported("recovery of a back stress that has no kinematic modulus"));
+            return Err(Error::Unsupported("recovery of the back stress needs a kinematic modulus"));
         }
         Ok(Self { kinematic: modulus, recovery, ..self })
     }

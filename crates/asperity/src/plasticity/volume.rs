@@ -59,11 +59,11 @@ impl Volume {
     pub fn new(grid: Grid, layers: Layers, boundary: Boundary, material: &Material) -> Result<Self> {
         if boundary.repeats(0) != boundary.repeats(1) {
             return Err(Error::Unsupported(
-                "plastic strain under a boundary that is periodic along one axis alone",
+                "elasto-plastic bodies do not support a boundary that is periodic along one axis only",
             ));
         }
         if material.coating.is_some() {
-            return Err(Error::Unsupported("plastic strain in a coated body"));
+            return Err(Error::Unsupported("a coated body cannot be elasto-plastic yet"));
         }
         let Material { young, poisson, .. } = *material;
         check_in(
@@ -71,7 +71,7 @@ impl Volume {
             "young",
             young,
             young.is_finite(),
-            "a finite modulus: a rigid body does not flow",
+            "a finite modulus: a rigid body cannot be elasto-plastic",
         )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
         let free = !boundary.leaves_mean_free();

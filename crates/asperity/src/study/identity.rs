@@ -84,6 +84,20 @@ pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<(
     }
 }
 
+/// The case without the digests and the identity, which results add to it.
+pub(super) fn without_digests(resolved: &Value) -> Value {
+    let mut case = resolved.clone();
+    if let Some(keys) = case.as_object_mut() {
+        keys.remove("identity");
+    }
+    for key in FILES {
+        if let Some(table) = case.pointer_mut(key).and_then(Value::as_object_mut) {
+            table.remove("sha256");
+        }
+    }
+    case
+}
+
 /// Returns the case without the keys that do not affect a finished pass: title, number of passes, folder of the files.
 fn deciding(case: &Value) -> Value {
     let mut case = case.clone();

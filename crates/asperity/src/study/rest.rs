@@ -189,8 +189,8 @@ impl AtRest<'_> {
         let contact = self.case.wearing(InPlace::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
         let worn = contact.run(state, self.watch, &mut outputs(&mut kept))?;
-        let warnings = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
+        let warnings = review::worn(&worn.state.pair, self.boundary(), &worn.solution.pressure, &updates);
         Ok(Rest { updates, warnings, ..Rest::of(record, worn_fields(worn, friction)) })
     }
 

@@ -75,7 +75,7 @@ pub fn demand_on_ranks(case: &Case, ranks: usize) -> Result<DemandOfRank> {
 /// # Errors
 /// The errors of [`collect`] for its first file.
 pub fn demand_of_collecting(directory: &Path) -> Result<f64> {
-    let index = Index::read(directory, &Results::open(directory)?.case()?)?;
+    let index = Index::read(directory, &Results::open(directory)?.case_json()?)?;
     Ok(collecting(index.grid().shape))
 }
 
@@ -157,7 +157,7 @@ pub fn run_on_ranks(
 /// stay unchanged.
 pub fn collect(directory: &Path) -> Result<()> {
     let results = Results::open(directory)?;
-    let index = Index::read(directory, &results.case()?)?;
+    let index = Index::read(directory, &results.case_json()?)?;
     let mut summary = results.summary()?;
     let grid = index.grid();
     let mut file = FieldFile::of_run(&index.identity, &results.static_path());
@@ -204,7 +204,7 @@ fn check(case: &Case) -> Result<()> {
         ("plasticity", case.plasticity.is_some()),
         ("subsurface", case.subsurface.is_some()),
         ("output.paraview", case.output.paraview),
-        ("contact.sweep", case.contact.sweep.is_some()),
+        ("contact.sweep", !case.contact.sweep.is_empty()),
         ("contact.method", matches!(case.contact.method, Method::Direct | Method::PolonskyKeer)),
     ];
     let tables = tables.map(|(table, given)| (table.to_owned(), given));
@@ -324,7 +324,7 @@ mod tests {
             collect(&together).unwrap();
             let (expected, _) = run(&case, Given::default(), &alone, Existing::Keep, &()).unwrap();
             let [together, alone] = [together, alone].map(|path| Results::open(&path).unwrap());
-            assert_eq!(together.case().unwrap(), alone.case().unwrap());
+            assert_eq!(together.case_json().unwrap(), alone.case_json().unwrap());
             let [fields, others] = [&together, &alone].map(|results| results.static_fields().unwrap());
             assert_eq!(fields.names().unwrap(), others.names().unwrap());
             for name in ["pressure", "displacement", "lower", "upper"] {

@@ -91,30 +91,6 @@ pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
     records.iter().map(row).collect()
 }
 
-/// Reads `steps.csv`, to resume a run.
-///
-/// # Errors
-/// [`Error::File`]; the message gives the line of a damaged row.
-pub(super) fn read_steps(path: &Path) -> Result<Vec<StepRecord>> {
-    read_growing(path)
-}
-
-/// Reads `passes.csv`, to resume a run.
-///
-/// # Errors
-/// [`Error::File`]; the message gives the line of a damaged row.
-pub(super) fn read_passes(path: &Path) -> Result<Vec<PassRecord>> {
-    read_growing(path)
-}
-
-/// Reads `updates.csv`.
-///
-/// # Errors
-/// [`Error::File`]; the message gives the line of a damaged row.
-pub(super) fn read_updates(path: &Path) -> Result<Vec<UpdateRecord>> {
-    read_growing(path)
-}
-
 /// A table to which rows are appended.
 pub(super) struct GrowingTable {
     path: PathBuf,
@@ -437,18 +413,18 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("table.csv");
         write_new(&path, &[step(1), step(2)]);
-        let steps = read_steps(&path).unwrap();
+        let steps = read_growing::<StepRecord>(&path).unwrap();
         assert_eq!(format!("{steps:?}"), format!("{:?}", [step(1), step(2)]), "to the last digit");
         assert_eq!(steps[1].load.to_bits(), (0.1f64 + 0.2).to_bits());
         write_new(&path, &[pass()]);
-        assert_eq!(read_passes(&path).unwrap(), [pass()]);
+        assert_eq!(read_growing::<PassRecord>(&path).unwrap(), [pass()]);
         assert!(std::fs::read_to_string(&path).unwrap().starts_with(&PASS_COLUMNS.join(",")));
         let wear = LostVolume { law: "wear".to_owned(), whole: [0.0, 1.0 / 3.0], interior: [0.0, 0.25] };
         let worn = |pass: PassRecord| PassRecord { lost: [pass.lost, vec![wear.clone()]].concat(), ..pass };
         let passes = [worn(pass()), PassRecord { friction_coefficient: f64::NAN, ..worn(pass()) }];
         write_new(&path, &passes);
         assert_eq!(
-            format!("{:?}", read_passes(&path).unwrap()),
+            format!("{:?}", read_growing::<PassRecord>(&path).unwrap()),
             format!("{passes:?}"),
             "volumes of two laws"
         );
@@ -478,12 +454,15 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("table.csv");
         write_new(&path, &[worn.clone(), worn.clone()]);
-        assert_eq!(format!("{:?}", read_passes(&path).unwrap()), format!("{:?}", [worn.clone(), worn]));
+        assert_eq!(
+            format!("{:?}", read_growing::<PassRecord>(&path).unwrap()),
+            format!("{:?}", [worn.clone(), worn])
+        );
         let warm = HeatRecord { friction_power: 0.1, max_flash_temperature: 373.15 };
         let steps = [step(1), step(2)];
         let steps = steps.map(|step| StepRecord { heat: Some(warm), offset_y: Some(3e-6), ..step });
         write_new(&path, &steps);
-        assert_eq!(format!("{:?}", read_steps(&path).unwrap()), format!("{steps:?}"));
+        assert_eq!(format!("{:?}", read_growing::<StepRecord>(&path).unwrap()), format!("{steps:?}"));
     }
 
     #[test]
@@ -499,12 +478,12 @@ mod tests {
         table.add(&[PassRecord { pass: 2, ..pass() }]).unwrap();
         // Half a row from a killed run.
         append(&path, "3,1e-9").unwrap();
-        assert_eq!(read_passes(&path).unwrap().len(), 2);
+        assert_eq!(read_growing::<PassRecord>(&path).unwrap().len(), 2);
         let mut table = GrowingTable::open(path.clone(), 1).unwrap();
-        assert_eq!(read_passes(&path).unwrap(), [pass()]);
+        assert_eq!(read_growing::<PassRecord>(&path).unwrap(), [pass()]);
         table.add(&[worn(2)]).unwrap();
         table.add(&[worn(3)]).unwrap();
-        let read = read_passes(&path).unwrap();
+        let read = read_growing::<PassRecord>(&path).unwrap();
         assert_eq!(read.iter().map(|pass| pass.lost("wear")[1]).collect::<Vec<_>>(), [0.0, 2.0, 2.0]);
         assert_eq!(read.iter().map(|pass| pass.lost("plastic")[1]).collect::<Vec<_>>(), [2e-18, 0.0, 0.0]);
     }
@@ -554,8 +533,10 @@ mod tests {
         table.add(&passes).unwrap();
         table.add(&[PassRecord { pass: 3, lost: vec![wear], wall_time_s: 9.0, ..pass() }]).unwrap();
         write_new(&path("steps.csv"), &steps);
-        let (read, of_steps) =
-            (read_passes(&path("passes.csv")).unwrap(), read_steps(&path("steps.csv")).unwrap());
+        let (read, of_steps) = (
+            read_growing::<PassRecord>(&path("passes.csv")).unwrap(),
+            read_growing::<StepRecord>(&path("steps.csv")).unwrap(),
+        );
         assert_eq!(digest_of_passes(&read[..2], &of_steps), before);
         let again = digest(&digest(&digest("", &steps[..1]), &passes[..1]), &steps[1..]);
         assert_eq!(digest(&again, &passes[1..]), before, "pass after pass");
@@ -593,7 +574,7 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         let (whole, last) = text.trim_end().rsplit_once('\n').unwrap();
         std::fs::write(&path, format!("{}\n{last}\n", &whole[..whole.len() - 40])).unwrap();
-        let message = read_steps(&path).unwrap_err().to_string();
+        let message = read_growing::<StepRecord>(&path).unwrap_err().to_string();
         assert!(message.contains("line: 3"), "{message}");
     }
 }

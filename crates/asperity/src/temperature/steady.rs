@@ -91,7 +91,7 @@ impl SteadyTemperature {
         assert_eq!(cells.len(), flux.len(), "as many cells as fluxes");
         if self.boundary == Boundary::PERIODIC && cells.len() == self.grid.cells() {
             return Err(Error::Unsupported(
-                "a periodic contact that touches everywhere has no steady division of heat",
+                "a periodic contact that touches everywhere has no steady heat partition",
             ));
         }
         let Self { bulk, bodies, sum, own, preconditioner, input, output, grid, .. } = self;

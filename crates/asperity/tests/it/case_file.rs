@@ -1,4 +1,4 @@
-//! The tables of docs/input.md equal the declarations in the program: keys, and rules for combinations.
+//! The tables of docs/input.md and docs/input/ equal the declarations in the program: keys, and rules for combinations.
 //!
 //! `UPDATE_DOCS=1 cargo test -p asperity --test it case_file::` rewrites them. Above each table is a comment with its name:
 //! `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`, `<!-- rules -->`.
@@ -19,50 +19,49 @@ const COMMON: [Dimension; 5] =
     [Dimension::Length, Dimension::Pressure, Dimension::Force, Dimension::Speed, Dimension::Angle];
 
 #[test]
-fn the_tables_of_the_document_are_those_of_the_program() {
+fn the_tables_of_the_documents_are_those_of_the_program() {
     let sections = study::keys().iter().filter(|section| section.kind != "given");
     let mut sections: BTreeMap<String, &Section> = sections.map(|section| (name(section), section)).collect();
-    let page = fs::read_to_string(page()).unwrap();
-    let mut lines = page.lines().peekable();
-    let mut written = String::new();
-    let mut has_rules = false;
-    while let Some(line) = lines.next() {
-        written += &format!("{line}\n");
-        let table = match line.strip_prefix("<!-- ").and_then(|rest| rest.strip_suffix(" -->")) {
-            Some("rules") => {
-                has_rules = true;
-                table_of_rules()
-            }
-            Some(mark) => match mark.strip_prefix("keys: ") {
-                Some(names) => {
-                    let named = names.split(", ").map(|name| {
-                        sections
-                            .remove(name)
-                            .unwrap_or_else(|| panic!("`{name}` is no section, or has two tables"))
-                    });
-                    table_of_keys(&named.collect::<Vec<_>>())
+    let pages = pages();
+    let mut tables_of_rules = 0;
+    for (path, page) in &pages {
+        let mut lines = page.lines().peekable();
+        let mut written = String::new();
+        while let Some(line) = lines.next() {
+            written += &format!("{line}\n");
+            let table = match line.strip_prefix("<!-- ").and_then(|rest| rest.strip_suffix(" -->")) {
+                Some("rules") => {
+                    tables_of_rules += 1;
+                    table_of_rules()
                 }
+                Some(mark) => match mark.strip_prefix("keys: ") {
+                    Some(names) => {
+                        let named = names.split(", ").map(|name| {
+                            sections
+                                .remove(name)
+                                .unwrap_or_else(|| panic!("`{name}` is no section, or has two tables"))
+                        });
+                        table_of_keys(&named.collect::<Vec<_>>())
+                    }
+                    None => continue,
+                },
                 None => continue,
-            },
-            None => continue,
-        };
-        written += &format!("\n{table}");
-        while lines.next_if(|line| line.is_empty() || line.starts_with('|')).is_some() {}
-        if lines.peek().is_some() {
-            written.push('\n');
+            };
+            written += &format!("\n{}", with_links(&table, path, &pages));
+            while lines.next_if(|line| line.is_empty() || line.starts_with('|')).is_some() {}
+            if lines.peek().is_some() {
+                written.push('\n');
+            }
         }
+        if std::env::var_os("UPDATE_DOCS").is_some() {
+            fs::write(documents().join(path), &written).unwrap();
+            continue;
+        }
+        let differs = page.lines().zip(written.lines()).find(|(is, should)| is != should);
+        assert!(page == &written, "docs/{path} is not as the program has it: {differs:?}; UPDATE_DOCS=1");
     }
-    assert!(sections.is_empty(), "docs/input.md has no table of {:?}", sections.keys());
-    assert!(has_rules, "docs/input.md does not say what does not go together");
-    if std::env::var_os("UPDATE_DOCS").is_some() {
-        fs::write(self::page(), &written).unwrap();
-        return;
-    }
-    let differs = page.lines().zip(written.lines()).position(|(is, should)| is != should);
-    assert!(
-        page == written,
-        "line {differs:?} of docs/input.md, from 0, is not as the program has it: UPDATE_DOCS=1"
-    );
+    assert!(sections.is_empty(), "docs/input has no table of {:?}", sections.keys());
+    assert_eq!(tables_of_rules, 1, "docs/input says once what does not go together");
 }
 
 #[test]
@@ -164,6 +163,47 @@ fn table_of_rules() -> String {
     format!("| this | does not go with | instead |\n|---|---|---|\n{rows}")
 }
 
-fn page() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/input.md")
+/// The links of a table, which are written as if all documents were one page in one folder, as the page needs them.
+fn with_links(table: &str, page: &str, pages: &BTreeMap<String, String>) -> String {
+    let up = "../".repeat(page.matches('/').count());
+    let mut text = String::new();
+    for part in table.split_inclusive("](") {
+        let Some(link) = text.ends_with("](").then(|| part.split(')').next().unwrap()) else {
+            text += part;
+            continue;
+        };
+        match link.strip_prefix('#') {
+            _ if link.contains("://") => text += part,
+            None => text += &format!("{up}{part}"),
+            Some(anchor) => {
+                let holds = |page: &str| page.lines().any(|line| self::anchor(line) == anchor);
+                let home = pages.iter().find(|(_, text)| holds(text));
+                let (home, _) = home.unwrap_or_else(|| panic!("no heading for {link}"));
+                let link = if home == page { String::new() } else { format!("{up}{home}") };
+                text += &format!("{link}{part}");
+            }
+        }
+    }
+    text
+}
+
+/// The anchor of a heading; nothing of other lines.
+fn anchor(line: &str) -> String {
+    let Some((_, title)) = line.split_once("# ").filter(|(level, _)| level.chars().all(|c| c == '#')) else {
+        return String::new();
+    };
+    let kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
+    title.to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+}
+
+/// The pages of the case file, by their paths within the documents.
+fn pages() -> BTreeMap<String, String> {
+    let names = fs::read_dir(documents().join("input")).unwrap();
+    let names = names.map(|entry| format!("input/{}", entry.unwrap().file_name().into_string().unwrap()));
+    let read = |name: String| (name.clone(), fs::read_to_string(documents().join(name)).unwrap());
+    names.chain(["input.md".to_owned()]).map(read).collect()
+}
+
+fn documents() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }

@@ -14,7 +14,7 @@ columns! {
         pub max_plastic_strain: f64,
         /// Place of the largest plastic strain: x and y from the corner of the body, z from its surface.
         pub max_plastic_strain_position: [Metre; 3],
-        /// Volume that has flowed.
+        /// Volume of all cells with plastic strain.
         pub yielded_volume: CubicMetre,
         /// Plastic work ∫ σ : dε.
         pub plastic_work: Joule,
@@ -30,7 +30,7 @@ columns! {
         pub products: usize,
         /// Largest mismatch of the stress over the yield stress at the end of an increment.
         pub mismatch: f64,
-        /// What becomes of the bodies, in a word.
+        /// Response of the bodies to repeated loading, as a word.
         pub regime: Regime,
         /// Growth of the largest plastic strain in a pass, of bodies that ratchet.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -38,7 +38,7 @@ columns! {
         /// Displacement of the surface along x in a pass, of bodies that ratchet; that of the body where it is larger.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub shift_per_pass: Option<Metre>,
-        /// The same once the load is taken off; none where it is not.
+        /// The plastic flow once the load is taken off; none where it is not taken off.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub residual: Option<ResidualRecord>,
     }
@@ -82,7 +82,7 @@ impl FlowRecord {
 }
 
 columns! {
-    /// Plastic flow in a pass: further columns of its row. 0 of a body that may not flow.
+    /// Plastic flow in a pass: further columns of its row. 0 for an elastic body.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct PassFlowRecord {
@@ -117,7 +117,7 @@ columns! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FlowStepRecord {
-        /// Cells of all layers of both bodies that have flowed in the step or increment.
+        /// Cells in all layers of both bodies that have yielded in the step or increment.
         pub yielded_cells: usize,
         /// Largest accumulated plastic strain at the end of it.
         pub max_plastic_strain: f64,
@@ -130,13 +130,13 @@ columns! {
     }
 }
 
-/// What becomes of bodies that may flow.
+/// Response of elasto-plastic bodies to repeated loading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Regime {
-    /// Nothing has flowed.
+    /// The bodies have stayed elastic.
     Elastic,
-    /// A contact at rest has flowed.
+    /// The bodies of a contact at rest have yielded.
     Yields,
     /// The bodies shake down: the plastic work of a pass is below 10⁻³ of the first's, and falls.
     ShakesDown,

@@ -115,7 +115,7 @@ impl<'de> Visitor<'de> for InOrder {
     }
 }
 
-/// Those of the whole bodies: two for each law.
+/// Columns of the volumes of the whole bodies: two for each law.
 pub(super) mod whole {
     use serde::{Deserializer, Serializer};
 

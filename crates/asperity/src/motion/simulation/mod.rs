@@ -33,7 +33,8 @@ use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{Dimension, Newton};
 
 use changes::Changes;
-pub use solved::{FinishedPass, SolvedPass};
+use solved::FinishedPass;
+pub use solved::SolvedPass;
 
 /// Two bodies that pass over each other.
 pub struct Simulation {
@@ -185,13 +186,11 @@ impl Simulation {
         let acceleration = acceleration.checked()?;
         if acceleration.max_jump > 1 {
             if !self.repeats() {
-                return Err(Error::Unsupported(
-                    "surfaces that meet anew in each pass have none that stands for others",
-                ));
+                return Err(Error::Unsupported("extrapolation needs passes that repeat"));
             }
             if self.changes_at_every_step() {
                 return Err(Error::Unsupported(
-                    "a pass that changes the bodies position by position stands for itself",
+                    "extrapolation needs plastic deformation that is applied after each pass",
                 ));
             }
         }
@@ -217,17 +216,17 @@ impl Simulation {
     /// If no body is given, or if the grid of one differs from that of its surface.
     pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
         let refused = if self.pair.yields() {
-            "bodies that flow below their surfaces have no hardness"
+            "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
-            "bodies that flow below their surfaces neither wear nor grow films"
+            "elasto-plastic bodies do not support wear and films yet"
         } else if self.changes.heat.is_some() {
-            "a flash temperature is that of bodies that stay as they are in a pass"
+            "elasto-plastic bodies do not support a flash temperature yet"
         } else if self.changes.acceleration.max_jump > 1 {
-            "a pass in which bodies flow stands for itself"
+            "elasto-plastic bodies do not support extrapolation over passes"
         } else if self.counter.is_some() && bodies[1].is_some() {
-            "an upper body that is another in each pass does not keep what has flowed"
+            "a fresh counter-body does not keep its plastic state"
         } else if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
-            "plastic strain goes round with the surfaces of a shift: their boundary is periodic along x"
+            "an elasto-plastic body in a shift needs a periodic boundary along x"
         } else {
             ""
         };
@@ -276,17 +275,17 @@ impl Simulation {
         let time = self.motion.step_time(self.pair.pitch()[0]);
         let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies with friction, a speed and temperatures",
+                "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
         if self.changes_at_every_step() {
             return Err(Error::Unsupported(
-                "a flash temperature is that of bodies that stay as they are in a pass",
+                "a flash temperature needs plastic deformation that is applied after each pass",
             ));
         }
         if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
             return Err(Error::Unsupported(
-                "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+                "a flash temperature in a shift needs a boundary that is periodic along x",
             ));
         }
         let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
@@ -337,9 +336,7 @@ impl Simulation {
         let began = Instant::now();
         let pass = self.passes_done + 1;
         if self.volumes.is_some() && self.changes.laws.len() > 1 {
-            return Err(Error::Unsupported(
-                "bodies that flow below their surfaces neither wear nor grow films",
-            ));
+            return Err(Error::Unsupported("elasto-plastic bodies do not support wear and films yet"));
         }
         let before = self.next_pair()?;
         let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
@@ -476,7 +473,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     if let Some(friction) = motion.friction {
         friction.checked()?;
         if motion.strategy.direction() == 0.0 {
-            return Err(Error::Unsupported("bodies that roll at equal speeds do not slide over each other"));
+            return Err(Error::Unsupported("friction and wear need surfaces with different speeds"));
         }
     }
     if let Control::Approach(approach) = motion.control {
@@ -485,7 +482,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     let (lower, upper) = (pair.lower.columns(), pair.upper.columns());
     match motion.strategy {
         Strategy::Overlap if boundary.repeats(0) => {
-            return Err(Error::Unsupported("an overlap is a finite contact: its boundary is free along x"));
+            return Err(Error::Unsupported("an overlap needs a boundary that is free along x"));
         }
         Strategy::Overlap => {}
         Strategy::Shift { .. } if lower != upper => {
@@ -501,9 +498,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
         }
     }
     if motion.offset_y != OffsetY::NONE && !boundary.repeats(1) {
-        return Err(Error::Unsupported(
-            "bodies that are displaced along y continue over their edges there: their boundary is periodic along y",
-        ));
+        return Err(Error::Unsupported("an offset along y needs a boundary that is periodic along y"));
     }
     Ok(motion.positions([lower, upper], pair.lower.width(), 1))
 }

@@ -79,7 +79,7 @@ impl SolvedPass {
 }
 
 /// A solved pass with the state that it leaves to the next one.
-pub struct FinishedPass {
+pub(in crate::motion) struct FinishedPass {
     pub(super) record: PassRecord,
     pub(super) outcome: Pass,
     pub(super) hardness: [CellValues; 2],

@@ -156,7 +156,7 @@ impl FrictionalSolution {
 /// ```
 ///
 /// # Errors
-/// Those of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
+/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.

@@ -96,7 +96,7 @@ impl RollingSolution {
 /// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
 /// # Errors
-/// Those of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
+/// Returns the errors of [`crate::solver::solve_frictional`]; [`Error::Unsupported`] for a spin on a boundary that is not free all around.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -129,7 +129,7 @@ pub(crate) fn solve_rolling_watched(
     let boundary = operator.normal().boundary();
     check("spin", rolling.spin, rolling.spin.is_finite(), "a finite number")?;
     if rolling.spin != 0.0 && boundary != Boundary::FREE {
-        return Err(Error::Unsupported("what spins does not repeat itself: its boundary is free"));
+        return Err(Error::Unsupported("spin needs a free boundary"));
     }
     let tangential = match rolling.creep {
         Creep::Creepage(creepage) => {

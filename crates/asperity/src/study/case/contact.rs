@@ -2,10 +2,9 @@
 
 use super::Contact;
 use super::cursor::Table;
-use super::prescribed::prescribed;
+use super::prescribed::{prescribed, sweep};
 use super::schema::loading::contact as keys;
 use super::schema::tables::known_in;
-use super::sweep::{Sweep, sweep};
 use crate::error::Result;
 
 pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
@@ -15,7 +14,10 @@ pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
     table.exactly_one(&PRESCRIBED, "for example `load = \"2 N\"` and no other of them")?;
     let sweep = sweep(table)?;
     Ok(Contact {
-        prescribed: sweep.as_ref().map(Sweep::largest).map_or_else(|| prescribed(table), Ok)?,
+        prescribed: match sweep.iter().max_by(|a, b| a.value().total_cmp(&b.value())) {
+            Some(largest) => *largest,
+            None => prescribed(table)?,
+        },
         sweep,
         boundary: keys::BOUNDARY.of(table)?,
         method: keys::METHOD.of(table)?,

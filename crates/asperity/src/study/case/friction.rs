@@ -123,10 +123,10 @@ impl Case {
             return Some(LoadingPath::Sweep(rolling.map(point).collect()));
         }
         let rolling = rolling.next();
-        if let Some(sweep) = &self.contact.sweep {
+        if !self.contact.sweep.is_empty() {
             let point =
-                |prescribed: Prescribed| Point { control: prescribed.control(apparent_area), rolling };
-            return Some(LoadingPath::Sweep(sweep.prescribed().map(point).collect()));
+                |prescribed: &Prescribed| Point { control: prescribed.control(apparent_area), rolling };
+            return Some(LoadingPath::Sweep(self.contact.sweep.iter().map(point).collect()));
         }
         if let Some(rolling) = rolling {
             return Some(LoadingPath::Rolling(rolling));

@@ -14,15 +14,16 @@ mod output;
 mod parse;
 mod plasticity;
 mod prescribed;
+mod read_back;
 pub mod rules;
 mod running;
 pub mod schema;
 mod sliding;
 mod source;
 mod subsurface;
-mod sweep;
 mod topography;
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -39,7 +40,6 @@ pub use self::schema::values::subsurface::Side;
 pub use self::sliding::SlidingSpec;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::SubsurfaceSpec;
-pub use self::sweep::Sweep;
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::io::regular;
@@ -141,10 +141,10 @@ choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Contact {
-    /// Prescribed load, mean pressure or approach; the largest of a sweep.
+    /// The load or approach; the largest of a sweep.
     pub prescribed: Prescribed,
-    /// The values of a sweep in its place; `None` without a sweep.
-    pub sweep: Option<Sweep>,
+    /// The points of a sweep, all of one kind, each on virgin bodies; empty without a sweep.
+    pub sweep: Vec<Prescribed>,
     /// Continuation of the surfaces beyond the grid.
     pub boundary: Boundary,
     /// The solver.
@@ -160,13 +160,16 @@ impl Serialize for Contact {
             #[serde(flatten)]
             prescribed: Option<Prescribed>,
             #[serde(flatten)]
-            sweep: &'a Option<Sweep>,
+            sweep: BTreeMap<&'a str, Vec<f64>>,
             boundary: Boundary,
             method: Method,
             tolerance: f64,
         }
         let Self { prescribed, ref sweep, boundary, method, tolerance } = *self;
-        let prescribed = sweep.is_none().then_some(prescribed);
+        let values = || sweep.iter().map(|point| point.value()).collect();
+        let sweep: BTreeMap<_, _> =
+            sweep.first().map(|point| (point.key_of_list(), values())).into_iter().collect();
+        let prescribed = sweep.is_empty().then_some(prescribed);
         Keys { prescribed, sweep, boundary, method, tolerance }.serialize(serializer)
     }
 }

@@ -29,9 +29,28 @@ impl Prescribed {
             Self::Approach(approach) => solver::Control::Approach(approach),
         }
     }
+
+    /// The value, in the unit of its kind.
+    pub(super) fn value(self) -> f64 {
+        match self {
+            Self::Load(value) | Self::MeanPressure(value) | Self::Approach(value) => value,
+        }
+    }
+
+    /// The key of a list of such values in `[contact]`.
+    pub(super) fn key_of_list(self) -> &'static str {
+        match self {
+            Self::Load(_) => LISTS[0],
+            Self::MeanPressure(_) => LISTS[1],
+            Self::Approach(_) => LISTS[2],
+        }
+    }
 }
 
-/// Reads the one of the three keys in `table`, which is [contact] or a stage of a [[history]].
+/// The keys of a sweep in `[contact]`.
+pub(super) const LISTS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
+
+/// The one of the three that `table`, [contact] or a stage of a [[history]], gives.
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
     table.exactly_one(
         &["load", "mean_pressure", "approach"],
@@ -41,4 +60,15 @@ pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
     let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
     let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);
     Ok(load.or(pressure).or(approach).expect("one of the three is given"))
+}
+
+/// The points of the sweep that `table` gives; none where it gives no list.
+pub(super) fn sweep(table: &Table<'_>) -> Result<Vec<Prescribed>> {
+    let points = |values: Option<Vec<f64>>, point: fn(f64) -> Prescribed| {
+        values.unwrap_or_default().into_iter().map(point)
+    };
+    let loads = points(keys::LOADS.of(table)?, Prescribed::Load);
+    let pressures = points(keys::MEAN_PRESSURES.of(table)?, Prescribed::MeanPressure);
+    let approaches = points(keys::APPROACHES.of(table)?, Prescribed::Approach);
+    Ok(loads.chain(pressures).chain(approaches).collect())
 }

@@ -85,7 +85,7 @@ impl Files {
     /// Returns an error if a finished case was computed from files of other content.
     fn agree(&self, path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
         for (case, results) in (1..=study.len()).filter_map(|case| Some((case, done(case)?))) {
-            let Ok(done) = Results::open(&results).and_then(|results| results.case()) else { continue };
+            let Ok(done) = Results::open(&results).and_then(|results| results.case_json()) else { continue };
             let pinned = self.pinned(path.parent().unwrap_or(Path::new("")), study, case);
             for table in FILES {
                 let key = format!("{}.file", table[1..].replace('/', "."));

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::lock::{self, Lock};
-use crate::motion::SweepRecord;
+use crate::motion::{StepRecord, SweepRecord};
 use crate::study::case::Keep;
 use crate::study::identity;
 use crate::study::tables;
@@ -150,7 +150,7 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
 
 /// Returns the finished part, if the results belong to `case` and are complete.
 fn resumable(results: &Results, case: &Value) -> Result<Kept> {
-    identity::compare(results.directory(), &results.case()?, case)?;
+    identity::compare(results.directory(), &results.case_json()?, case)?;
     let identity = identity::of(case);
     if case.get("motion").is_some_and(Value::is_object) {
         return resumable_passes(results, case, &identity);
@@ -185,7 +185,7 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<K
     if !steps.exists() {
         return Err(Error::NotResumable { path: steps, reason: "is missing" });
     }
-    let mut positions = tables::read_steps(&steps)?;
+    let mut positions: Vec<StepRecord> = tables::read_growing(&steps)?;
     positions.retain(|step| step.pass <= passes.len());
     if !has_every_position(&positions, passes.len()) {
         let reason = "does not have every position of the finished passes";

@@ -43,15 +43,16 @@ pub use write::Writer;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use state::Stored;
-use state::update::UnderWay;
 
-use super::{summary, tables};
+use super::case::Case;
+use super::{identity, summary, tables};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::regular;
 use crate::motion::{
-    IncrementRecord, LoadingState, Pair, PassRecord, State, StepRecord, SweepRecord, UpdateRecord, WarmStart,
+    IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StepRecord, SweepRecord,
+    UpdateRecord, WarmStart,
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
@@ -83,11 +84,21 @@ impl Results {
         &self.directory
     }
 
-    /// Reads the resolved case.
+    /// Reads the case as it was computed, in SI.
+    ///
+    /// # Errors
+    /// [`Error::File`], also if the file contains no case, or one with keys that are no longer known.
+    pub fn case(&self) -> Result<Case> {
+        let case = identity::without_digests(&self.case_json()?);
+        serde_json::from_value(case).map_err(|error| self.failed(&self.case_path(), error.into()))
+    }
+
+    /// Reads `case.json`: the case in SI under the keys of the case file, with the digests of its files and the `identity`
+    /// of the run.
     ///
     /// # Errors
     /// [`Error::File`], also if the file contains no case.
-    pub fn case(&self) -> Result<Value> {
+    pub fn case_json(&self) -> Result<Value> {
         let path = self.case_path();
         let text = regular::read(&path, "a case", u64::MAX).map_err(|source| self.failed(&path, source))?;
         let case: Value = serde_json::from_slice(&text).map_err(|error| self.failed(&path, error.into()))?;
@@ -121,7 +132,7 @@ impl Results {
     /// Reads the rows of the table of passes, whatever the summary says.
     pub(super) fn passes_there(&self) -> Result<Vec<PassRecord>> {
         let path = self.passes_path();
-        if path.exists() { tables::read_passes(&path) } else { Ok(Vec::new()) }
+        if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
     }
 
     /// Reads the positions of the finished passes.
@@ -134,7 +145,7 @@ impl Results {
         if finished == 0 {
             return Ok(Vec::new());
         }
-        let mut steps = tables::read_steps(&path)?;
+        let mut steps: Vec<StepRecord> = tables::read_growing(&path)?;
         steps.retain(|step| step.pass <= finished);
         match has_every_position(&steps, finished) {
             true => Ok(steps),
@@ -177,7 +188,7 @@ impl Results {
     /// [`Error::File`], also if their number differs from that in the summary.
     pub fn updates(&self) -> Result<Vec<UpdateRecord>> {
         let path = self.updates_path();
-        let updates = if path.exists() { tables::read_updates(&path)? } else { Vec::new() };
+        let updates: Vec<UpdateRecord> = self.rows_at_rest(&path)?;
         self.agree(&path, updates.len(), |summary| Some(summary.sliding.as_ref()?.update + 1))?;
         Ok(updates)
     }
@@ -386,7 +397,7 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
-    pub(super) fn sliding_under_way(&self, pair: &Pair) -> Result<Option<UnderWay>> {
+    pub(super) fn sliding_under_way(&self, pair: &Pair) -> Result<Option<SlidingState>> {
         let (mut rows, table) = (self.updates()?, self.updates_path());
         let Some(done) = self.last_state(rows.len(), 0, &table)? else { return Ok(None) };
         let stored = Stored::open(&self.state_path(done))?;

@@ -43,27 +43,27 @@ impl Output for StepWriter {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
         let number = step.number();
         match step {
-            Step::Increment { state, of } => {
-                let file = (number < *of).then(|| self.state(number, |file| increment::add(file, state)));
+            Step::Increment { state, .. } => {
+                let file = self.state(step, |file| increment::add(file, state));
                 self.add(number, file, &[], &state.increments[number - 1..])
             }
             Step::Flow { record, .. } => self.rows.add(std::slice::from_ref(*record)),
-            Step::Update { state, of } => {
-                let file = (number < *of).then(|| self.state(number, |file| update::add(file, state)));
+            Step::Update { state, .. } => {
+                let file = self.state(step, |file| update::add(file, state));
                 self.add(number, file, &[], &state.updates[number..])
             }
-            Step::Point { record, contact, of } => {
+            Step::Point { record, contact, .. } => {
                 if is_kept(number, self.fields_every) {
                     self.write_point(number, contact)?;
                 }
-                let file = (number < *of).then(|| self.state(number, |_| ()));
+                let file = self.state(step, |_| ());
                 self.add(number, file, &[], std::slice::from_ref(*record))
             }
             Step::Pass(report) => {
                 self.write_pass(report)?;
                 let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
-                let file = self.state(number, |file| pass::add(file, number, &grids, report.warm));
-                self.add(number, Some(file), report.steps, std::slice::from_ref(report.record))?;
+                let file = self.state(step, |file| pass::add(file, number, &grids, report.warm));
+                self.add(number, file, report.steps, std::slice::from_ref(report.record))?;
                 match self.keep {
                     Keep::Last => self.results.remove(&self.results.flow_path(Some(number - 1))),
                     Keep::Passes => Ok(()),
@@ -139,11 +139,13 @@ impl StepWriter {
         wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
     }
 
-    /// Creates the file of the state after a step.
-    fn state(&self, number: usize, add: impl FnOnce(&mut FieldFile)) -> FieldFile {
-        let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(number));
-        add(&mut file);
-        file
+    /// Creates the file of the state after a step; `None` after the last step.
+    fn state(&self, step: &Step<'_>, add: impl FnOnce(&mut FieldFile)) -> Option<FieldFile> {
+        (!step.is_last()).then(|| {
+            let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(step.number()));
+            add(&mut file);
+            file
+        })
     }
 
     /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its own row.

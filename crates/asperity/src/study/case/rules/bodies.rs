@@ -21,8 +21,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`hardness` of a film",
         with: "no `hardness` of its body",
-        message: "a film has a 'hardness' where its body has one",
-        hint: "a film that bears more than its body is one without a 'hardness'",
+        message: "the film has a 'hardness', its body has none",
+        hint: "give the body a 'hardness', or leave that of the film out",
         at: "lower.film.hardness",
         example: &[
             r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0, hardness = "2 GPa" }"#,
@@ -34,7 +34,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`under_film`",
         with: "no film on the body",
-        message: "'under_film' belongs to a body with a film",
+        message: "'under_film' needs a film on the same body",
         hint: "give the body a film, or leave 'under_film' out",
         at: "lower.wear.under_film",
         example: &[

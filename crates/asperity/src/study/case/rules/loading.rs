@@ -9,7 +9,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`junction_growth`",
         with: "bodies that do not yield",
-        message: "'junction_growth' needs bodies that yield",
+        message: "'junction_growth' needs a body with a hardness",
         hint: "give the softer body a `hardness`",
         at: "friction.junction_growth",
         example: &["friction = { coefficient = 0.3, junction_growth = 9 }"],
@@ -21,7 +21,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`force`, `displacement`, `sliding`, `creepage`, `creepages`, `rolling_force`, `spin`, `increments` in [friction]",
         with: "[motion], [sliding]",
-        message: "'{key}' belongs to a static contact",
+        message: "'{key}' applies to a static contact only",
         hint: "in a [motion] the upper body slides over the lower one",
         at: "friction.force",
         example: &[r#"friction = { coefficient = 0.3, force = "0.1 N" }"#, AT_ANY_SPEED],
@@ -34,7 +34,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`coefficient = inf` without a `shear_strength`",
         with: "[motion], [sliding]",
-        message: "what sticks under any shear cannot slide",
+        message: "an infinite 'coefficient' without 'shear_strength' does not allow sliding",
         hint: "give a finite 'coefficient', or the 'shear_strength' of a film",
         at: "friction.coefficient",
         example: &["friction = { coefficient = inf }", AT_ANY_SPEED],
@@ -46,7 +46,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`coefficient = inf` without a `shear_strength`",
         with: "`sliding` in [friction] or [[history]]",
-        message: "what sticks under any shear cannot slide",
+        message: "an infinite 'coefficient' without 'shear_strength' does not allow sliding",
         hint: "give a finite 'coefficient', or the 'shear_strength' of a film",
         at: "friction.sliding",
         example: &["friction = { coefficient = inf, sliding = [1, 0] }"],
@@ -67,8 +67,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`spin`",
         with: "bodies that do not roll",
-        message: "'spin' belongs to a rolling contact",
-        hint: "give `creepage`, 0 if there is none, or `rolling_force`",
+        message: "'spin' needs a rolling contact",
+        hint: "give `creepage`, which may be 0, or `rolling_force`",
         at: "friction.spin",
         example: &["friction = { coefficient = 0.3, spin = 20 }"],
         broken: |tables| tables.at("friction.spin").filter(|_| !tables.rolls()),
@@ -76,7 +76,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`spin`",
         with: "a boundary that is periodic along an axis",
-        message: "what spins does not repeat itself: its boundary is free",
+        message: "'spin' needs a free boundary",
         hint: "use `boundary = \"free\"`, or leave 'spin' out",
         at: "friction.spin",
         example: &[LINE, "friction = { coefficient = 0.3, creepage = 0, spin = 20 }"],
@@ -87,8 +87,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a sweep",
         with: "[motion]",
-        message: "a [motion] has no '{key}'",
-        hint: "it has one `load`, `mean_pressure` or `approach`",
+        message: "[motion] does not take '{key}'",
+        hint: "give one `load`, `mean_pressure` or `approach`",
         at: "contact.loads",
         example: &[SWEEP, AT_ANY_SPEED],
         broken: |tables| tables.at("motion").and(tables.sweep()),
@@ -97,7 +97,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "a sweep",
         with: "[[history]]",
         message: "'{key}' and [[history]] are both given, expected one of them",
-        hint: "each of its values presses virgin bodies, in a history what is flattened stays flat",
+        hint: "each value of a list presses virgin bodies; the stages of a [[history]] follow each other",
         at: "contact.mean_pressures",
         example: &[r#"contact = { mean_pressures = ["1 MPa", "2 MPa"] }"#, r#"history = [{ load = "1 N" }]"#],
         broken: |tables| tables.at("history").and(tables.sweep()),
@@ -106,7 +106,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "a sweep",
         with: "`creepages`",
         message: "'{key}' and 'creepages' are both given, expected one of them",
-        hint: "a sweep goes through loads at one `creepage`, or through creepages under one `load`",
+        hint: "vary the load at one `creepage`, or the creepage under one `load`",
         at: "contact.loads",
         example: &[SWEEP, "friction = { coefficient = 0.3, creepages = [1e-3, 2e-3] }"],
         broken: |tables| tables.at("friction.creepages").and(tables.sweep()),
@@ -114,8 +114,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a sweep",
         with: "[friction] without rolling",
-        message: "with [friction] only what rolls has '{key}'",
-        hint: "what sticks and slips depends on how a load came about: give a `creepage`, a `rolling_force`, or stages in a \
+        message: "with [friction], '{key}' needs a rolling contact",
+        hint: "stick and slip depend on the loading path: give a `creepage`, a `rolling_force`, or stages in a \
                [[history]]",
         at: "contact.loads",
         example: &[SWEEP, r#"friction = { coefficient = 0.3, force = "0.1 N" }"#],
@@ -124,8 +124,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[[history]]",
         with: "[motion]",
-        message: "a [motion] has no [[history]]",
-        hint: "a history is that of a static contact",
+        message: "[[history]] applies to a static contact only",
+        hint: "leave [[history]] or [motion] out",
         at: "history",
         example: &[r#"history = [{ load = "1 N" }]"#, AT_ANY_SPEED],
         broken: |tables| tables.stages().into_iter().next().filter(|_| tables.case.motion.is_some()),
@@ -142,7 +142,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`force`, `displacement`, `sliding` in [[history]]",
         with: "no [friction]",
-        message: "'{key}' acts on a contact with friction",
+        message: "'{key}' needs [friction]",
         hint: "add a [friction] table with its `coefficient`",
         at: "history.force",
         example: &[r#"history = [{ force = "0.1 N" }]"#],
@@ -151,4 +151,4 @@ pub(super) const RULES: &[Rule] = &[
 ];
 
 /// Why a rolling contact has neither stages nor increments.
-const STEADY: &str = "its steady state does not depend on how it was reached";
+const STEADY: &str = "the steady state does not depend on the loading path";

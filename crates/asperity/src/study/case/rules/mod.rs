@@ -1,7 +1,7 @@
 //! What does not go together in a case file: one table.
 //!
 //! Each row has a message, a hint and the key that the error points to. A case is held against the rows once all of its tables
-//! are read, `docs/input.md` lists them, and a test walks them by their examples.
+//! are read, `docs/input/combinations.md` lists them, and a test walks them by their examples.
 
 mod bodies;
 mod examples;
@@ -108,7 +108,7 @@ impl<'a> Tables<'a> {
 
     /// The key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
-        self.first("contact", &super::sweep::KEYS)
+        self.first("contact", &super::prescribed::LISTS)
     }
 
     /// The stages of the history, or the history where it has none.

@@ -8,7 +8,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`strategy = \"overlap\"`",
         with: "a boundary periodic along x",
-        message: "a boundary periodic along x has no overlap, where a finite body passes over another",
+        message: "strategy = \"overlap\" needs a boundary that is free along x",
         hint: "use `boundary = \"free\"` or `[\"free\", \"periodic\"]`, or `strategy = \"shift\"` under [motion]",
         at: "contact.boundary",
         example: &[r#"contact = { load = "2 N", boundary = "periodic" }"#, AT_ANY_SPEED],
@@ -20,8 +20,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`speed_lower`, `speed_upper`",
         with: "`strategy = \"overlap\"`",
-        message: "a speed has no meaning with strategy = \"overlap\"",
-        hint: "only positions count there; speeds belong to `strategy = \"shift\"`",
+        message: "'{key}' applies to strategy = \"shift\" only",
+        hint: "give `speed` in an overlap, or set `strategy = \"shift\"`",
         at: "motion.speed_upper",
         example: &[r#"motion = { speed_upper = "10 mm/s" }"#],
         broken: |tables| {
@@ -32,8 +32,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`speed`",
         with: "`strategy = \"shift\"`",
-        message: "'speed' belongs to strategy = \"overlap\"",
-        hint: "a shift has `speed_lower` and `speed_upper`",
+        message: "'speed' applies to strategy = \"overlap\" only",
+        hint: "give `speed_lower` and `speed_upper`",
         at: "motion.speed",
         example: &[r#"motion = { strategy = "shift", speed = "10 mm/s" }"#],
         broken: |tables| {
@@ -44,7 +44,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`offset_y`",
         with: "a boundary free along y",
-        message: "what is displaced along y comes in on the other side: its boundary is periodic along y",
+        message: "'offset_y' needs a boundary that is periodic along y",
         hint: "set `boundary = [\"free\", \"periodic\"]` or `\"periodic\"` in [contact], or leave 'offset_y' out",
         at: "motion.offset_y",
         example: &["motion = { offset_y = 3 }"],
@@ -56,7 +56,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`seed` in [motion]",
         with: "an `offset_y` that is not `\"random\"`",
-        message: "'seed' is that of passes that lie anywhere along y",
+        message: "'seed' needs offset_y = \"random\"",
         hint: "set `offset_y = \"random\"`, or leave 'seed' out",
         at: "motion.seed",
         example: &["motion = { seed = 7 }"],
@@ -94,7 +94,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`counter = \"fresh\"`",
         with: "an upper topography that is not generated",
-        message: "a fresh counter-body is made from another seed: the upper topography has none",
+        message: "counter = \"fresh\" needs a generated upper surface",
         hint: "give [upper.topography] a `generate`, or set `counter = \"same\"`",
         at: "motion.counter",
         example: &[r#"motion = { counter = "fresh" }"#],
@@ -108,7 +108,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "[sliding]",
         with: "[motion]",
         message: "[sliding] and [motion] are both given, expected one of them",
-        hint: "in [sliding] the same cells face each other all the way, in a [motion] all pass each other",
+        hint: "in [sliding] the same cells stay opposite each other; in a [motion] one surface passes over the other",
         at: "sliding",
         example: &[WEARS, SLIDES, MOVES],
         broken: |tables| tables.at("motion").and(tables.at("sliding")),
@@ -116,8 +116,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[sliding]",
         with: "[[history]]",
-        message: "[sliding] has no [[history]]",
-        hint: "what is prescribed in [contact] holds all the way",
+        message: "[sliding] does not take a [[history]]",
+        hint: "the load or approach in [contact] holds all the way",
         at: "sliding",
         example: &[WEARS, SLIDES, r#"history = [{ load = "1 N" }]"#],
         broken: |tables| tables.at("history").and(tables.at("sliding")),
@@ -125,8 +125,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[sliding]",
         with: "a sweep",
-        message: "[sliding] has no '{key}'",
-        hint: "it has one `load`, `mean_pressure` or `approach`",
+        message: "[sliding] does not take '{key}'",
+        hint: "give one `load`, `mean_pressure` or `approach`",
         at: "contact.loads",
         example: &[WEARS, SWEEP, SLIDES],
         broken: |tables| tables.at("sliding").and(tables.sweep()),
@@ -134,7 +134,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[sliding]",
         with: "[acceleration]",
-        message: "[acceleration] is that of a [motion]",
+        message: "[acceleration] needs [motion]",
         hint: "set `updates` in [sliding], or leave [acceleration] out",
         at: "acceleration",
         example: &[WEARS, SLIDES, JUMPS],
@@ -143,7 +143,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[sliding]",
         with: "bodies without wear and film",
-        message: "[sliding] is of bodies that wear or grow films",
+        message: "[sliding] needs a body with wear or a film",
         hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [sliding] out",
         at: "sliding",
         example: &[SLIDES],

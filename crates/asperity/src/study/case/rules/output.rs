@@ -8,8 +8,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`step` in [subsurface]",
         with: "a contact at rest",
-        message: "'step' has no meaning without [motion]",
-        hint: "a static contact has one position; leave it out",
+        message: "'step' needs [motion]",
+        hint: "leave it out: a static contact has one position",
         at: "subsurface.step",
         example: &[r#"subsurface = { to = "20 um", step = 3 }"#],
         broken: |tables| tables.at("subsurface.step").filter(|_| tables.case.motion.is_none()),
@@ -17,7 +17,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[subsurface]",
         with: "a boundary periodic along one axis alone",
-        message: "a boundary periodic along one axis alone has no [subsurface] yet",
+        message: "[subsurface] does not support a boundary that is periodic along one axis only",
         hint: "leave [subsurface] out, or use \"free\" or \"periodic\"",
         at: "contact.boundary",
         example: &[LINE, r#"subsurface = { to = "20 um" }"#],
@@ -49,7 +49,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a coating",
         with: "a boundary periodic along one axis alone",
-        message: "a coated body has no boundary that is periodic along one axis alone yet",
+        message: "a coating does not support a boundary that is periodic along one axis only",
         hint: "use \"free\" or \"periodic\", or leave the coating out",
         at: "contact.boundary",
         example: &[COATED, LINE],
@@ -58,7 +58,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a coating",
         with: "[subsurface]",
-        message: "stresses under a coating are not known yet",
+        message: "[subsurface] does not support coatings yet",
         hint: "leave [subsurface] or the coating out",
         at: "subsurface",
         example: &[COATED, r#"subsurface = { to = "20 um" }"#],

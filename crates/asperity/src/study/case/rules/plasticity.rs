@@ -10,7 +10,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[plasticity]",
         with: "bodies without a plasticity",
-        message: "no body flows: neither has a plasticity",
+        message: "[plasticity] needs an elasto-plastic body",
         hint: "give a body `[lower.plasticity]` with its `yield_stress`, or leave [plasticity] out",
         at: "plasticity",
         example: &[VOLUME],
@@ -19,7 +19,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "no [plasticity]",
-        message: "missing table [plasticity]: [{path}] has no volume to flow in",
+        message: "missing table [plasticity]: [{path}] needs its `depth` and `layers`",
         hint: "for example `[plasticity]` with `depth = \"20 um\"` and `layers = 16`",
         at: "lower.plasticity",
         example: &[FLOWS],
@@ -28,7 +28,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "`young = inf` of the body",
-        message: "a rigid body does not flow",
+        message: "a rigid body cannot be elasto-plastic",
         hint: "give it a finite 'young', or leave its plasticity out",
         at: "lower.plasticity",
         example: &["lower.young = inf", FLOWS, VOLUME],
@@ -37,7 +37,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "its `hardness`",
-        message: "a body that flows below its surface has no 'hardness'",
+        message: "an elasto-plastic body does not take a 'hardness'",
         hint: "leave 'hardness' out, or the plasticity",
         at: "lower.hardness",
         example: &[r#"lower.hardness = "4 GPa""#, FLOWS, VOLUME],
@@ -48,8 +48,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "`hardness` of the other body",
-        message: "'hardness' has no meaning beside a body that flows below its surface",
-        hint: "give this body a plasticity, or neither of them",
+        message: "a body with a 'hardness' cannot meet an elasto-plastic body",
+        hint: "give this body a plasticity in place of the hardness",
         at: "upper.hardness",
         example: &[FLOWS, r#"upper.hardness = "4 GPa""#, VOLUME],
         broken: |tables| tables.of_body("hardness", |body| body.hardness.yields()).filter(|_| tables.flows()),
@@ -57,7 +57,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "its coating",
-        message: "flow under a coating is not known yet",
+        message: "a coated body cannot be elasto-plastic yet",
         hint: "leave the coating or the plasticity out",
         at: "lower.plasticity",
         example: &[COATED, FLOWS, VOLUME],
@@ -66,7 +66,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "a coating of the other body",
-        message: "flow beside a coating is not known yet",
+        message: "a coated body cannot meet an elasto-plastic body yet",
         hint: "leave the coating or the plasticity out",
         at: "upper.coating",
         example: &[
@@ -79,7 +79,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "wear, a film",
-        message: "bodies that flow below their surfaces have no {key} yet",
+        message: "elasto-plastic bodies do not support {key} yet",
         hint: "leave the plasticity out, and give the bodies a `hardness`",
         at: "lower.wear",
         example: &[FLOWS, WEARS, VOLUME, MOVES],
@@ -91,7 +91,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "[temperature]",
-        message: "a flash temperature is that of bodies that stay as they are in a pass",
+        message: "elasto-plastic bodies do not support a flash temperature yet",
         hint: "leave [temperature] or the plasticity out",
         at: "temperature",
         example: &[FLOWS, VOLUME, MOVES, WARM],
@@ -100,7 +100,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "a sweep",
-        message: "bodies that flow keep what has flowed: they have no sweep",
+        message: "elasto-plastic bodies do not take '{key}'",
         hint: "give stages in a [[history]]",
         at: "contact.loads",
         example: &[FLOWS, VOLUME, SWEEP],
@@ -109,7 +109,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "a boundary periodic along one axis alone",
-        message: "a boundary periodic along one axis alone has no plastic strain yet",
+        message: "elasto-plastic bodies do not support a boundary that is periodic along one axis only",
         hint: "use \"free\" or \"periodic\", or give the bodies a `hardness`",
         at: "contact.boundary",
         example: &[FLOWS, VOLUME, LINE],
@@ -118,8 +118,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "steady rolling",
-        message: "the steady state of rolling is that of bodies that do not flow",
-        hint: "move the bodies in a [motion], where one rolls over the other at a speed of 0",
+        message: "steady rolling does not support elasto-plastic bodies",
+        hint: "use a [motion] in which one body rolls over the other, with both speeds equal or one of them 0",
         at: "friction",
         example: &[FLOWS, VOLUME, ROLLS],
         broken: |tables| tables.at("friction").filter(|_| tables.flows() && tables.rolls()),
@@ -127,8 +127,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`keep` in [plasticity]",
         with: "a contact at rest",
-        message: "'keep' is that of the passes of a [motion]",
-        hint: "leave it out: a contact at rest has one volume, that of its end",
+        message: "'keep' needs [motion]",
+        hint: "leave it out: a static contact stores its final plastic state",
         at: "plasticity.keep",
         example: &[FLOWS, r#"plasticity = { depth = "20 um", layers = 16, keep = "last" }"#],
         broken: |tables| tables.at("plasticity.keep").filter(|_| tables.case.motion.is_none()),
@@ -136,8 +136,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`increments`, `unload` in [plasticity]",
         with: "[motion]",
-        message: "'{key}' is that of a contact at rest",
-        hint: "leave it out: in a [motion] the bodies flow position by position, and each pass ends without load",
+        message: "'{key}' applies to a static contact only",
+        hint: "leave it out: a [motion] has one increment per position, and each pass ends unloaded",
         at: "plasticity.increments",
         example: &[FLOWS, r#"plasticity = { depth = "20 um", layers = 16, increments = 8 }"#, AT_ANY_SPEED],
         broken: |tables| {
@@ -149,7 +149,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "`increments` in [plasticity]",
         with: "`increments` in [friction]",
         message: "'increments' is given in [plasticity] and in [friction]",
-        hint: "leave it out: those of [friction] count",
+        hint: "leave it out: [friction] sets the increments",
         at: "plasticity.increments",
         example: &[
             FLOWS,
@@ -161,7 +161,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity",
         with: "`plastic_update = \"pass\"`",
-        message: "bodies that flow below their surfaces do so at every position",
+        message: "elasto-plastic bodies need plastic_update = \"step\"",
         hint: "leave it out, or set `plastic_update = \"step\"`",
         at: "motion.plastic_update",
         example: &[FLOWS, VOLUME, r#"motion = { plastic_update = "pass" }"#],
@@ -174,7 +174,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "plasticity of the upper body",
         with: "`counter = \"fresh\"`",
-        message: "an upper body that is another in each pass does not keep what has flowed",
+        message: "a fresh counter-body does not keep its plastic state",
         hint: "leave the plasticity of the upper body out, or 'counter'",
         at: "motion.counter",
         example: &[
@@ -191,7 +191,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a body's plasticity in a shift",
         with: "a boundary that is not periodic",
-        message: "plastic strain goes round with the surfaces of a shift: their boundary is periodic",
+        message: "an elasto-plastic body in a shift needs a periodic boundary",
         hint: "set `boundary = \"periodic\"` in [contact]",
         at: "motion.strategy",
         example: &[FLOWS, VOLUME, r#"motion = { strategy = "shift" }"#],

@@ -9,7 +9,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[friction] in a motion",
         with: "equal speeds",
-        message: "surfaces of equal speeds do not slide over each other",
+        message: "[friction] needs surfaces with different speeds",
         hint: "give the speeds different values, or leave [friction] out",
         at: "friction",
         example: &[RUBS, r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 1 }"#],
@@ -21,7 +21,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a film that grows in [sliding]",
         with: "no `speed`",
-        message: "missing key 'speed' in [sliding]: films take time",
+        message: "missing key 'speed' in [sliding]: films grow with time",
         hint: "for example `speed = \"10 mm/s\"` in [sliding]",
         at: "sliding",
         example: &[GROWS, SLIDES, WARM],
@@ -33,7 +33,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear, a film",
         with: "a contact at rest",
-        message: "a contact at rest has no {key}",
+        message: "{key} needs [motion] or [sliding]",
         hint: "add a [motion] with its `speed`, or [sliding]",
         at: "lower.wear",
         example: &[WEARS],
@@ -45,7 +45,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear, a film in an overlap",
         with: "no `speed`",
-        message: "missing key 'speed' in [motion]: wear and films take time",
+        message: "missing key 'speed' in [motion]: wear and films need the time of a pass",
         hint: "for example `speed = \"0.5 m/s\"` in [motion]",
         at: "motion",
         example: &[WEARS, AT_ANY_SPEED],
@@ -57,7 +57,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear, a film in a shift",
         with: "no speeds",
-        message: "missing key 'speed_upper' in [motion]: wear and films take time",
+        message: "missing key 'speed_upper' in [motion]: wear and films need the time of a pass",
         hint: "for example `speed_upper = \"0.5 m/s\"` in [motion]",
         at: "motion",
         example: &[WEARS, r#"motion = { strategy = "shift" }"#],
@@ -70,7 +70,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear",
         with: "equal speeds",
-        message: "surfaces that roll at equal speeds do not wear",
+        message: "wear needs surfaces with different speeds",
         hint: "give the speeds different values, or leave the wear out",
         at: "lower.wear",
         example: &[WEARS, r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 1 }"#],
@@ -94,7 +94,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`energy` in a wear",
         with: "no [friction]",
-        message: "'energy' needs friction",
+        message: "'energy' needs [friction]",
         hint: "add a [friction] table with its `coefficient`",
         at: "lower.wear.energy",
         example: &[r#"lower.wear = { energy = "1e-6 mm3/J" }"#, MOVES],
@@ -107,7 +107,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`stress = \"shear\"` of a film",
         with: "no [friction]",
-        message: "'stress' needs friction",
+        message: "stress = \"shear\" needs [friction]",
         hint: "add a [friction] table with its `coefficient`",
         at: "lower.film.stress",
         example: &[
@@ -128,7 +128,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a film that grows",
         with: "no [temperature]",
-        message: "a film grows at a temperature",
+        message: "a film that grows needs [temperature]",
         hint: "add `[temperature]` with `bulk = \"100 °C\"`",
         at: "lower.film",
         example: &[GROWS, MOVES],
@@ -137,7 +137,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[acceleration]",
         with: "bodies without wear and film",
-        message: "[acceleration] is of bodies that wear or grow films",
+        message: "[acceleration] needs a body with wear or a film",
         hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out",
         at: "acceleration",
         example: &[MOVES, JUMPS],
@@ -146,7 +146,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`max_jump` above 1",
         with: "`counter = \"fresh\"`",
-        message: "a fresh counter-body meets anew in each pass: no pass stands for others",
+        message: "extrapolation needs passes that repeat: counter = \"fresh\" changes the upper body",
         hint: "set `max_jump = 1`, or `counter = \"same\"`",
         at: "acceleration",
         example: &[WEARS, GENERATED, r#"motion = { speed = "0.5 m/s", counter = "fresh" }"#, JUMPS],
@@ -158,7 +158,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`max_jump` above 1",
         with: "`offset_y`",
-        message: "surfaces that are displaced across meet anew in each pass: no pass stands for others",
+        message: "extrapolation needs passes that repeat: 'offset_y' moves the surfaces in each pass",
         hint: "set `max_jump = 1`, or `offset_y = 0`",
         at: "acceleration",
         example: &[WEARS, LINE, r#"motion = { speed = "0.5 m/s", offset_y = "random" }"#, JUMPS],
@@ -170,8 +170,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`max_jump` above 1",
         with: "a one-way shift whose speeds have another ratio than 0 or 1",
-        message: "surfaces that do not move by whole rounds meet anew in each pass: no pass stands for others",
-        hint: "set `max_jump = 1`, or speeds of which one is 0 or which are equal, or `path = \"reciprocating\"`",
+        message: "extrapolation needs passes that repeat: with these speeds the surfaces meet elsewhere in each pass",
+        hint: "set `max_jump = 1`, one speed to 0, both speeds equal, or `path = \"reciprocating\"`",
         at: "acceleration",
         example: &[
             WEARS,

@@ -10,7 +10,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "thermal constants of [lower]",
         with: "none of [upper]",
         message: "[lower] has thermal constants, [upper] has none",
-        hint: "heat is divided between both: give them to [upper], too",
+        hint: "give them to [upper], too: both bodies conduct the heat",
         at: "lower.conductivity",
         example: &[CONDUCTS, MOVES, WARM],
         broken: |tables| {
@@ -22,7 +22,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "thermal constants of [upper]",
         with: "none of [lower]",
         message: "[upper] has thermal constants, [lower] has none",
-        hint: "heat is divided between both: give them to [lower], too",
+        hint: "give them to [lower], too: both bodies conduct the heat",
         at: "upper.conductivity",
         example: &[UPPER_CONDUCTS, MOVES, WARM],
         broken: |tables| {
@@ -33,7 +33,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "thermal constants",
         with: "no [temperature]",
-        message: "thermal constants are those of a case with [temperature]",
+        message: "thermal constants need [temperature]",
         hint: "add `[temperature]` with `bulk = \"100 °C\"`",
         at: "lower.conductivity",
         example: &[CONDUCTS, UPPER_CONDUCTS],
@@ -42,7 +42,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a contact at rest",
-        message: "a contact at rest has no [temperature]",
+        message: "[temperature] needs [motion] or [sliding]",
         hint: "",
         at: "temperature",
         example: &[WARM],
@@ -51,7 +51,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`every` above 1",
         with: "[sliding]",
-        message: "'every' is {value}, expected 1, the flash temperature of each update, or 0, none",
+        message: "'every' is {value}, expected 1 (a flash temperature at each update) or 0 (none)",
         hint: "",
         at: "temperature.every",
         example: &[WEARS, SLIDES, r#"temperature = { bulk = "100 °C", every = 3 }"#],
@@ -60,7 +60,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`every` above 1",
         with: "`counter = \"fresh\"`",
-        message: "'every' is {value}, expected 1 or 0: a fresh counter-body has not been warm before",
+        message: "'every' is {value}, expected 1 or 0 with counter = \"fresh\"",
         hint: "",
         at: "temperature.every",
         example: &[
@@ -85,7 +85,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a flash temperature",
         with: "no [friction]",
-        message: "without [friction] nothing is heated",
+        message: "a flash temperature needs [friction]",
         hint: "add a [friction] table, or set `every = 0`",
         at: "temperature",
         example: &[CONDUCTS, UPPER_CONDUCTS, MOVES, WARM],
@@ -125,7 +125,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a flash temperature in a shift",
         with: "a boundary that is free along x",
-        message: "the heat of surfaces that go round goes round with them: their boundary is periodic along x",
+        message: "a flash temperature in a shift needs a boundary that is periodic along x",
         hint: "set `boundary = \"periodic\"` in [contact], or `every = 0`",
         at: "temperature",
         example: &[
@@ -143,7 +143,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a flash temperature",
         with: "`plastic_update = \"step\"`",
-        message: "a flash temperature is that of bodies that stay as they are in a pass",
+        message: "a flash temperature needs plastic_update = \"pass\"",
         hint: "set `plastic_update = \"pass\"`",
         at: "temperature",
         example: &[

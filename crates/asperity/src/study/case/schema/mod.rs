@@ -1,7 +1,7 @@
 //! The keys of a case file, each declared once.
 //!
 //! A declaration holds the name, the values that are accepted, what holds without the key, an example and the meaning. The
-//! reader of case files, its messages, the units of study axes and the tables of `docs/input.md` all come from it.
+//! reader of case files, its messages, the units of study axes and the tables of `docs/input` all come from it.
 
 pub(in crate::study) mod body;
 pub(in crate::study) mod loading;
@@ -89,9 +89,9 @@ pub enum Kind {
 pub enum Bounds {
     /// All that are finite.
     Any,
-    /// Those of at least 0.
+    /// Values of at least 0.
     FromZero,
-    /// Those of at least 0, and infinity with its meaning.
+    /// Values of at least 0, and infinity with its meaning.
     FromZeroOrInfinite(&'static str),
     /// Those above 0.
     AboveZero,
@@ -106,7 +106,7 @@ pub enum Bounds {
         /// Whether the ends are left out.
         open: [bool; 2],
     },
-    /// Those of a narrower range of magnitudes, and 0 if true.
+    /// Values in a narrower range of magnitudes, and 0 if true.
     Within(Range, bool),
 }
 

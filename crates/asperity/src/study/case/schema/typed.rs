@@ -1,5 +1,7 @@
 //! Keys with the type of what they are read as.
 
+use std::ops::Deref;
+
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
 use super::{Bounds, Fallback, Key, Kind};
@@ -102,6 +104,32 @@ pub(super) use section;
 
 // How keys are read.
 
+impl Key {
+    /// The entry of the key, where it is given.
+    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+        table.get(self.name)
+    }
+
+    /// The entry of the key, which must be given.
+    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
+        self.entry(table).ok_or_else(|| missing(self, table))
+    }
+}
+
+macro_rules! is_a_key {
+    ($($name:ident$(<$type:ident>)?),+) => {$(
+        impl$(<$type>)? Deref for $name$(<$type>)? {
+            type Target = Key;
+
+            fn deref(&self) -> &Key {
+                &self.key
+            }
+        }
+    )+};
+}
+
+is_a_key!(Typed<T>, Optional<T>, Nested);
+
 impl<T> Typed<T> {
     /// The value in `table`, or the default.
     pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<T> {
@@ -125,16 +153,6 @@ impl<T> Typed<T> {
     fn value_of(&self, text: &str) -> T {
         read_text(&self.key, self.read, text).expect("a value in a declaration is one of the key")
     }
-
-    /// The entry of the key, where it is given.
-    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
-        table.get(self.key.name)
-    }
-
-    /// The entry of the key, which must be given.
-    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
-        table.get(self.key.name).ok_or_else(|| missing(&self.key, table))
-    }
 }
 
 impl<T> Optional<T> {
@@ -153,16 +171,6 @@ impl<T> Optional<T> {
     pub(in crate::study::case) fn required(&self, table: &Table<'_>) -> Result<T> {
         (self.read)(&self.key, &self.demand(table)?)
     }
-
-    /// The entry of the key, where it is given.
-    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
-        table.get(self.key.name)
-    }
-
-    /// The entry of the key, which must be given.
-    pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
-        table.get(self.key.name).ok_or_else(|| missing(&self.key, table))
-    }
 }
 
 impl Nested {
@@ -174,11 +182,6 @@ impl Nested {
     /// The table, which must be given.
     pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
         table.required_table(self.key.name)
-    }
-
-    /// The entry of the table, where it is given.
-    pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
-        table.get(self.key.name)
     }
 }
 
