@@ -151,7 +151,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
             let simulation = Simulation::new(rough_pair(24), boundary, motion, Params::default()).unwrap();
             continued(simulation.with_rim(rim).unwrap())
         });
-        // Of 24 cells, those with centres farther than 4.8 cells from an end.
+        // Those of the 24 cells with centres farther than 4.8 cells from an end.
         let interior = |field: &Field, columns: bool| {
             let (inside, all) = (5..19, 0..24);
             let x = if columns { inside.clone() } else { all.clone() };
