@@ -28,6 +28,7 @@ mod response;
 mod rolling;
 mod running_in;
 mod sliding;
+mod smooth_forms;
 mod solver;
 mod steady_rolling;
 mod subsurface;
