@@ -20,6 +20,7 @@ pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
         },
         sweep,
         boundary: keys::BOUNDARY.of(table)?,
+        grid: keys::GRID.of(table)?,
         method: keys::METHOD.of(table)?,
         tolerance: keys::TOLERANCE.of(table)?,
     })
