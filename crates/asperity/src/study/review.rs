@@ -213,8 +213,23 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
     let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
-    let all = flows.into_iter().chain(wears).chain(too_few_cells(largest));
+    let all = contact_in_the_rim(passes).into_iter().chain(flows).chain(wears).chain(too_few_cells(largest));
     all.chain(thick_films(passes)).chain(all_computed(case, passes)).chain(settled(passes)).collect()
+}
+
+/// The warning that most of the contact of the last pass lies in the rim, which means over the interior leave out.
+fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
+    /// Share of the contact in the rim that is too much; equal bodies that overlap in part have more than a half of it there.
+    const MOST: f64 = 0.9;
+    let last = passes.last()?;
+    let share = 1.0 - last.mean_contact_area_interior / last.mean_contact_area;
+    (share > MOST).then(|| {
+        format!(
+            "{:.1} % of the contact area lies in the rim of the bodies: the columns of the interior describe next to none of the contact; \
+             remove tilt and form by `level`, or `taper` the ends",
+            100.0 * share
+        )
+    })
 }
 
 /// The warning that a film is thicker than the roughness that it stands on, whose contact it then is.
