@@ -10,6 +10,7 @@ use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bod
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
+use crate::closed_form;
 use crate::report::{Outcome, clipped, note, print};
 use crate::{machine, place};
 
@@ -42,10 +43,13 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
         }
         _ => None,
     };
+    let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
-    for (name, value) in rows.into_iter().chain(friction).chain(history).chain(laws).chain(stress) {
+    for (name, value) in
+        rows.into_iter().chain(theory).chain(friction).chain(history).chain(laws).chain(stress)
+    {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod closed_form;
 mod draw;
 mod example;
 mod figures;

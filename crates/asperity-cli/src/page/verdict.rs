@@ -5,6 +5,7 @@ use asperity::study::Outcome;
 use asperity::units::{Dimension, format, format_number};
 
 use super::found::Found;
+use crate::closed_form;
 use crate::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
@@ -150,6 +151,13 @@ fn of_rest(found: &Found, record: &StaticRecord) -> String {
         format(record.max_pressure, Dimension::Pressure),
         format(record.approach, Dimension::Length)
     );
+    if let Some(theory) = found.summary.as_ref().and_then(|summary| summary.closed_form.as_ref()) {
+        let (values, deviations) = (closed_form::computed(theory), closed_form::deviations(theory));
+        text += &format!(
+            " The theory of {} gives: {values}. The computed contact deviates: {deviations}.",
+            theory.theory
+        );
+    }
     if let Some(shear) = &record.shear {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
         let ratio = format_number(shear.force_ratio);

@@ -1,12 +1,11 @@
 //! What is told of a contact at the end: a line for each of its numbers.
 
 use asperity::motion::{FlowRecord, StaticRecord};
-use asperity::study::Case;
-use asperity::study::SubsurfaceRecord;
-use asperity::study::{Outcome, Summary};
+use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
+use crate::closed_form;
 
 /// Describes a static contact and the largest stress below the surface, a line for each number. The rows of passes and points are
 /// printed as they come.
@@ -15,8 +14,18 @@ pub fn text(case: &Case, summary: &Summary) -> String {
         Outcome::Static(record) => static_table(record, planes(case)),
         Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
     };
+    let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let flow = summary.plasticity.as_ref().map_or(String::new(), flow_line);
-    contact + &flow + &summary.subsurface.iter().map(stress_line).collect::<String>()
+    contact + &theory + &flow + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+/// The closed form of the contact, and the deviation of the computed contact from it.
+fn theory_lines(record: &ClosedFormRecord) -> String {
+    let rows = [
+        (record.theory.to_string(), closed_form::computed(record)),
+        ("deviation".to_owned(), closed_form::deviations(record)),
+    ];
+    rows.iter().map(|(name, value)| line(name, value)).collect()
 }
 
 /// What becomes of bodies that flow pass after pass.
@@ -119,5 +128,9 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
             ("dent left", format(dent, Dimension::Length)),
         ]);
     }
-    rows.iter().map(|(name, value)| format!("{name:<17} {value}\n")).collect()
+    rows.iter().map(|(name, value)| line(name, value)).collect()
+}
+
+fn line(name: &str, value: &str) -> String {
+    format!("{name:<17} {value}\n")
 }

@@ -1,0 +1,37 @@
+//! The closed form of a contact of smooth forms, in words.
+
+use asperity::study::{ClosedForm, ClosedFormRecord};
+use asperity::units::{Dimension, Metre, Pascal, format};
+
+/// Describes the closed form that is expected of a contact.
+pub(crate) fn expected(form: &ClosedForm) -> String {
+    format!("{}, {}", form.theory, values(form.half_widths, form.max_pressure, form.approach))
+}
+
+/// Describes the closed form beside a computed contact.
+pub(crate) fn computed(record: &ClosedFormRecord) -> String {
+    values(record.theory_half_widths, record.theory_max_pressure, record.theory_approach)
+}
+
+/// Describes by how much the computed contact deviates from its closed form.
+pub(crate) fn deviations(record: &ClosedFormRecord) -> String {
+    let of = [
+        ("area", Some(record.contact_area_deviation)),
+        ("largest pressure", record.max_pressure_deviation),
+        ("approach", record.approach_deviation),
+    ];
+    let shown = of.into_iter().filter_map(|(name, deviation)| Some((name, 100.0 * deviation?)));
+    shown.map(|(name, percent)| format!("{name} {percent:+.2} %")).collect::<Vec<_>>().join(", ")
+}
+
+fn values([a, b]: [Metre; 2], max_pressure: Option<Pascal>, approach: Option<Metre>) -> String {
+    let length = |value| format(value, Dimension::Length);
+    let widths = match (a - b).abs() <= 1e-9 * a {
+        true => format!("contact radius {}", length(a)),
+        false => format!("half widths {} along x and {} along y", length(a), length(b)),
+    };
+    let pressure =
+        max_pressure.map(|pressure| format!("largest pressure {}", format(pressure, Dimension::Pressure)));
+    let approach = approach.map(|approach| format!("approach {}", length(approach)));
+    [Some(widths), pressure, approach].into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
