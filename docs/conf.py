@@ -41,7 +41,7 @@ html_theme_options = {
     "pygments_light_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
-html_sidebars = {"index": [], "gallery": []}
+html_sidebars = {"index": [], "start": [], "gallery": []}
 
 # Formulas are MathML, which browsers draw themselves: no script is fetched.
 html_math_renderer = "mathml"
@@ -86,7 +86,7 @@ def inline_formula(self, node):
 
 
 def displayed_formula(self, node):
-    self.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    self.body.append(f'<div class="formula">{convert(node.astext(), display="block")}</div>')
     raise SkipNode
 
 
