@@ -1,7 +1,7 @@
-//! The command `asperity-mpi`: a contact at rest on a grid that is divided among the ranks of MPI.
+//! The command `asperity-mpi`: a static contact on a grid distributed over the ranks of MPI.
 
-mod memory; // whether that of the machines suffices
-mod world; // the processes that mpirun starts
+mod memory; // check of the memory of the machines
+mod world; // the processes started by mpirun
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -70,7 +70,7 @@ fn main() -> ExitCode {
             return ExitCode::from(error.exit_code() as u8);
         }
     };
-    // A rank is one thread: machines with many cores have many ranks.
+    // Each rank is one thread: machines with many cores have many ranks.
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     threads.expect("nothing has used the threads before");
     match run(arguments.command) {
@@ -108,14 +108,14 @@ fn run(command: Command) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns the results directory of a case that names none.
+/// Returns the default results directory of a case.
 fn results_of(case: &Path) -> PathBuf {
     let mut name = case.file_stem().unwrap_or_default().to_owned();
     name.push("-results");
     PathBuf::from(name)
 }
 
-/// Describes the contact in numbers, as `asperity run` does, and the peak memory of the ranks.
+/// Formats the contact in numbers, like `asperity run`, and the peak memory of the ranks.
 fn text(case: &Case, summary: &Summary, memory: &[f64]) -> String {
     let most = memory.iter().copied().fold(0.0, f64::max);
     format!(
@@ -127,7 +127,7 @@ fn text(case: &Case, summary: &Summary, memory: &[f64]) -> String {
     )
 }
 
-/// Returns the peak memory of this process in bytes; 0 where the system does not tell.
+/// Returns the peak memory of this process in bytes; 0 if the system does not report it.
 fn peak_memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -138,7 +138,7 @@ fn peak_memory() -> f64 {
 
 /// Reports the error and ends all ranks, which would wait for this one.
 fn fail(rank: usize, error: Error) -> ExitCode {
-    // Most errors occur on all ranks: the first reports them.
+    // Most errors occur on all ranks, so the first one reports them.
     if rank > 0 {
         std::thread::sleep(Duration::from_secs(2));
     }

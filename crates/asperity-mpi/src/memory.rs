@@ -1,4 +1,4 @@
-//! Whether the machines have the memory that their ranks need.
+//! Check that the machines have enough memory for their ranks.
 
 use std::path::Path;
 
@@ -7,8 +7,8 @@ use asperity::ranks::Ranks;
 use asperity::study::{Case, DemandOfRank, demand_of_collecting, demand_on_ranks};
 use asperity_cli::{available_memory, machine_name, memory_of_machine};
 
-/// An error on all ranks if a machine has not the memory for its ranks, or a rank not for itself. If the fields are `collected` at the
-/// end, the first rank takes those of all.
+/// Returns an error on all ranks if a machine has too little memory for its ranks, or a rank for itself. If the fields are
+/// `collected` at the end, the first rank needs the memory of all of them.
 pub(crate) fn check(case: &Case, ranks: &dyn Ranks, collected: bool) -> Result<(), Error> {
     let DemandOfRank { steady, making, collecting, .. } = demand_on_ranks(case, ranks.count())?;
     let collecting = if collected { collecting } else { 0.0 };
@@ -29,13 +29,13 @@ pub(crate) fn check(case: &Case, ranks: &dyn Ranks, collected: bool) -> Result<(
     }
 }
 
-/// An error if there is not the memory to collect the fields of the `results`.
+/// Returns an error if there is too little memory to collect the fields of the `results`.
 pub(crate) fn check_collecting(results: &Path) -> Result<(), Error> {
     let (needed, available) = (demand_of_collecting(results)?, available_memory());
     if needed <= available { Ok(()) } else { Err(Error::Memory { needed, available }) }
 }
 
-/// What a rank needs and has, bytes.
+/// Needed and available memory of a rank, bytes.
 struct Rank {
     machine: f64,
     steady: f64,
@@ -54,11 +54,11 @@ impl Rank {
     }
 }
 
-/// Returns a number that the ranks of one machine share, and no others.
+/// Returns a number shared by the ranks of one machine only.
 fn machine() -> f64 {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let mut hasher = DefaultHasher::new();
     machine_name().hash(&mut hasher);
-    // As many binary digits as an `f64` holds exactly.
+    // As many binary digits as an `f64` represents exactly.
     (hasher.finish() >> 12) as f64
 }

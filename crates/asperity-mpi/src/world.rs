@@ -1,4 +1,4 @@
-//! The processes that `mpirun` starts, as the library sees them.
+//! The processes started by `mpirun`, as ranks of the library.
 
 use asperity::ranks::Ranks;
 use mpi::Count;
@@ -14,13 +14,13 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// As this process sees it, once MPI is there.
+    /// Creates the view of this process, once MPI is initialised.
     pub(crate) fn new() -> Self {
         let world = SimpleCommunicator::world();
         Self { rank: world.rank() as usize, count: world.size() as usize }
     }
 
-    /// Sends each other rank its part and takes one from it, the common part at home.
+    /// Sends each other rank its part and receives one from it; the own part is copied.
     fn exchange_parts<T: Equivalence + Copy>(
         &self,
         mut sent: &[T],
@@ -41,7 +41,7 @@ impl World {
                 own = Some((part, room));
                 continue;
             }
-            // Messages between two ranks arrive in the order in which they are sent; an empty part has none.
+            // Messages between two ranks arrive in the order in which they are sent; an empty part has no message.
             to.extend(part.chunks(MAX_MESSAGE).map(|message| (process(rank), message)));
             from.extend(room.chunks_mut(MAX_MESSAGE).map(|message| (process(rank), message)));
         }
@@ -91,10 +91,10 @@ impl Ranks for World {
     }
 }
 
-/// The most numbers of a message: MPI counts up to 2³¹.
+/// Largest number of values in a message: MPI counts up to 2³¹.
 const MAX_MESSAGE: usize = 1 << 30;
 
-/// A number of numbers as MPI counts them.
+/// Converts a count to the type of MPI.
 fn as_count(count: usize) -> Count {
     Count::try_from(count).expect("fewer than 2³¹ numbers at once: more ranks take less each")
 }

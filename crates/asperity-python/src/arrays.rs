@@ -1,4 +1,4 @@
-//! Matrices and records, there and back.
+//! Conversion of matrices and records between Rust and Python.
 
 use asperity::{Field, Result};
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
@@ -7,22 +7,22 @@ use pyo3::types::{PyBool, PyDict, PyList};
 use serde::Serialize;
 use serde_json::Value;
 
-/// A copy of a matrix, in rows.
+/// Copies a matrix, row by row.
 pub(crate) fn field(array: &PyReadonlyArray2<'_, f64>) -> Field {
     array.as_array().as_standard_layout().into_owned()
 }
 
-/// A field, handed over without a copy.
+/// Converts a field without a copy.
 pub(crate) fn array(py: Python<'_>, field: Field) -> Bound<'_, PyArray2<f64>> {
     field.into_pyarray(py)
 }
 
-/// What serialises, as dictionaries, lists and numbers; NaN is `None`.
+/// Converts a serialisable value to dictionaries, lists and numbers; NaN becomes `None`.
 pub(crate) fn record<'py>(py: Python<'py>, record: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     object(py, &serde_json::to_value(record).expect("a record can be written as JSON"))
 }
 
-/// A JSON value as an object.
+/// Converts a JSON value to an object.
 pub(crate) fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         Value::Null => py.None().into_bound(py),
@@ -47,7 +47,7 @@ pub(crate) fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
     })
 }
 
-/// A result of the library as one of Python.
+/// Converts a result of the library, with its error as an exception.
 pub(crate) fn ok<T>(result: Result<T>, py: Python<'_>) -> PyResult<T> {
     result.map_err(|error| crate::errors::exception(py, &error))
 }

@@ -1,4 +1,4 @@
-//! A study: many cases made of one.
+//! A study: many cases made from one.
 
 use std::path::PathBuf;
 
@@ -18,8 +18,8 @@ pub(crate) struct CoreStudy {
     directory: PathBuf,
 }
 
-/// What came of the cases that are over: their numbers, columns with name, unit and values, numbers of warnings, and why they
-/// failed.
+/// Results of the finished and failed cases: numbers, columns with name, unit and values, numbers of warnings, and reasons
+/// of failures.
 type Collected<'py> =
     (Vec<usize>, Vec<(String, String, Bound<'py, PyArray1<f64>>)>, Vec<usize>, Vec<Option<String>>);
 
@@ -35,20 +35,20 @@ impl CoreStudy {
         self.study.title()
     }
 
-    /// Key, unit and values of each axis: numbers in SI, or texts.
+    /// Returns key, unit and values of each axis: numbers in SI, or texts.
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, String, Bound<'py, PyList>)>> {
         let axis = |axis: &Axis| Ok((axis.key().to_owned(), axis.unit(), values(py, axis)?));
         self.study.axes().iter().map(axis).collect()
     }
 
-    /// For each case the index of the value of each axis.
+    /// Returns for each case the index of the value of each axis.
     fn indices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
         let cases = 1..=self.study.len();
         let indices: Vec<u32> = cases.flat_map(|case| self.study.indices(case)).copied().collect();
         indices.into_pyarray(py).reshape([self.study.len(), self.study.axes().len()])
     }
 
-    /// How each case stands: "done", "failed", "running" in some process, or "open"; and why it failed.
+    /// Returns the state of each case, "done", "failed", "running" in some process, or "open", and the reason of a failure.
     fn states(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Option<String>)>> {
         let states =
             work::run(py, 0, None, |_| self.folder()?.map(|folder| self.stand(&folder)).transpose())?;
@@ -64,7 +64,7 @@ impl CoreStudy {
         ))
     }
 
-    /// Computes what is left of a task; then, if all is over, makes tables and page. Gives the cases that have failed.
+    /// Computes the remaining cases of a task. Once all are over, writes tables and page. Returns the failed cases.
     fn run(
         &self,
         py: Python<'_>,
@@ -80,7 +80,7 @@ impl CoreStudy {
             let ended = |_: usize, _: &Computed| looking.over(queue.len());
             many::compute(&queue, available_memory(), &|| looking.stop(), &ended)?;
             let states = self.stand(&folder)?;
-            // The tables of a study that has grown are its present file's to make.
+            // The tables of a study that has grown belong to its present file.
             if Tally::of(&states).left() == 0 && !folder.has_grown(&self.study)? {
                 collect_study(&self.study, &folder)?;
             }
@@ -90,7 +90,7 @@ impl CoreStudy {
         })
     }
 
-    /// Makes tables and page of what is there.
+    /// Writes tables and page of the present results.
     fn collect<'py>(&self, py: Python<'py>) -> PyResult<Collected<'py>> {
         let table = work::run(py, 0, None, |_| {
             collect_study(&self.study, &Folder::open(&self.directory, &self.study)?)
@@ -98,7 +98,7 @@ impl CoreStudy {
         Ok(collected(py, &table))
     }
 
-    /// What came of the cases that are over; none before the study is begun.
+    /// Returns the results of the finished and failed cases; `None` before the study is begun.
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Option<Collected<'py>>> {
         let table = work::run(py, 0, None, |_| {
             self.folder()?.map(|folder| Table::collect(&self.study, &folder)).transpose()
@@ -108,7 +108,7 @@ impl CoreStudy {
 }
 
 impl CoreStudy {
-    /// The directory; none before the study is begun.
+    /// The directory; `None` before the study is begun.
     fn folder(&self) -> asperity::Result<Option<Folder>> {
         let is_there = self.directory.exists();
         is_there.then(|| Folder::open(&self.directory, &self.study)).transpose()
@@ -119,7 +119,7 @@ impl CoreStudy {
     }
 }
 
-/// The values of an axis: whole numbers, numbers in SI, or texts.
+/// Converts the values of an axis: whole numbers, numbers in SI, or texts.
 fn values<'py>(py: Python<'py>, axis: &Axis) -> PyResult<Bound<'py, PyList>> {
     let cells: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
     match axis.numbers() {

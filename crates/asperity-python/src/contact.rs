@@ -1,4 +1,4 @@
-//! A contact at rest, in memory.
+//! A static contact, in memory.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use crate::arrays::{array, field, ok, record};
 use crate::surface::{Heights, topography};
 use crate::{tables, work};
 
-/// What a call hands over: surfaces by name, maps of the hardness by name.
+/// Arguments of a call: surfaces by name, maps of the hardness by name.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Handed<'py> {
@@ -24,7 +24,7 @@ pub(crate) struct Handed<'py> {
 }
 
 impl Handed<'_> {
-    /// A copy of all of it.
+    /// Copies all of them.
     fn given(&self, py: Python<'_>) -> PyResult<Given> {
         let mut given = Given::default();
         for (name, heights) in &self.topographies {
@@ -37,7 +37,7 @@ impl Handed<'_> {
     }
 }
 
-/// What says what is to be computed.
+/// Source of a case.
 #[derive(FromPyObject)]
 pub(crate) enum Source<'py> {
     /// The tables of a case.
@@ -56,7 +56,7 @@ impl Source<'_> {
     }
 }
 
-/// The case of a call and what is given with it; refused if it takes more memory than there is.
+/// Returns the case of a call with its surfaces; an error if it needs more memory than is available.
 pub(crate) fn asked(
     py: Python<'_>,
     source: &Source<'_>,
@@ -71,7 +71,7 @@ pub(crate) fn asked(
     Ok((case, given))
 }
 
-/// Computes a contact at rest.
+/// Computes a static contact.
 #[pyfunction]
 pub(crate) fn rest<'py>(
     py: Python<'py>,
@@ -106,13 +106,13 @@ pub(crate) fn rest<'py>(
     Ok(contact)
 }
 
-/// What has flowed below the surfaces: the arrays of each body, by the names that files have.
+/// Returns the plastic state below the surfaces: the arrays of each body, by their names in files.
 fn flow<'py>(py: Python<'py>, flowed: Flowed) -> PyResult<Bound<'py, PyDict>> {
     let bodies = PyDict::new(py);
     let layers_last = |values: ArrayD<f64>, axes: &[usize]| {
         values.permuted_axes(axes).as_standard_layout().into_owned().into_pyarray(py)
     };
-    // [layer, component, ix, iy] and [layer, ix, iy].
+    // From [layer, component, ix, iy] and [layer, ix, iy].
     let tensor = |values: Array4<f64>| layers_last(values.into_dyn(), &[1, 2, 3, 0]);
     let left = flowed.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
     for (volume, left) in flowed.volumes.into_iter().zip(left) {

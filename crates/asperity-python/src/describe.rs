@@ -1,4 +1,4 @@
-//! What a surface is like: parameters, profiles, curves, spectra, hills.
+//! Description of surfaces: parameters, profiles, curves, spectra, hills.
 
 use asperity::surface::{
     Axis, BearingCurve, Bins, Classes, Correlation, Distribution, FeatureParameters, GreenwoodWilliamson,
@@ -14,7 +14,7 @@ use crate::arrays::ok;
 use crate::surface::{Heights, topography};
 use crate::{errors, work};
 
-/// What `work` makes of the topography of these heights, unless it is asked to stop.
+/// Applies `work` to the topography with these heights, unless it is asked to stop.
 fn of_until<T: Send>(
     py: Python<'_>,
     heights: &Heights<'_>,
@@ -24,7 +24,7 @@ fn of_until<T: Send>(
     work::run(py, 0, None, |looking| work(&topography, &|| looking.stop()))
 }
 
-/// The option that is called so.
+/// Returns the option with this name.
 fn word<C: Choice>(py: Python<'_>, key: &str, word: &str) -> PyResult<C> {
     C::of_word(word).ok_or_else(|| {
         let words: Vec<_> = C::WORDS.iter().map(|(known, _)| format!("\"{known}\"")).collect();
@@ -33,7 +33,7 @@ fn word<C: Choice>(py: Python<'_>, key: &str, word: &str) -> PyResult<C> {
     })
 }
 
-/// What `work` makes of the topography of these heights.
+/// Applies `work` to the topography with these heights.
 fn of<T: Send>(
     py: Python<'_>,
     heights: &Heights<'_>,
@@ -43,7 +43,7 @@ fn of<T: Send>(
     work::run(py, 0, None, |_| work(&topography))
 }
 
-/// Symbol, value, unit, family, meaning, and the value as people write it.
+/// Symbol, value, unit, family, meaning, and the value as text.
 type Row = (&'static str, f64, &'static str, &'static str, &'static str, String);
 
 fn table(rows: Vec<Parameter>) -> Vec<Row> {
@@ -53,13 +53,13 @@ fn table(rows: Vec<Parameter>) -> Vec<Row> {
     rows.into_iter().map(row).collect()
 }
 
-/// All parameters of ISO 25178.
+/// Computes all parameters of ISO 25178.
 #[pyfunction]
 pub(crate) fn parameters(py: Python<'_>, heights: Heights<'_>) -> PyResult<Vec<Row>> {
     of_until(py, &heights, |topography, stop| Ok(table(Parameters::until(topography, stop)?.rows())))
 }
 
-/// The feature parameters of ISO 25178, pruned at this share of Sz.
+/// Computes the feature parameters of ISO 25178, pruned at this fraction of Sz.
 #[pyfunction]
 pub(crate) fn feature_parameters(py: Python<'_>, heights: Heights<'_>, pruning: f64) -> PyResult<Vec<Row>> {
     of_until(py, &heights, |topography, stop| {
@@ -67,7 +67,7 @@ pub(crate) fn feature_parameters(py: Python<'_>, heights: Heights<'_>, pruning: 
     })
 }
 
-/// Parameters of ISO 21920 of the roughness of all profiles along an axis, each the mean over them.
+/// Computes the ISO 21920 roughness parameters of all profiles along an axis, each as the mean over them.
 #[pyfunction]
 pub(crate) fn profile_parameters(
     py: Python<'_>,
@@ -79,7 +79,7 @@ pub(crate) fn profile_parameters(
     of(py, &heights, |topography| Ok(table(topography.profile_parameters(axis, cutoff)?.rows())))
 }
 
-/// The heights of a profile and their pitch.
+/// Returns the heights of a profile and their pitch.
 #[pyfunction]
 pub(crate) fn profile<'py>(
     py: Python<'py>,
@@ -92,7 +92,7 @@ pub(crate) fn profile<'py>(
     Ok((profile.heights().to_pyarray(py), profile.pitch()))
 }
 
-/// A profile: its heights, their pitch, and the filters that it then passes, each with its length.
+/// A profile: its heights, their pitch, and the filters to apply, each with its length.
 type Line<'py> = (PyReadonlyArray1<'py, f64>, f64, Vec<(String, f64)>);
 
 fn line(py: Python<'_>, (heights, pitch, filters): Line<'_>) -> PyResult<Profile> {
@@ -108,22 +108,22 @@ fn line(py: Python<'_>, (heights, pitch, filters): Line<'_>) -> PyResult<Profile
     })
 }
 
-/// The heights of a profile behind its filters.
+/// Returns the heights of a filtered profile.
 #[pyfunction]
 pub(crate) fn line_heights<'py>(py: Python<'py>, given: Line<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
     Ok(line(py, given)?.heights().to_pyarray(py))
 }
 
-/// The parameters of ISO 21920 of a profile behind its filters.
+/// Computes the ISO 21920 parameters of a filtered profile.
 #[pyfunction]
 pub(crate) fn line_parameters(py: Python<'_>, given: Line<'_>) -> PyResult<Vec<Row>> {
     Ok(table(line(py, given)?.parameters().rows()))
 }
 
-/// The lowest value, the width of a class and the densities.
+/// Lowest value, width of a class, and densities.
 type Histogram<'py> = (f64, f64, Bound<'py, PyArray1<f64>>);
 
-/// The distribution of the heights, or of a slope, over so many classes.
+/// Computes the distribution of the heights, or of a slope, over a number of classes.
 #[pyfunction]
 #[pyo3(signature = (heights, slope=None, classes=None))]
 pub(crate) fn distribution<'py>(
@@ -157,7 +157,7 @@ impl CoreBearingCurve {
         self.0.heights().to_pyarray(py)
     }
 
-    /// `"height"`, `"ratio"`, `"material_volume"` or `"void_volume"` at each of the places.
+    /// Evaluates `"height"`, `"ratio"`, `"material_volume"` or `"void_volume"` at each of the places.
     fn at<'py>(
         &self,
         py: Python<'py>,
@@ -174,7 +174,7 @@ impl CoreBearingCurve {
         places.as_array().iter().map(value).collect::<Vec<_>>().into_pyarray(py)
     }
 
-    /// The core by the names of its parts; none of too few samples.
+    /// Returns the core by the names of its parts; `None` for too few samples.
     fn core(&self) -> Option<Vec<(&'static str, f64)>> {
         self.0.core().map(|core| {
             vec![
@@ -201,7 +201,7 @@ fn asperities(found: &GreenwoodWilliamson) -> Asperities {
     [found.density, found.radius, found.height_deviation, found.mean_height]
 }
 
-/// m₀, m₂, m₄, the means over x and y of the last two, the bandwidth, and the asperities.
+/// m₀, m₂, m₄, the means over x and y of the latter two, the bandwidth, and the asperities.
 type Moments = (f64, [f64; 2], [f64; 2], f64, f64, f64, Asperities);
 
 fn moments(found: &SpectralMoments) -> Moments {
@@ -209,13 +209,13 @@ fn moments(found: &SpectralMoments) -> Moments {
     (found.m0, found.m2, found.m4, found.mean_m2(), found.mean_m4(), found.bandwidth(), asperities)
 }
 
-/// The moments by differences between samples.
+/// Computes the moments by differences between samples.
 #[pyfunction]
 pub(crate) fn moments_by_differences(py: Python<'_>, heights: Heights<'_>) -> PyResult<Moments> {
     of(py, &heights, |topography| Ok(moments(&SpectralMoments::by_differences(topography))))
 }
 
-/// Hurst exponent and its error, range, points, decades, dimension, and why to doubt it.
+/// Hurst exponent and its error, range, points, decades, dimension, and a reason for doubt.
 type Law = (f64, f64, [f64; 2], usize, f64, f64, Option<String>);
 
 fn law(found: &SelfAffinity) -> Law {
@@ -223,7 +223,7 @@ fn law(found: &SelfAffinity) -> Law {
     (hurst, hurst_error, range, points, found.decades(), found.fractal_dimension(), found.doubt())
 }
 
-/// The law of the height differences whose lags lie in a range.
+/// Fits the law to the height differences with lags in a range.
 #[pyfunction]
 pub(crate) fn self_affinity_of_differences(
     py: Python<'_>,
@@ -238,7 +238,7 @@ pub(crate) fn self_affinity_of_differences(
     })
 }
 
-/// Lags along an axis and the mean square differences of the heights there.
+/// Returns the lags along an axis and the mean square differences of the heights at each.
 #[pyfunction]
 pub(crate) fn height_differences(
     py: Python<'_>,
@@ -276,7 +276,7 @@ impl CoreSpectrum {
         self.0.density().to_pyarray(py)
     }
 
-    /// The wave numbers along x, of both signs, and along y.
+    /// Returns the wave numbers along x, of both signs, and along y.
     fn wave_numbers<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 2] {
         let [nx, ny] = [self.0.density().nrows(), self.0.density().ncols()];
         let x: Vec<_> = (0..nx).map(|k| self.0.wave_vector([k, 0])[0]).collect();
@@ -310,7 +310,7 @@ impl CoreSpectrum {
         work::run(py, 0, None, |_| Ok(moments(&self.0.moments())))
     }
 
-    /// The law of the points whose wave numbers lie in a range, or of the longest that follow one.
+    /// Fits the law to the points with wave numbers in a range, or to the longest range that follows a law.
     #[pyo3(signature = (range, per_decade))]
     fn self_affinity(&self, py: Python<'_>, range: Option<[f64; 2]>, per_decade: u32) -> PyResult<Law> {
         work::run(py, 0, None, |_| {
@@ -365,10 +365,10 @@ impl CoreCorrelation {
     }
 }
 
-/// Summits, each with its sample, height and curvature; the area that was judged; the asperities.
+/// Summits with sample, height and curvature; the judged area; the asperities.
 type Found = (Vec<(usize, usize, f64, f64)>, f64, Asperities);
 
-/// The summits.
+/// Finds the summits.
 #[pyfunction]
 pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<Found> {
     of(py, &heights, |topography| {
@@ -382,7 +382,7 @@ pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<Found> {
 /// Sample, height, saddle, local height, prominence, curvature, area, volume, and whether it is closed.
 type Feature = (usize, usize, f64, f64, f64, f64, f64, f64, f64, bool);
 
-/// The hills, or the dales, with the number of its hill for each sample.
+/// Segments hills or dales; also returns the number of the hill or dale of each sample.
 #[pyfunction]
 pub(crate) fn segments<'py>(
     py: Python<'py>,

@@ -5,18 +5,18 @@ use asperity::error::Detail;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// The exception of an error of the library.
+/// Creates the exception for an error of the library.
 pub(crate) fn exception(py: Python<'_>, error: &Error) -> PyErr {
     raised(py, error).map(PyErr::from_value).unwrap_or_else(|failure| failure)
 }
 
-/// The exception of a mistake of ours.
+/// Creates the exception for an internal error.
 pub(crate) fn internal(py: Python<'_>, message: &str) -> PyErr {
     let made = make(py, "InternalError", message, &PyDict::new(py), None);
     made.map(PyErr::from_value).unwrap_or_else(|failure| failure)
 }
 
-/// The exception of an argument that has no meaning, as of a key of a case.
+/// Creates the exception for an invalid argument, reported as a key of a case.
 pub(crate) fn bad_input(py: Python<'_>, key: &str, message: &str, hint: Option<String>) -> PyErr {
     let attributes = PyDict::new(py);
     let made =
@@ -38,7 +38,7 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
     let attributes = PyDict::new(py);
     if let Error::Case(case) = error {
         attributes.set_item("key", &case.key)?;
-        // A call has no file. An error that names a file gives the line and column, too.
+        // A call has no file, so the name of an argument also gives the place.
         if case.file.as_os_str().is_empty() {
             return make(py, "CaseError", &case.message, &attributes, case.hint.clone());
         }
@@ -48,7 +48,7 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
         return make(py, "CaseError", &error.to_string(), &attributes, case.hint.clone());
     }
     for (field, detail) in error.details() {
-        // The field is a keyword of Python.
+        // The field is a Python keyword.
         let field = if field == "pass" { "pass_number" } else { field };
         match detail {
             Detail::Text(text) => attributes.set_item(field, text)?,
@@ -63,14 +63,14 @@ fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {
                 attributes.set_item("errno", error.raw_os_error())?;
                 attributes.set_item("reason", error.to_string())?;
             }
-            // The message has the unit.
+            // The message contains the unit.
             _ => {}
         }
     }
     make(py, error.name(), &error.to_string(), &attributes, hint(error))
 }
 
-/// What to do about it, in words of Python where the library has none.
+/// Returns advice in Python terms, if the library has none.
 fn hint(error: &Error) -> Option<String> {
     let words = match error {
         Error::Threads { .. } => "one needs none: threads=1",

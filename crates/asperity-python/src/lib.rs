@@ -1,22 +1,22 @@
-//! The private module of the Python package: arrays and tables in, arrays and records out.
+//! Private module of the Python package: arrays and tables in, arrays and records out.
 //!
-//! It holds no physics, and no checks but those of types: what a case may say, the library tells, and the classes that users
-//! meet are Python, in `python/asperity`.
+//! It contains no physics, and checks only types. The library defines what a case may contain, and the public classes are
+//! written in Python, in `python/asperity`.
 
-mod arrays; // matrices and records, there and back
-mod cases; // a study: many cases made of one
+mod arrays; // conversion of matrices and records
+mod cases; // a study: many cases made from one
 mod command; // the command `asperity`
-mod contact; // a contact at rest
-mod describe; // what a surface is like
+mod contact; // a static contact
+mod describe; // description of surfaces
 mod errors; // exceptions
 mod passes; // a motion, pass after pass
 mod reference; // closed forms
-mod results; // a results directory, to be read
+mod results; // reading of a results directory
 mod stress; // the stress below a surface
-mod surface; // surfaces: read, made, prepared, written
-mod tables; // dictionaries as the tables of a case
-mod verify; // the program against closed forms
-mod work; // a computation on threads of its own
+mod surface; // surfaces: reading, generation, preparation, writing
+mod tables; // dictionaries to the tables of a case
+mod verify; // comparison with closed forms
+mod work; // a computation on separate threads
 
 use asperity::reference::rough;
 use asperity::study;

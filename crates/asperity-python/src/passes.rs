@@ -1,4 +1,4 @@
-//! A computation whose results are kept in a directory; a motion, pass after pass.
+//! A computation with results in a directory; a motion, pass after pass.
 
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
@@ -39,21 +39,21 @@ pub(crate) fn run<'py>(
     })
 }
 
-/// A motion under way.
+/// A running motion.
 #[pyclass(name = "Passes", frozen)]
 pub(crate) struct CorePasses {
     state: Mutex<State>,
     threads: usize,
 }
 
-/// The passes, until they are ended, and the one that is solved and not yet finished.
+/// The passes, until they are ended, and the solved but unfinished pass.
 struct State {
     passes: Option<Passes>,
     solved: Option<SolvedPass>,
 }
 
-/// The contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference, part of
-/// a cell by which they lie beyond that of the lower and of the upper body, shear, temperature.
+/// Contacts of a pass as flat arrays: position, cell of the lower and of the upper body, pressure, plastic interference,
+/// fractional displacement from the cells of the lower and of the upper body, shear, temperature.
 type Contacts<'py> = (
     Bound<'py, PyArray1<i64>>,
     Bound<'py, PyArray1<i64>>,
@@ -85,7 +85,7 @@ impl CorePasses {
         Ok(Self { state: Mutex::new(State { passes: Some(passes), solved: None }), threads })
     }
 
-    /// Solves the next pass; false where there is none. One that is solved already is forgotten.
+    /// Solves the next pass; false if there is none. Discards a pass that is already solved.
     fn solve(&self, py: Python<'_>, progress: Option<Bound<'_, PyAny>>) -> PyResult<bool> {
         let mut state = self.state()?;
         let State { passes, solved } = &mut *state;
@@ -94,7 +94,7 @@ impl CorePasses {
         Ok(solved.is_some())
     }
 
-    /// Finishes the pass that is solved: it is written, and the next one begins on its bodies.
+    /// Finishes the solved pass: writes it, and uses its bodies for the next one.
     fn finish(&self, py: Python<'_>) -> PyResult<()> {
         let mut state = self.state()?;
         let State { passes, solved } = &mut *state;
@@ -106,28 +106,28 @@ impl CorePasses {
         }
     }
 
-    /// Writes the summary; nothing more can be solved.
+    /// Writes the summary and ends the motion.
     fn end(&self, py: Python<'_>) -> PyResult<()> {
         let Some(passes) = self.state()?.passes.take() else { return Ok(()) };
         work::run(py, self.threads, None, |_| passes.end().map(|_| ()))
     }
 
-    /// Number of passes that are finished.
+    /// Number of finished passes.
     fn done(&self) -> PyResult<usize> {
         Ok(self.state()?.passes.as_ref().map_or(0, |passes| passes.computed()))
     }
 
-    /// The pass that is solved, in numbers as they are now.
+    /// Returns the record of the solved pass in its present state.
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         record(py, &solved(&mut *self.state()?, None)?.record())
     }
 
-    /// The positions of the pass that is solved, in numbers.
+    /// Returns the records of the positions of the solved pass.
     fn steps<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
         record(py, &solved(&mut *self.state()?, Some(number))?.steps())
     }
 
-    /// The contacts of the pass that is solved.
+    /// Returns the contacts of the solved pass.
     fn contacts<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Contacts<'py>> {
         let mut state = self.state()?;
         let friction = state.passes.as_ref().and_then(|passes| passes.simulation().motion().friction);
@@ -167,7 +167,7 @@ impl CorePasses {
         ))
     }
 
-    /// Heights of the lower and of the upper body as they are now.
+    /// Returns the present heights of the lower and of the upper body.
     fn heights<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
         let state = self.state()?;
         let pair = match (&state.solved, &state.passes) {
@@ -178,8 +178,8 @@ impl CorePasses {
         Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
     }
 
-    /// Size of a cell, the distance over which the bodies slide from one position to the next, the time that it takes, and the
-    /// numbers of cells of the lower and of the upper body.
+    /// Returns the size of a cell, the sliding distance and time from one position to the next, and the numbers of cells of
+    /// the lower and of the upper body.
     fn grid(&self) -> PyResult<([f64; 2], f64, f64, [(usize, usize); 2])> {
         let state = self.state()?;
         let simulation = state.passes.as_ref().ok_or_else(ended)?.simulation();
@@ -190,7 +190,7 @@ impl CorePasses {
         Ok((pitch, distance, time, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 
-    /// Takes depths off the bodies of the pass that is solved.
+    /// Removes depths from the bodies of the solved pass.
     fn remove(
         &self,
         number: usize,
@@ -204,14 +204,14 @@ impl CorePasses {
 }
 
 impl CorePasses {
-    /// The state, for one thread at a time.
+    /// Locks the state for one thread.
     fn state(&self) -> PyResult<MutexGuard<'_, State>> {
         let busy = || PyRuntimeError::new_err("another thread is at work on this simulation");
         self.state.try_lock().map_err(|_| busy())
     }
 }
 
-/// The pass that is solved, which is the one of that number, from 1, if one is asked for.
+/// Returns the solved pass; an error if `number`, from 1, is given and differs.
 fn solved(state: &mut State, number: Option<usize>) -> PyResult<&mut SolvedPass> {
     let is_asked_for =
         |solved: &&mut SolvedPass| number.is_none_or(|number| solved.steps()[0].pass == number);

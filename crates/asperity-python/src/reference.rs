@@ -1,4 +1,4 @@
-//! Closed forms: one table of what can be asked of which.
+//! Closed forms: one table of all questions.
 
 use asperity::material::{Coating, Compliances, Material};
 use asperity::motion::Watch;
@@ -17,11 +17,11 @@ use rayon::prelude::*;
 use crate::arrays::ok;
 use crate::work;
 
-/// Appends the answer at a point, of which there are these coordinates.
+/// Appends the answer at a point with these coordinates.
 type Answer = Box<dyn Fn(&[f64], &mut Vec<f64>) + Send + Sync>;
 
-/// An `if` for each question: `form.method` by the data of the form, at the coordinates of a point, and functions of
-/// coordinates alone.
+/// Makes an `if` for each question: `form.method` from the data of the form, at the coordinates of a point, and functions
+/// of coordinates alone.
 macro_rules! answers {
     (
         $question:ident, $data:ident;
@@ -50,7 +50,7 @@ macro_rules! answers {
     };
 }
 
-/// What answers the `question` put to a closed form of these `data`.
+/// Returns the answer to the `question` for a closed form with these `data`.
 #[rustfmt::skip]
 fn answer(question: &str, data: &[f64]) -> Option<Answer> {
     answers! {
@@ -141,7 +141,7 @@ fn pushed(
     }
 }
 
-/// A point by three coordinates.
+/// A point with three coordinates.
 struct Sliding(SlidingSphere);
 
 impl Sliding {
@@ -150,7 +150,7 @@ impl Sliding {
     }
 }
 
-/// What an answer consists of.
+/// The numbers of an answer.
 trait Numbers {
     fn append(self, out: &mut Vec<f64>);
 }
@@ -173,7 +173,8 @@ impl Numbers for Stress {
     }
 }
 
-/// The answers of a closed form of these `data` at `points`, a row of coordinates each: a row of numbers each.
+/// Evaluates a closed form with these `data` at `points`, with one row of coordinates for each, and returns one row of
+/// numbers for each.
 #[pyfunction]
 pub(crate) fn closed_form<'py>(
     py: Python<'py>,
@@ -181,7 +182,7 @@ pub(crate) fn closed_form<'py>(
     data: Vec<f64>,
     points: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    /// Points between two looks at whether to stop; so many take no longer than a thread takes to begin.
+    /// Number of points between two checks whether to stop; they take no longer than starting a thread.
     const STRIDE: usize = 1024;
     let Some(answer) = answer(question, &data) else {
         return Err(PyTypeError::new_err(format!("no closed form answers {question}")));
@@ -209,7 +210,7 @@ pub(crate) fn closed_form<'py>(
     Ok(values.expect("as many numbers at each point").into_pyarray(py))
 }
 
-/// Young's modulus, Poisson's ratio, and of a coating thickness, Young's modulus and Poisson's ratio.
+/// Young's modulus and Poisson's ratio, and for a coating thickness, Young's modulus and Poisson's ratio.
 type Constants = (f64, f64, Option<[f64; 3]>);
 
 fn material((young, poisson, coating): Constants) -> Result<Material> {
@@ -220,7 +221,7 @@ fn material((young, poisson, coating): Constants) -> Result<Material> {
     })
 }
 
-/// The compliances of a pair, 1/E*, 1/N*, 1/G*; E* and Dundurs' β of them; and the composite tangential modulus.
+/// Returns the compliances of a pair, 1/E*, 1/N*, 1/G*, their E* and Dundurs' β, and the composite tangential modulus.
 #[pyfunction]
 pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) -> PyResult<[f64; 6]> {
     let pair = || {
@@ -233,7 +234,7 @@ pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) ->
     ok(pair(), py)
 }
 
-/// Dundurs' β, friction, stick ratio and stiffening of the coupled punches.
+/// Returns Dundurs' β, friction, stick ratio and stiffening of the coupled punches.
 pub(crate) fn coupled_punches() -> Vec<[f64; 4]> {
     let row =
         |punch: &spence::CoupledPunch| [punch.dundurs, punch.friction, punch.stick_ratio, punch.stiffening];

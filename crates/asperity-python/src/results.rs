@@ -1,4 +1,4 @@
-//! A results directory, to be read.
+//! A results directory, open for reading.
 
 use std::path::PathBuf;
 
@@ -12,11 +12,11 @@ use pyo3::types::PyDict;
 use crate::arrays::{object, ok, record};
 use crate::work;
 
-/// An array as it is stored: values, unit, names of the axes, pitch and origin along each.
+/// A stored array: values, unit, names of the axes, pitch and origin along each.
 type Stored<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
 
-/// The SI unit of a column of a table or of a number of a summary: "1" of a pure number, nothing of a text; none where there is no such
-/// column.
+/// Returns the SI unit of a column of a table or of a number of a summary: "1" for a pure number, an empty text for a text;
+/// `None` if there is no such column.
 #[pyfunction]
 pub(crate) fn unit_of_column(column: &str) -> Option<&'static str> {
     asperity::study::unit_of_column(column)
@@ -38,7 +38,7 @@ impl CoreResults {
         object(py, &ok(self.results.case_json(), py)?)
     }
 
-    /// The summary; none until all is done.
+    /// Returns the summary; `None` until the computation is complete.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         match self.results.summary() {
             Err(Error::File { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Ok(None),
@@ -46,7 +46,7 @@ impl CoreResults {
         }
     }
 
-    /// Writes the page and gives its path.
+    /// Writes the page and returns its path.
     fn report(&self, py: Python<'_>, out: Option<PathBuf>) -> PyResult<PathBuf> {
         let directory = self.results.directory();
         work::run(py, 0, None, |_| asperity_cli::write_report(directory, out.as_deref()))
@@ -72,7 +72,7 @@ impl CoreResults {
         record(py, &ok(self.results.sweep(), py)?)
     }
 
-    /// Names of the fields of a kind: "contact", "pass", "point", "subsurface", "plasticity".
+    /// Returns the names of the fields of a kind: "contact", "pass", "point", "subsurface", "plasticity".
     fn names(&self, py: Python<'_>, kind: &str, number: Option<usize>) -> PyResult<Vec<String>> {
         ok(self.fields(kind, number).and_then(|fields| fields.names()), py)
     }

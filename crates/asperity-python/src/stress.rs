@@ -1,4 +1,4 @@
-//! The stress below a surface.
+//! Stress below a surface.
 
 use asperity::motion::Watch;
 use asperity::operator::{Boundary, Edge};
@@ -13,11 +13,11 @@ use crate::arrays::{field, ok};
 use crate::surface::Heights;
 use crate::work;
 
-/// What acts on a body: pressure and pitch, shear along x and y as it acts on the lower body, the boundary along both axes,
-/// Poisson's ratio, and whether the body is the upper one.
+/// Loading of a body: pressure and pitch, shear along x and y on the lower body, boundary along both axes, Poisson's ratio,
+/// and whether it is the upper body.
 type Given<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], f64, bool);
 
-/// Makes the body, on whichever thread it is wanted.
+/// Creates the body on any thread.
 fn body(py: Python<'_>, given: &Given<'_>) -> PyResult<(impl Fn() -> Subsurface + Send + use<>, Grid)> {
     let ((pressure, pitch), shear, edges, poisson, is_upper) = given;
     let pressure = field(pressure);
@@ -30,7 +30,7 @@ fn body(py: Python<'_>, given: &Given<'_>) -> PyResult<(impl Fn() -> Subsurface 
     Ok((move || Subsurface::new(grid, boundary, poisson, &tractions), grid))
 }
 
-/// The components of the stress at the depths, each `[iz, ix, iy]`.
+/// Computes the components of the stress at the depths, each `[iz, ix, iy]`.
 #[pyfunction]
 pub(crate) fn stress<'py>(
     py: Python<'py>,
@@ -39,7 +39,7 @@ pub(crate) fn stress<'py>(
     threads: usize,
 ) -> PyResult<Vec<Bound<'py, PyArray3<f64>>>> {
     let (body, grid) = body(py, &given)?;
-    // Six components of all planes, twice while they are put together.
+    // Six components of all planes, twice while they are joined.
     let needed = 12.0 * 8.0 * depths.len() as f64 * grid.cells() as f64;
     let available = asperity_cli::available_memory();
     if needed > available {
@@ -64,7 +64,7 @@ pub(crate) fn stress<'py>(
 /// A value, its cell and its depth.
 type Most = (f64, [usize; 2], f64);
 
-/// The largest von Mises' stress and the largest shear, on planes at the depths and between them.
+/// Computes the largest von Mises stress and the largest shear, on planes at the depths and between them.
 #[pyfunction]
 pub(crate) fn most_stressed(
     py: Python<'_>,
@@ -78,7 +78,7 @@ pub(crate) fn most_stressed(
     Ok((most(von_mises), most(shear)))
 }
 
-/// Von Mises' stress, the largest shear or the principal stresses, one after the other, where the components are these.
+/// Computes von Mises' stress, the largest shear and the principal stresses from these components.
 #[pyfunction]
 pub(crate) fn invariants<'py>(
     py: Python<'py>,

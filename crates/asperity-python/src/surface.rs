@@ -1,4 +1,4 @@
-//! Surfaces: read, made, prepared, written; quantities with units.
+//! Surfaces: reading, generation, preparation, writing; quantities with units.
 
 use std::path::{Path, PathBuf};
 
@@ -15,10 +15,10 @@ use pyo3::types::PyDict;
 use crate::arrays::{array, field, ok};
 use crate::{errors, tables, work};
 
-/// Heights that a caller has, and their pitch.
+/// Heights of a caller, and their pitch.
 pub(crate) type Heights<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 
-/// A topography of a copy of these heights.
+/// Copies these heights to a topography.
 pub(crate) fn topography(py: Python<'_>, (heights, pitch): &Heights<'_>) -> PyResult<Topography> {
     let heights = field(heights);
     let made =
@@ -26,8 +26,8 @@ pub(crate) fn topography(py: Python<'_>, (heights, pitch): &Heights<'_>) -> PyRe
     ok(made, py)
 }
 
-/// The topography that a table describes, as `[lower.topography]` of a case does, with what its preparation came upon.
-/// `given` are the heights that it names `given = "heights"`.
+/// Makes the topography described by a table, with the keys of `[lower.topography]` of a case; also returns the findings of
+/// its preparation. `given` are the heights named by `given = "heights"`.
 #[pyfunction]
 #[pyo3(signature = (table, given=None))]
 pub(crate) fn surface<'py>(
@@ -56,7 +56,7 @@ pub(crate) fn surface<'py>(
     Ok(made)
 }
 
-/// Checks a table as far as it alone can tell.
+/// Checks a table as far as possible without its files.
 #[pyfunction]
 pub(crate) fn check_surface(py: Python<'_>, table: &Bound<'_, PyDict>) -> PyResult<()> {
     let whole = PyDict::new(py);
@@ -64,13 +64,13 @@ pub(crate) fn check_surface(py: Python<'_>, table: &Bound<'_, PyDict>) -> PyResu
     ok(study::topography_spec(&tables::text(&whole)?, Path::new("")), py).map(|_| ())
 }
 
-/// The names of the height channels of a file, the default one first.
+/// Returns the names of the height channels of a file, the default one first.
 #[pyfunction]
 pub(crate) fn channels(py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
     work::run(py, 1, None, |_| Ok(ReadOptions::default().scan(path)?.channels))
 }
 
-/// Writes heights to a file, in the format that the end of its name tells.
+/// Writes heights to a file, in the format given by its extension.
 #[pyfunction]
 pub(crate) fn write_surface(py: Python<'_>, path: PathBuf, heights: Heights<'_>) -> PyResult<()> {
     let topography = topography(py, &heights)?;
@@ -93,8 +93,8 @@ fn dimension(name: &str) -> PyResult<Dimension> {
     })
 }
 
-/// A quantity in SI: a number, or a text with a unit. `positive`: it must be above 0; `infinite`: it may be infinite, too.
-/// Mistakes name the `key`.
+/// Converts a quantity to SI, from a number or a text with a unit. `positive` requires it to be above 0, `infinite` allows
+/// infinity. Errors name the `key`.
 #[pyfunction]
 #[pyo3(signature = (key, value, dimension, positive=true, infinite=false))]
 pub(crate) fn quantity(
@@ -144,7 +144,7 @@ pub(crate) fn quantity(
     }
 }
 
-/// A quantity as people write it.
+/// Formats a quantity for people.
 #[pyfunction]
 pub(crate) fn format(value: f64, dimension: &str) -> PyResult<String> {
     Ok(units::format(value, self::dimension(dimension)?))

@@ -1,4 +1,4 @@
-//! Dictionaries as the tables of a case.
+//! Conversion of dictionaries to the tables of a case.
 
 use std::path::PathBuf;
 
@@ -9,10 +9,10 @@ use toml::{Table, Value};
 
 use crate::errors;
 
-/// Keys whose text may look like a number.
+/// Keys with texts that may look like numbers.
 const TEXTS: [&str; 4] = ["title", "file", "channel", "given"];
 
-/// The text of a case of these tables, or of a part of one. A key whose value is `None` is not given.
+/// Writes the text of a case, or of a part of one, from these tables. A key with the value `None` is omitted.
 pub(crate) fn text(tables: &Bound<'_, PyDict>) -> PyResult<String> {
     toml::to_string(&table(tables, "")?).map_err(|error| PyValueError::new_err(error.to_string()))
 }
@@ -29,7 +29,7 @@ fn table(entries: &Bound<'_, PyDict>, path: &str) -> PyResult<Table> {
     Ok(table)
 }
 
-/// The number or text in an array without dimensions; any other value as it is.
+/// Returns the number or text in a zero-dimensional array; any other value unchanged.
 pub(crate) fn scalar<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let dimensions = value.getattr_opt("ndim")?.and_then(|ndim| ndim.extract::<usize>().ok());
     match dimensions == Some(0) && value.hasattr("item")? {
@@ -38,7 +38,7 @@ pub(crate) fn scalar<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAn
     }
 }
 
-/// A value: what is a number or a list in spirit, as NumPy's scalars and arrays are, is taken for one.
+/// Converts a value. Number-like and list-like objects, such as NumPy scalars and arrays, are treated as numbers and lists.
 fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     let value = &scalar(value)?;
     if let Ok(entries) = value.cast::<PyDict>() {
@@ -86,17 +86,17 @@ fn entry(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     )))
 }
 
-/// The last part of a dotted path.
+/// Last part of a dotted path.
 fn key(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or_default()
 }
 
-/// Whether a text is a number without a unit, which may mean anything.
+/// Whether a text is a number without a unit, which is ambiguous.
 pub(crate) fn is_bare(text: &str) -> bool {
     text.trim().parse::<f64>().is_ok_and(f64::is_finite)
 }
 
-/// What is told of a number in quotes without a unit.
+/// Message for a number in quotes without a unit.
 pub(crate) fn bare(key: &str, text: &str) -> String {
     format!(
         "'{key}' is {text:?}, a text without a unit, expected a number in SI units, or a text with a unit"

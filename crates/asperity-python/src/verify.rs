@@ -1,20 +1,21 @@
-//! The program against closed forms.
+//! Comparison of the program with closed forms.
 
 use asperity::verification::{CASES, Check};
 use pyo3::prelude::*;
 
 use crate::work;
 
-/// Name and source of each case.
+/// Returns name and source of each case.
 #[pyfunction]
 pub(crate) fn verification_cases() -> Vec<(&'static str, &'static str)> {
     CASES.iter().map(|case| (case.name, case.source)).collect()
 }
 
-/// Quantity, what is refined, sizes, errors, order, what is expected, whether it is met.
+/// Quantity, refined quantity, sizes, errors, order, expectation, and whether it is met.
 type Row = (&'static str, &'static str, Vec<usize>, Vec<f64>, f64, String, bool);
 
-/// Computes the case of this index: its part of the table of `asperity verify`, its checks, and the error that ended it.
+/// Computes the case with this index. Returns its part of the table of `asperity verify`, its checks, and its error, if it
+/// failed.
 #[pyfunction]
 pub(crate) fn verify(
     py: Python<'_>,
@@ -35,7 +36,7 @@ pub(crate) fn verify(
     })
 }
 
-/// The last line of the table.
+/// Returns the last line of the table.
 #[pyfunction]
 pub(crate) fn verdict(passed: usize, failed: usize) -> String {
     asperity_cli::verification_verdict(passed, failed)

@@ -1,4 +1,4 @@
-//! A computation on threads of its own, while the caller sees to signals and progress.
+//! A computation on separate threads, while the caller handles signals and progress.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,12 +15,12 @@ use asperity_cli::MAX_THREADS;
 
 use crate::errors;
 
-/// How often the caller looks at signals and tells of progress.
+/// Interval at which the caller handles signals and reports progress.
 const TICK: Duration = Duration::from_millis(50);
 
-/// Does `work` on `threads` (0: one for each core) and gives what comes of it. Meanwhile the caller, detached from the
-/// interpreter, wakes now and then: it handles signals and calls `progress`. An exception of either stops the work and is
-/// raised once that has ended.
+/// Runs `work` on `threads` (0: one per core) and returns its result. Meanwhile the caller, detached from the interpreter,
+/// wakes up regularly, handles signals and calls `progress`. An exception of either stops the work, and is raised once it
+/// has ended.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -48,7 +48,7 @@ pub(crate) fn run<T: Send>(
     match (raised, outcome.expect("the work has ended")) {
         (Some(exception), _) => Err(exception),
         (None, Ok(Ok(result))) => {
-            // What takes less than a tick is told of, too: it may be one of many.
+            // Work shorter than a tick is also reported, because it may be one of many.
             looking.tell(progress)?;
             Ok(result)
         }
@@ -57,16 +57,16 @@ pub(crate) fn run<T: Send>(
     }
 }
 
-/// What a panic says.
+/// Message of a panic.
 fn text(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
-/// Pass, passes, trial, positions solved, positions, load, the part of the way where all are solved together.
+/// Pass, passes, trial, positions solved, positions, load, and the progress if all positions are solved together.
 type Told = (usize, usize, usize, usize, usize, f64, Option<f64>);
 
-/// Who looks on while the work is done.
+/// Observer of the work.
 #[derive(Default)]
 pub(crate) struct Looking {
     stop: AtomicBool,
@@ -77,7 +77,7 @@ pub(crate) struct Looking {
 }
 
 impl Looking {
-    /// One more of so many cases is over: they count as the positions of one pass.
+    /// Counts a finished case of `cases`, which are reported as the positions of one pass.
     pub(crate) fn over(&self, cases: usize) {
         let over = self.over.fetch_add(1, Ordering::Relaxed) + 1;
         let mut now = held(&self.now);
@@ -91,7 +91,7 @@ impl Looking {
         self.ends.notify_all();
     }
 
-    /// Waits so long for the end; whether it has come.
+    /// Waits at most `time` for the end; returns whether it has come.
     fn wait(&self, time: Duration) -> bool {
         let waiting = self.ends.wait_timeout_while(held(&self.ended), time, |ended| !*ended);
         *waiting.unwrap_or_else(PoisonError::into_inner).0
@@ -123,18 +123,18 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The threads of this process that were used last: how many, and of which process.
+/// Threads used last by this process: process id, number and pool.
 static LAST: Mutex<Option<(u32, usize, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// So many threads, which belong to this process alone: those of a process that has forked are not there in its child, and
-/// whoever waits for them waits forever.
+/// Returns a pool of `threads` threads of this process. Threads of a process do not exist in its forked child, where
+/// waiting for them would block forever.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     if threads > MAX_THREADS {
         let message = format!("'threads' is {threads}, expected a whole number from 1 to {MAX_THREADS}");
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let process = std::process::id();
-    // In a child the lock may have been held when it was forked.
+    // In a child the lock may have been held at the fork.
     let mut last = LAST.try_lock().ok();
     if let Some(Some((owner, size, pool))) = last.as_deref()
         && (*owner, *size) == (process, threads)
@@ -150,7 +150,7 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
         if let Some((owner, _, pool)) = before
             && owner != process
         {
-            // To drop it would be to wait for its threads.
+            // Dropping it would wait for its threads.
             std::mem::forget(pool);
         }
     }

@@ -1,6 +1,7 @@
-//! Options of a few words, each written in one place.
+//! Options with a few possible words, each word written in one place.
 
-/// An option that is one of a few words: in a case file, on a command line, in what is printed and in what is kept.
+/// An option with a few possible words. The same words serve case files, the command line, printed output and stored
+/// results.
 ///
 /// ```
 /// use asperity::Choice;
@@ -10,7 +11,7 @@
 /// assert_eq!(Method::of_word("active-set"), Some(Method::ActiveSet));
 /// ```
 pub trait Choice: Copy + PartialEq + 'static {
-    /// All choices with their words, in the order in which they are offered.
+    /// All choices with their words, in the order in which they are listed.
     const WORDS: &'static [(&'static str, Self)];
 
     /// The words alone.
@@ -19,13 +20,13 @@ pub trait Choice: Copy + PartialEq + 'static {
     /// The word of this choice.
     fn word(self) -> &'static str;
 
-    /// The choice of this word, if it is one.
+    /// Returns the choice for this word, if there is one.
     fn of_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, choice)| *choice)
     }
 }
 
-/// Makes an enum of unit variants a [`Choice`] of these words, which are what it serialises to.
+/// Implements [`Choice`] for an enum of unit variants with these words, and serialises to them.
 macro_rules! choice {
     ($choice:ty: $($word:literal => $variant:ident),+ $(,)?) => {
         impl $crate::choice::Choice for $choice {

@@ -1,4 +1,4 @@
-//! The one error of the library: each variant carries the numbers needed to act on it.
+//! The error type of the library. Each variant carries the numbers needed to act on it.
 
 mod case;
 mod detail;
@@ -13,12 +13,12 @@ use crate::units::{Dimension, Metre, Newton, bytes, format, format_distinct, for
 /// `Result` with this library's [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// [`Error::OutOfRange`] of a pure number unless `good`.
+/// Returns [`Error::OutOfRange`] for a pure number unless `good`.
 pub(crate) fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension: None, expected }) }
 }
 
-/// [`Error::OutOfRange`] of a value of `dimension`, SI, unless `good`.
+/// Returns [`Error::OutOfRange`] for a value of `dimension`, SI, unless `good`.
 pub(crate) fn check_in(
     dimension: Dimension,
     quantity: &'static str,
@@ -30,33 +30,33 @@ pub(crate) fn check_in(
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension, expected }) }
 }
 
-// The macro also gives the name and the fields of each variant.
+// The macro also lists the name and the fields of each variant.
 detail::causes! {
 /// Everything that can go wrong, by cause.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     // ---- input of any kind -------------------------------------------------------------------------------
-    /// A quantity lies outside the range in which it has a meaning.
+    /// A quantity lies outside its valid range.
     #[error("{quantity} is {}, expected {expected}", dimension.map_or_else(|| format_number(*value), |d| format(*value, d)))]
     OutOfRange {
         /// The quantity's name, as the user knows it.
         quantity: &'static str,
         /// The value given, SI.
         value: f64,
-        /// What it measures; none for a pure number.
+        /// Dimension of the quantity; `None` for a pure number.
         dimension: Option<Dimension>,
-        /// What would have been accepted.
+        /// The accepted values.
         expected: &'static str,
     },
     /// Two grids that must agree do not.
     #[error("{what}: {left} and {right} differ")]
     GridMismatch {
-        /// What must agree, for example "pitch of the two bodies".
+        /// The property that must agree, for example "pitch of the two bodies".
         what: &'static str,
-        /// What it is on the first grid.
+        /// Its value on the first grid.
         left: String,
-        /// What it is on the second grid.
+        /// Its value on the second grid.
         right: String,
     },
     /// More ranks than rows of the grid that is divided among them.
@@ -67,48 +67,48 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// Ranks that are to compute one contact together have not the same.
+    /// Ranks that compute one contact together differ in something that must be the same.
     #[error("rank {rank} has another {what} than rank 0")]
     RanksDiffer {
         /// The first rank that differs.
         rank: usize,
-        /// What it has, for example "version of asperity".
+        /// The differing property, for example "version of asperity".
         what: &'static str,
     },
-    /// A combination that has no meaning.
+    /// A combination that is not supported.
     #[error("{0}")]
     Unsupported(&'static str),
 
     // ---- topography files --------------------------------------------------------------------------------
-    /// A file that is in none of the formats read.
+    /// A file in none of the supported formats.
     #[error("{path} is not a topography: {reason}")]
     NotATopography {
         /// The file.
         path: PathBuf,
-        /// What it looks like instead.
+        /// The apparent kind of the file.
         reason: &'static str,
     },
-    /// A file of a known format that is damaged, or uses a part of the format that is not read.
+    /// A file of a known format that is damaged, or that uses an unsupported part of the format.
     #[error("{path}: {format}: {reason}")]
     CorruptTopography {
         /// The file.
         path: PathBuf,
         /// The format it was recognised as.
         format: &'static str,
-        /// What is wrong, and where.
+        /// The defect and its place.
         reason: Defect,
     },
-    /// A channel that the file does not have, or none where one is to be chosen.
+    /// A channel that the file does not have, or no channel given for a file with several.
     #[error("{}", no_channel(path, channel))]
     NoChannel {
         /// The file.
         path: PathBuf,
-        /// The channel asked for; empty if none was.
+        /// The requested channel; empty if none was given.
         channel: String,
-        /// The channels there are.
+        /// The channels of the file.
         available: Vec<String>,
     },
-    /// A unit given to a file whose heights have one.
+    /// A unit given for a file that states the unit of its heights.
     #[error("{path}: {format}: its heights have a unit of their own, expected none to be given")]
     OwnUnit {
         /// The file.
@@ -116,7 +116,7 @@ pub enum Error {
         /// The format it was recognised as.
         format: &'static str,
     },
-    /// A topography file without a pitch, where none is given.
+    /// A topography file without a pitch, and no pitch given.
     #[error("{path} ({format}) has no pitch")]
     NoPitch {
         /// The file.
@@ -124,13 +124,13 @@ pub enum Error {
         /// The format it was recognised as.
         format: &'static str,
     },
-    /// A name of a file that tells no format to write a topography in.
+    /// A file name whose extension names no format for writing a topography.
     #[error("no format to write `{path}` in")]
     NoFormat {
         /// The file.
         path: PathBuf,
     },
-    /// A topography has undefined samples where every one is needed.
+    /// A topography with undefined samples where every sample is needed.
     #[error("{undefined} of {samples} samples are undefined")]
     UndefinedSamples {
         /// Number of undefined samples.
@@ -138,7 +138,7 @@ pub enum Error {
         /// Number of all samples.
         samples: usize,
     },
-    /// A topography without any defined sample, from which nothing can be filled.
+    /// A topography without any defined sample, so that nothing can be filled.
     #[error("none of the {samples} samples is defined")]
     NothingDefined {
         /// Number of all samples.
@@ -153,36 +153,36 @@ pub enum Error {
         shape: [usize; 2],
     },
     // ---- case file ---------------------------------------------------------------------------------------
-    /// A case file says what has no meaning.
+    /// A mistake in a case file.
     #[error(transparent)]
     Case(Box<CaseError>),
 
     // ---- contact -----------------------------------------------------------------------------------------
-    /// The load is more than the bodies can carry when every cell is at the hardness.
+    /// The load exceeds what the bodies can carry with every cell at the hardness.
     #[error(
         "load {} exceeds the plastic limit {} (every facing cell at the hardness)",
         forces(*load, *limit)[0],
         forces(*load, *limit)[1]
     )]
     BeyondPlasticLimit {
-        /// The load asked for.
+        /// The requested load.
         load: Newton,
         /// The largest load that can be carried.
         limit: Newton,
     },
-    /// The tangential force is more than friction can hold: the bodies slide.
+    /// The tangential force exceeds the friction limit: the bodies slide.
     #[error(
         "tangential force {} is not below what friction holds, {}: the bodies slide",
         forces(*force, *limit)[0],
         forces(*force, *limit)[1]
     )]
     BeyondFriction {
-        /// The force asked for.
+        /// The requested force.
         force: Newton,
-        /// What it must stay below.
+        /// The friction limit; the force must be smaller.
         limit: Newton,
     },
-    /// The iteration ended above the tolerance.
+    /// The iteration stopped above the tolerance.
     #[error(
         "no equilibrium after {iterations} iterations: residual {residual:.2e}, tolerance {tolerance:.2e}"
     )]
@@ -191,7 +191,7 @@ pub enum Error {
         iterations: usize,
         /// Scale-free complementarity residual η reached.
         residual: f64,
-        /// η asked for.
+        /// The requested η.
         tolerance: f64,
     },
     /// An approach at which a periodic contact has no solution: the mean displacement is free there.
@@ -201,28 +201,28 @@ pub enum Error {
         format_distinct([*approach, *mean_gap], Dimension::Length)[1]
     )]
     PeriodicFullContact {
-        /// The approach asked for.
+        /// The requested approach.
         approach: Metre,
         /// The mean undeformed gap, the limit of the approach.
         mean_gap: Metre,
     },
-    /// No approach gives the load wanted as the mean over a pass.
+    /// No approach was found that gives the requested pass-mean load.
     #[error(
         "no approach found for the pass-mean load {} in {trials} trials (last approach {})",
         format(*load, Dimension::Force),
         format(*approach, Dimension::Length)
     )]
     LoadNotReached {
-        /// The pass-mean load asked for.
+        /// The requested pass-mean load.
         load: Newton,
-        /// The largest found that is less.
+        /// The largest load found that is smaller.
         below: Newton,
         /// Approaches tried.
         trials: usize,
-        /// The last of them.
+        /// The last approach tried.
         approach: Metre,
     },
-    /// One approach for a whole pass bears no such load up to one at which there is no more to be had.
+    /// The requested load exceeds the largest that one approach for a whole pass can carry.
     #[error(
         "one approach for the whole pass bears {} in the mean up to {}, not {}: there {cause}",
         forces(*most, *load)[0],
@@ -230,13 +230,13 @@ pub enum Error {
         forces(*most, *load)[1]
     )]
     BeyondPass {
-        /// The pass-mean load asked for.
+        /// The requested pass-mean load.
         load: Newton,
         /// The load at the approach.
         most: Newton,
-        /// The approach beyond which none is sought.
+        /// The upper limit of the search for an approach.
         approach: Metre,
-        /// Why.
+        /// The reason for the limit.
         cause: LoadLimit,
     },
     /// A position of a motion could not be solved.
@@ -248,17 +248,17 @@ pub enum Error {
         position: usize,
         /// Positions of the pass.
         positions: usize,
-        /// What is wrong there.
+        /// The cause.
         source: Box<Error>,
     },
-    /// A point of a sweep could not be solved.
+    /// A point of a load sweep could not be solved.
     #[error("point {point} of {points}: {source}")]
     AtPoint {
         /// The point, from 1.
         point: usize,
         /// Points of the sweep.
         points: usize,
-        /// What is wrong there.
+        /// The cause.
         source: Box<Error>,
     },
     /// An increment of a load could not be solved.
@@ -266,65 +266,65 @@ pub enum Error {
     AtIncrement {
         /// The increment, from 1.
         increment: usize,
-        /// What is wrong there.
+        /// The cause.
         source: Box<Error>,
     },
-    /// The answer of a pass has no meaning.
+    /// The result of a pass is not finite.
     #[error("pass {pass}: {source}")]
     AtPass {
         /// The computed pass, from 1.
         pass: usize,
-        /// What is wrong there.
+        /// The cause.
         source: Box<Error>,
     },
-    /// The answer of an update of a contact that wears in place has no meaning.
+    /// The result of an update of a contact that wears in place is not finite.
     #[error("update {update}: {source}")]
     AtUpdate {
         /// The update, from 1; 0 before the first.
         update: usize,
-        /// What is wrong there.
+        /// The cause.
         source: Box<Error>,
     },
-    /// An answer is NaN or infinite.
+    /// A result is NaN or infinite.
     #[error("`{field}` is not a finite number{}", in_cell(cell))]
     NotFinite {
-        /// The field, column or number.
+        /// Name of the field, column or number.
         field: String,
-        /// The index of the first such cell along each axis, from 0; empty for a single number.
+        /// Index of the first such cell along each axis, from 0; empty for a single number.
         cell: Vec<usize>,
     },
-    /// Plastic strain and stress did not come to agree.
+    /// The return mapping did not converge: plastic strain and stress do not agree.
     #[error(
         "plastic flow does not settle in {products} products: mismatch {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
     )]
     FlowNotConverged {
         /// Applications of the residual-stress operator.
         products: usize,
-        /// Mismatch of the stress over the yield stress.
+        /// Return-mapping residual over the yield stress.
         mismatch: f64,
-        /// What was asked for.
+        /// The requested tolerance.
         tolerance: f64,
     },
-    /// A computation takes more memory than there is.
+    /// A computation needs more memory than is free.
     #[error("about {} of memory are needed, {} are free", bytes(*needed), bytes(*available))]
     Memory {
-        /// The memory it takes, bytes.
+        /// The memory needed, bytes.
         needed: f64,
-        /// The memory there is, bytes.
+        /// The free memory, bytes.
         available: f64,
     },
-    /// Threads to compute on cannot be made.
+    /// Threads could not be created.
     #[error("threads cannot be made: {reason}")]
     Threads {
-        /// What the operating system said.
+        /// Message of the operating system.
         reason: String,
     },
-    /// The caller asked for the computation to stop.
+    /// The caller asked the computation to stop.
     #[error("interrupted")]
     Interrupted,
 
     // ---- results -----------------------------------------------------------------------------------------
-    /// A directory that is to take results is not empty.
+    /// The directory for the results is not empty.
     #[error("{path} {}", if *results { "already holds results" } else { "is not empty, and holds no results of asperity" })]
     ResultsExist {
         /// The directory.
@@ -332,7 +332,7 @@ pub enum Error {
         /// Whether it holds results of this program.
         results: bool,
     },
-    /// A directory that is to take results lies within other results.
+    /// The directory for the results lies within other results.
     #[error("{path} lies within the results in {results}")]
     WithinResults {
         /// The directory.
@@ -340,7 +340,7 @@ pub enum Error {
         /// The directory of the other results.
         results: PathBuf,
     },
-    /// Results that are to be resumed belong to another case.
+    /// The results to resume belong to another case.
     #[error("{path} holds the results of another case: '{key}' was {before}, now it is {now}")]
     OtherCase {
         /// The directory.
@@ -352,7 +352,7 @@ pub enum Error {
         /// The key's value in the case, JSON.
         now: String,
     },
-    /// A surface of the results that are to be resumed is no longer the one in its file.
+    /// A surface file has changed since the results to resume were begun.
     #[error("{file} has changed since the results in {path} were begun")]
     SurfaceChanged {
         /// The directory.
@@ -360,15 +360,15 @@ pub enum Error {
         /// The surface file.
         file: PathBuf,
     },
-    /// Results that are to be resumed are not whole.
+    /// The results to resume are incomplete.
     #[error("{path} {reason}")]
     NotResumable {
         /// The file at fault.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The defect.
         reason: &'static str,
     },
-    /// The file of a rank holds other rows than the index of the run says.
+    /// The file of a rank holds other rows than the index of the run states.
     #[error(
         "{path} holds rows {} to {} of a run on {ranks} ranks, expected rows {} to {} of one on {expected_ranks}",
         rows[0], rows[1], expected[0], expected[1]
@@ -376,13 +376,13 @@ pub enum Error {
     OtherRows {
         /// The file at fault.
         path: PathBuf,
-        /// The first and the last row that it holds.
+        /// First and last row in the file.
         rows: [usize; 2],
-        /// Number of ranks of its run.
+        /// Number of ranks of the run that wrote it.
         ranks: usize,
-        /// The first and the last row that it should hold.
+        /// First and last row expected.
         expected: [usize; 2],
-        /// Number of ranks that the index has.
+        /// Number of ranks in the index.
         expected_ranks: usize,
     },
     /// Another process writes its results to the directory.
@@ -397,12 +397,12 @@ pub enum Error {
         /// The directory.
         path: PathBuf,
     },
-    /// A directory that is to take a study holds something else.
+    /// The directory for a study holds something else.
     #[error("{path} {what}")]
     NotThisStudy {
         /// The directory.
         path: PathBuf,
-        /// What it holds: "holds another study".
+        /// Its content: "holds another study".
         what: &'static str,
     },
     /// A file could not be read or written.
@@ -410,7 +410,7 @@ pub enum Error {
     File {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// A field that a results file does not have.
@@ -418,19 +418,19 @@ pub enum Error {
     NoField {
         /// The file.
         path: PathBuf,
-        /// The field asked for.
+        /// The requested field.
         name: String,
-        /// The fields there are.
+        /// The fields of the file.
         available: Vec<String>,
     },
 }
 }
 
-/// Why the load of a pass under one approach has a limit.
+/// Reason why the load of a pass under one approach is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum LoadLimit {
-    /// Bodies that yield at each position fit together: from there on they bear no more where one of them takes all of the
-    /// plastic deformation, and hardly more, growing as the logarithm of the approach, where both do.
+    /// Yielding bodies conform to each other at each position. From there the load no longer grows if one of them takes all
+    /// of the plastic deformation. It grows only as the logarithm of the approach if both do.
     #[error("every cell yields where it first meets another, and bears less at the positions that follow")]
     Yielded,
     /// Periodic bodies in full contact: their mean displacement is free.
@@ -441,7 +441,7 @@ pub enum LoadLimit {
 }
 
 impl Error {
-    /// The same error, wrapped by `at` if an answer is NaN or infinite.
+    /// Returns the same error, wrapped by `at` if a result is NaN or infinite.
     pub(crate) fn if_not_finite(self, at: impl FnOnce(Box<Self>) -> Self) -> Self {
         match self {
             Self::NotFinite { .. } => at(Box::new(self)),
@@ -449,7 +449,7 @@ impl Error {
         }
     }
 
-    /// What the user can do about it, where that is known: a sentence to print after the error.
+    /// Returns advice for the user, if there is any: a sentence to print after the error.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NoChannel { available, .. } => {
@@ -499,7 +499,7 @@ fn in_cell(cell: &[usize]) -> String {
     if cell.is_empty() { String::new() } else { format!(" in cell {cell:?}") }
 }
 
-/// Two forces that can be told apart.
+/// Formats two forces with enough digits to differ.
 fn forces(one: Newton, other: Newton) -> [String; 2] {
     format_distinct([one, other], Dimension::Force)
 }
@@ -516,52 +516,52 @@ fn quoted(names: &[String]) -> String {
     names.join(", ")
 }
 
-/// What is wrong with a topography file.
+/// Defect of a topography file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Defect {
-    /// A part of the file has not the length that the header gives it.
+    /// The length of a part of the file differs from the one in the header.
     #[error("{what} holds {found} bytes, expected {expected}")]
     Length {
-        /// Which part.
+        /// The part.
         what: &'static str,
-        /// Bytes that the header calls for.
+        /// Bytes expected by the header.
         expected: u64,
-        /// Bytes there are.
+        /// Bytes found.
         found: u64,
     },
     /// A part of the file has changed since it was written.
     #[error("{what} has the MD5 checksum {found}, but the file was written with {expected}")]
     Checksum {
-        /// Which part.
+        /// The part.
         what: &'static str,
         /// The checksum stored in the file.
         expected: String,
-        /// The checksum of what is there.
+        /// The checksum of the data.
         found: String,
     },
-    /// Something that the format requires is not there.
+    /// Something that the format requires is missing.
     #[error("no {0}")]
     Missing(&'static str),
-    /// An entry of the header has a value that cannot be used.
+    /// An entry of the header has an unusable value.
     #[error("{what} is `{found}`, expected {expected}")]
     Value {
-        /// Which entry.
+        /// The entry.
         what: &'static str,
-        /// The entry's value as the file has it.
+        /// The value in the file.
         found: String,
-        /// What would have been accepted.
+        /// The accepted values.
         expected: &'static str,
     },
-    /// More cells than any contact can be solved on; most likely a damaged header.
+    /// More cells than any contact can be solved on, most likely from a damaged header.
     #[error("{cells} heights, at most {limit} are read")]
     TooLarge {
-        /// Heights that the header calls for.
+        /// Heights expected by the header.
         cells: u128,
         /// The limit.
         limit: usize,
     },
-    /// A line of a text matrix that is longer or shorter than the others.
+    /// A line of a text matrix that is longer or shorter than the lines before.
     #[error("line {line} has {found} values, the lines before it have {expected}")]
     Ragged {
         /// Line, from 1.
@@ -571,15 +571,15 @@ pub enum Defect {
         /// Values in this line.
         found: usize,
     },
-    /// Text where a height should stand.
+    /// Text in place of a height.
     #[error("line {line}: `{token}` is not a height")]
     NotANumber {
         /// Line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text.
         token: String,
     },
-    /// What the decoder of the container said.
+    /// Message of the container's decoder.
     #[error("{0}")]
     Container(String),
 }

@@ -1,6 +1,6 @@
 //! Regular grids and the fields on them.
 
-mod finite; // the guard of what leaves the program
+mod finite; // the check of all results
 mod seat;
 
 pub(crate) use finite::check_finite;
@@ -12,20 +12,20 @@ use crate::units::{Dimension, Metre, SquareMetre};
 /// Values on the cells of a [`Grid`], indexed `[ix, iy]`, `iy` fastest in memory.
 pub type Field = ndarray::Array2<f64>;
 
-/// A [`Field`] in single precision: for what only has to be nearly right, as the directions of an iteration.
+/// A [`Field`] in single precision, for low-accuracy quantities such as the directions of an iteration.
 pub type SingleField = ndarray::Array2<f32>;
 
-/// A quantity on the cells of a grid: the same everywhere, or a value for each.
+/// A quantity on the cells of a grid: one value for all cells, or one for each.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CellValues {
-    /// The same in every cell.
+    /// The same value in every cell.
     Uniform(f64),
     /// A value for each cell.
     Field(Field),
 }
 
 impl CellValues {
-    /// The value that all cells have, where they are given as one.
+    /// Returns the common value of all cells; `None` if they are given as a field.
     pub fn uniform(&self) -> Option<f64> {
         match self {
             Self::Uniform(value) => Some(*value),
@@ -33,10 +33,10 @@ impl CellValues {
         }
     }
 
-    /// The value in a flat `cell`.
+    /// Returns the value at the flat index `cell`.
     ///
     /// # Panics
-    /// If there is no such cell, or a field is not in standard layout.
+    /// If there is no such cell, or if a field is not in standard layout.
     #[inline]
     pub fn at(&self, cell: usize) -> f64 {
         match self {
@@ -45,17 +45,17 @@ impl CellValues {
         }
     }
 
-    /// The least value.
+    /// Returns the smallest value.
     pub fn min(&self) -> f64 {
         self.fold(f64::INFINITY, f64::min)
     }
 
-    /// The largest value.
+    /// Returns the largest value.
     pub fn max(&self) -> f64 {
         self.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The sum over so many `cells`.
+    /// Returns the sum over `cells` cells.
     pub fn sum(&self, cells: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value * cells as f64,
@@ -63,7 +63,7 @@ impl CellValues {
         }
     }
 
-    /// Whether these are values of a grid of that shape.
+    /// Returns whether the values fit a grid of shape `shape`.
     pub fn fits(&self, shape: [usize; 2]) -> bool {
         match self {
             Self::Uniform(_) => true,
@@ -71,7 +71,7 @@ impl CellValues {
         }
     }
 
-    /// What `change` makes of each value.
+    /// Applies `change` to each value.
     pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
         match self {
             Self::Uniform(value) => Self::Uniform(change(*value)),
@@ -79,7 +79,7 @@ impl CellValues {
         }
     }
 
-    /// The mean over so many `cells`.
+    /// Returns the mean over `cells` cells.
     pub(crate) fn mean(&self, cells: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value,
@@ -87,7 +87,8 @@ impl CellValues {
         }
     }
 
-    /// The values on a grid of about half as many cells along each axis: means over the cells that one stands for.
+    /// Returns the values on a grid of about half as many cells along each axis, as means over the fine cells of each
+    /// coarse one.
     pub(crate) fn coarse(&self) -> Self {
         match self {
             Self::Uniform(value) => Self::Uniform(*value),
@@ -115,19 +116,19 @@ impl From<Field> for CellValues {
     }
 }
 
-/// Means of 2 × 2 cells (of what is there, at the end of an odd number).
+/// Means of 2 × 2 cells, or of the cells left at the end of an odd number.
 pub(crate) fn coarse_means(fine: &Field) -> Field {
     let (nx, ny) = fine.dim();
     let cells = fine.as_slice().expect("standard layout");
     Field::from_shape_fn([nx.div_ceil(2), ny.div_ceil(2)], |(i, j)| {
-        // At the end of an odd number the last row or column stands for both.
+        // At the end of an odd number the last row or column is counted twice.
         let (rows, columns) = ([2 * i, (2 * i + 1).min(nx - 1)], [2 * j, (2 * j + 1).min(ny - 1)]);
         let sum = |row: usize| cells[row * ny + columns[0]] + cells[row * ny + columns[1]];
         0.25 * (sum(rows[0]) + sum(rows[1]))
     })
 }
 
-/// The most cells of a grid: a field of them takes 32 GiB. Where `usize` has 32 bits, as many as it can count.
+/// Largest number of cells of a grid, at which a field takes 32 GiB; `usize::MAX` on 32-bit machines.
 pub const MAX_CELLS: usize = if usize::BITS > 32 { (1_u64 << 32) as usize } else { usize::MAX };
 
 /// A regular grid of rectangular cells.
@@ -140,10 +141,11 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A grid of `shape` cells of size `pitch`.
+    /// Creates a grid of `shape` cells of size `pitch`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no cells or more than [`MAX_CELLS`], or a pitch is not positive or beyond [`Dimension::range`].
+    /// [`Error::OutOfRange`] if there are no cells or more than [`MAX_CELLS`], or if a pitch is not positive or is outside
+    /// [`Dimension::range`].
     pub fn new(shape: [usize; 2], pitch: [Metre; 2]) -> Result<Self> {
         if shape.contains(&0) {
             return Err(Error::OutOfRange {
@@ -200,7 +202,7 @@ impl Grid {
         (index as f64 + 0.5) * self.pitch[axis]
     }
 
-    /// A field of zeros on this grid.
+    /// Creates a field of zeros on this grid.
     pub fn zeros(&self) -> Field {
         Field::zeros(self.shape)
     }

@@ -1,4 +1,4 @@
-//! Contact of two rough surfaces that press together and move, by the boundary element method.
+//! Contact of two rough surfaces that are pressed together and moved, by the boundary element method.
 //!
 //! # Conventions
 //!
@@ -7,31 +7,31 @@
 //! pressure   p   ≥ 0, positive in compression      approach  δ grows as the bodies move together
 //! displacement u positive where it opens the gap   fields    indexed [ix, iy]; metres, pascals, newtons
 //! x              the direction of motion           load      W = ΔA Σ p, ΔA the area of a cell
-//! stress     σ   positive in tension; z then points from the surface into the body that bears it
+//! stress     σ   positive in tension; z then points from the surface into the loaded body
 //! ```
 //!
-//! Everything is SI and `f64`; single precision serves the steps of an iteration only. The lower body is described by the height of its surface, the upper one by the
-//! height of its underside; the undeformed gap is `h = z₂ − z₁`.
+//! Everything is SI and `f64`. Single precision is used only inside iterations. The lower body is described by the height
+//! of its surface, the upper one by the height of its underside. The undeformed gap is `h = z₂ − z₁`.
 //!
 //! # Where to begin
 //!
-//! [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case file;
-//! [`solver::solve_normal`] for a contact of which only the gap is known.
+//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case
+//! file, or [`solver::solve_normal`] for a contact given only by its gap.
 //!
-//! | what you have | what takes it | what comes of it |
+//! | you have | use | you get |
 //! |---|---|---|
 //! | a file of heights | [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions) | [`surface::Topography`] |
-//! | an idea of a surface | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
-//! | a topography | [`surface::Preparation`], [`surface::Parameters`] | one fit for a contact; its roughness by ISO 25178 |
+//! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
+//! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | what [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::InPlace`] and [`motion::Simulation`] take |
+//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::InPlace`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
-//! | cells in contact and what heats them | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature, and what heat goes where |
-//! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and where it is largest |
-//! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | the residual stress and displacement that it leaves, and how it grows |
+//! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
+//! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
+//! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
-//! | a doubt | [`reference`](mod@reference), [`verification`] | closed forms, and the order at which each is met |
+//! | a result to check | [`reference`](mod@reference), [`verification`] | closed forms, and the order of convergence to each |
 //!
 //! ```
 //! use asperity::material::Material;
@@ -54,16 +54,16 @@
 //!
 //! # Limits
 //!
-//! - The bodies are half-spaces, homogeneous, isotropic and linearly elastic: slopes and strains are small, and the contact
-//!   is small against the bodies.
-//! - Nothing adheres. A cell yields at the hardness, the cap on its pressure; what it has yielded is levelled, and leaves no
-//!   residual stress.
-//! - Friction is Coulomb's in each cell, up to a shear strength. All positions of a motion slide.
-//! - Nothing depends on time or on temperature: no inertia, no creep of the material, no lubricant. What friction heats is told by
-//!   [`temperature`], for half-spaces of constant properties at a given bulk temperature.
+//! - The bodies are half-spaces: homogeneous, isotropic and linearly elastic. Slopes and strains are small, and the contact
+//!   is small compared with the bodies.
+//! - There is no adhesion. A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
+//!   which leaves no residual stress.
+//! - Friction follows Coulomb's law in each cell, up to a shear strength. All positions of a motion are in gross slip.
+//! - Nothing depends on time or on temperature: there is no inertia, no creep of the material, no lubricant.
+//!   [`temperature`] computes the frictional heating of half-spaces with constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
 //!
-//! [`study::estimate()`] and the results of [`study::run()`] warn where a case comes near to one of them.
+//! [`study::estimate()`] and the results of [`study::run()`] warn if a case comes near one of these limits.
 //!
 //! # Features
 //!
@@ -72,7 +72,8 @@
 //! | `formats` | [`io`] and the files of [`surface`]: [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions), [`Format`](surface::Format) | HDF5, zip, tiff, csv, XML, digests |
 //! | `study`, the default | `formats` and [`study`]: case files, runs, results | toml, JSON |
 //!
-//! Without them (`default-features = false`) are surfaces that are made, closed forms, operators, solvers, stress and motion.
+//! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress and motion
+//! remain.
 //!
 //! # References
 //!
@@ -83,7 +84,7 @@
 //! - J. J. Kalker, *Three-Dimensional Elastic Bodies in Rolling Contact*, Kluwer (1990).
 //! - ISO 25178-2:2021 and ISO 21920-2:2021: parameters of areas and of profiles.
 //!
-//! Each formula names its own source where it stands.
+//! Each formula names its own source.
 
 // A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
 pub mod units;

@@ -1,4 +1,4 @@
-//! Elastic constants of the bodies and of the pair.
+//! Elastic constants of the bodies and of their pair.
 
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Metre, Pascal};
@@ -10,14 +10,14 @@ pub struct Material {
     pub young: Pascal,
     /// Poisson's ratio, 0 ≤ ν ≤ 0.5.
     pub poisson: f64,
-    /// Hardness, > 0: the largest pressure that the body bears; infinite for an elastic body.
+    /// Hardness, > 0: the largest pressure that the body can carry; infinite for an elastic body.
     pub hardness: Pascal,
-    /// What covers the body, if anything does; the constants above are those of the body under it, but for the hardness,
-    /// which caps the pressure whatever it is that yields.
+    /// Coating of the body, if any. The elastic constants above belong to the substrate. The hardness caps the pressure,
+    /// whether the coating or the substrate yields.
     pub coating: Option<Coating>,
 }
 
-/// An elastic, isotropic layer of even thickness that is bonded to a body.
+/// An elastic, isotropic layer of uniform thickness, bonded to a body.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Coating {
     /// Thickness, > 0, finite.
@@ -29,7 +29,7 @@ pub struct Coating {
 }
 
 impl Coating {
-    /// A layer of these constants.
+    /// Creates a layer with these constants.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
@@ -54,7 +54,7 @@ impl Coating {
 }
 
 impl Material {
-    /// A material that never yields.
+    /// Creates a material that never yields.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
@@ -62,7 +62,7 @@ impl Material {
         Self::new(young, poisson, Pascal::INFINITY)
     }
 
-    /// An elastic–perfectly plastic material.
+    /// Creates an elastic–perfectly plastic material.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
@@ -79,39 +79,39 @@ impl Material {
         Ok(Self { young, poisson, hardness, coating: None })
     }
 
-    /// A body of this material under a `coating`.
+    /// Adds a `coating` to a body of this material.
     pub fn coated(self, coating: Coating) -> Self {
         Self { coating: Some(coating), ..self }
     }
 
-    /// Modulus of plane strain E/(1 − ν²), without the coating.
+    /// Plane-strain modulus E/(1 − ν²), without the coating.
     pub fn plane_strain_modulus(&self) -> Pascal {
         self.young / (1.0 - self.poisson * self.poisson)
     }
 }
 
-/// What the elastic constants of a pair of half-spaces come to, their coatings left aside: compliances, 1/Pa.
+/// Compliances of a pair of half-spaces, 1/Pa, without their coatings.
 ///
 /// ```text
 /// 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂                                normal
 /// 1/N* = ν₁(1 + ν₁)/E₁ + ν₂(1 + ν₂)/E₂                              lateral
 /// 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂              coupling
 /// ```
-/// A normal traction meets 1/E* alone, a tangential one 1/E* and 1/N*. What a normal traction does tangentially, and a
-/// tangential one normally, is in 1/G*: it vanishes for identical materials and for two incompressible ones, and is
-/// negative where the lower body is the stiffer. Johnson (1985), ch. 3 and 5.
+/// A normal traction acts on 1/E* alone, a tangential one on 1/E* and 1/N*. 1/G* couples normal tractions to tangential
+/// displacements, and tangential tractions to normal ones. It vanishes for identical materials and for two incompressible
+/// ones, and is negative if the lower body is the stiffer. Johnson (1985), ch. 3 and 5.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compliances {
-    /// 1/E* > 0; 0 of rigid bodies of which one is coated.
+    /// 1/E* > 0; 0 for rigid bodies if one is coated.
     pub normal: f64,
     /// 1/N* ≥ 0.
     pub lateral: f64,
-    /// 1/G*, of either sign.
+    /// 1/G*, positive or negative.
     pub coupling: f64,
 }
 
 impl Compliances {
-    /// The compliances of a pair of bodies.
+    /// Computes the compliances of a pair of bodies.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if both bodies are rigid, and neither is coated.
@@ -140,12 +140,12 @@ impl Compliances {
         1.0 / self.normal
     }
 
-    /// Dundurs' β = E*/G*, from −1/2 to 1/2; positive where the lower body is the softer. 0 where nothing deforms.
+    /// Dundurs' β = E*/G*, from −1/2 to 1/2; positive if the lower body is the softer, 0 if nothing deforms.
     pub fn dundurs(&self) -> f64 {
         if self.normal == 0.0 { 0.0 } else { self.coupling / self.normal }
     }
 
-    /// The compliances of the same bodies, if normal tractions did nothing tangentially, nor tangential ones normally.
+    /// Returns the compliances without coupling between normal and tangential tractions.
     pub fn uncoupled(&self) -> Self {
         Self { coupling: 0.0, ..*self }
     }
@@ -159,13 +159,13 @@ pub fn composite_modulus(lower: &Material, upper: &Material) -> Result<Pascal> {
     Compliances::new(lower, upper).map(|pair| pair.modulus())
 }
 
-/// Hardness of the pair: the softer body's.
+/// Hardness of the pair: that of the softer body.
 pub fn composite_hardness(lower: &Material, upper: &Material) -> Pascal {
     lower.hardness.min(upper.hardness)
 }
 
-/// The lower body's share of the plastic deformation, by the hardness of both: all where it is the softer, none where it
-/// is the harder, half where both are equally hard.
+/// Share of the lower body in the plastic deformation: 1 if it is the softer, 0 if it is the harder, 1/2 if both are
+/// equally hard.
 pub fn plastic_share(lower: Pascal, upper: Pascal) -> f64 {
     match lower.partial_cmp(&upper) {
         Some(std::cmp::Ordering::Less) => 1.0,

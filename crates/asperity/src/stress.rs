@@ -1,4 +1,4 @@
-//! The stress at a point, and what decides over yield and fracture there.
+//! Stress at a point, and the measures of yield and fracture.
 
 use crate::units::Pascal;
 
@@ -20,7 +20,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// All six, in the order in which they are stored.
+    /// All six components, in storage order.
     pub const ALL: [Self; 6] = [Self::Xx, Self::Yy, Self::Zz, Self::Yz, Self::Xz, Self::Xy];
 
     /// `xx`, `yy`, …
@@ -47,7 +47,7 @@ pub struct Stress {
 }
 
 impl Stress {
-    /// The stress with these components, in the order of [`Component::ALL`].
+    /// Creates a stress from its components, in the order of [`Component::ALL`].
     pub fn from_components([xx, yy, zz, yz, xz, xy]: [Pascal; 6]) -> Self {
         Self { xx, yy, zz, yz, xz, xy }
     }
@@ -57,15 +57,15 @@ impl Stress {
         [self.xx, self.yy, self.zz, self.yz, self.xz, self.xy]
     }
 
-    /// Von Mises' equivalent stress, √(½[(σxx − σyy)² + (σyy − σzz)² + (σzz − σxx)²] + 3(σyz² + σxz² + σxy²)): the
-    /// yield stress in tension where the material begins to yield.
+    /// Von Mises' equivalent stress, √(½[(σxx − σyy)² + (σyy − σzz)² + (σzz − σxx)²] + 3(σyz² + σxz² + σxy²)). Yield begins
+    /// when it reaches the yield stress in tension.
     pub fn von_mises(&self) -> Pascal {
         let square = |v: f64| v * v;
         let normal = square(self.xx - self.yy) + square(self.yy - self.zz) + square(self.zz - self.xx);
         (0.5 * normal + 3.0 * (square(self.yz) + square(self.xz) + square(self.xy))).sqrt()
     }
 
-    /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃, to round-off of the largest, by Jacobi's rotations.
+    /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃ by Jacobi rotations, to round-off of the largest.
     pub fn principal(&self) -> [Pascal; 3] {
         /// Sweeps over the three pairs of axes: the rotations converge quadratically.
         const SWEEPS: usize = 6;
@@ -90,7 +90,8 @@ impl Stress {
         principal
     }
 
-    /// Largest shear stress on any plane, ½(σ₁ − σ₃): Tresca's. Between ½ and 1/√3 of von Mises' stress.
+    /// Largest shear stress on any plane, ½(σ₁ − σ₃), used in Tresca's criterion. It lies between ½ and 1/√3 of von Mises'
+    /// stress.
     pub fn max_shear(&self) -> Pascal {
         let [most, _, least] = self.principal();
         0.5 * (most - least)
@@ -151,7 +152,7 @@ mod tests {
             assert!((a + b + c - s.xx - s.yy - s.zz).abs() < 1e-14 * scale);
             assert!((a * b + b * c + c * a - minors).abs() < 1e-13 * scale.powi(2));
             assert!((a * b * c - determinant).abs() < 1e-13 * scale.powi(3));
-            // Von Mises' stress of the principal ones is that of the tensor.
+            // Von Mises' stress is invariant under rotation to the principal axes.
             let turned = Stress { xx: a, yy: b, zz: c, ..Stress::default() };
             assert!((turned.von_mises() - s.von_mises()).abs() < 1e-13 * scale);
             Ok(())
@@ -162,7 +163,7 @@ mod tests {
     fn tresca_lies_between_half_and_a_root_third_of_von_mises() {
         let ratio = STRESS.max_shear() / STRESS.von_mises();
         assert!(ratio > 0.5 && ratio < 1.0 / 3f64.sqrt(), "{ratio}");
-        // Equal and opposite pulls, a pull alone: the two ends.
+        // The two limits: equal and opposite tensions, and uniaxial tension.
         let shear = Stress { xx: 1.0, yy: -1.0, ..Stress::default() };
         assert_relative_eq!(shear.max_shear() * 3f64.sqrt(), shear.von_mises(), max_relative = 1e-15);
     }

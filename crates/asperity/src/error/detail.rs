@@ -1,4 +1,4 @@
-//! The fields of an error, for programs that hand errors on: bindings to other languages.
+//! Fields of an error, for programs that pass errors on, such as bindings to other languages.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -16,19 +16,19 @@ pub enum Detail<'a> {
     Path(&'a Path),
     /// A quantity, SI, or a pure number.
     Number(f64),
-    /// A number of things, or an index.
+    /// A count or an index.
     Count(usize),
-    /// Several of these.
+    /// Several counts or indices.
     Counts(&'a [usize]),
     /// Several names.
     Texts(&'a [String]),
     /// Yes or no.
     Flag(bool),
-    /// The dimension of another field; none for a pure number.
+    /// The dimension of another field; `None` for a pure number.
     Dimension(Option<Dimension>),
     /// The error that led to this one.
     Cause(&'a Error),
-    /// The answer of the operating system.
+    /// The error of the operating system.
     System(&'a std::io::Error),
 }
 
@@ -82,18 +82,19 @@ macro_rules! causes {
         )*}
 
         impl Error {
-            /// The name of each variant and of its fields.
+            /// Names of the variants and of their fields.
             pub const VARIANTS: &'static [(&'static str, &'static [&'static str])] =
                 &[$((stringify!($variant), &[$($(stringify!($field)),*)?])),*];
 
-            /// The name of the variant.
+            /// Name of the variant.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$variant { .. } => stringify!($variant),)*
                 }
             }
 
-            /// The fields of the variant by name; none of a variant that holds another type, such as [`Error::Case`].
+            /// Returns the fields of the variant by name; empty for a variant that holds another type, such as
+            /// [`Error::Case`].
             pub fn details(&self) -> Vec<(&'static str, Detail<'_>)> {
                 match self {
                     $(Self::$variant { $($($field,)*)? .. } => vec![$($((stringify!($field), $field.into())),*)?],)*

@@ -1,17 +1,17 @@
-//! The guard of what leaves the program: numbers that are none are results of nothing.
+//! Check that all results are finite numbers.
 
 use crate::error::{Error, Result};
 
-/// Values that a field holds besides finite numbers.
+/// Values that a field may hold besides finite numbers.
 #[derive(Clone, Copy, PartialEq)]
 enum Besides {
-    /// NaN in cells without a value: where surfaces do not touch, their contact has no temperature.
+    /// NaN in cells without a value: the contact has no temperature where the surfaces do not touch.
     Missing,
-    /// Infinity: cells that never yield, bodies that stick under any shear.
+    /// Infinity: in cells that never yield, or that stick under any shear.
     Infinite,
 }
 
-/// Fields with such values, by name without the number of a position or the name of a body.
+/// Fields with such values, by name, without the number of a position or the name of a body.
 const FIELDS: [(&str, Besides); 4] = [
     ("temperature", Besides::Missing),
     ("hardness", Besides::Infinite),
@@ -19,7 +19,7 @@ const FIELDS: [(&str, Besides); 4] = [
     ("shear_limit", Besides::Infinite),
 ];
 
-/// Checks the values of a field of that shape.
+/// Checks the values of a field of shape `shape`.
 ///
 /// # Errors
 /// [`Error::NotFinite`] with the first cell whose value is NaN or infinite, unless the field may hold such a value.
@@ -43,7 +43,7 @@ pub(crate) fn check_finite<'a>(
     Err(Error::NotFinite { field: field.to_owned(), cell })
 }
 
-/// The name of a field without the number of a position or the name of a body.
+/// Returns the name of a field without the number of a position or the name of a body.
 fn kind(field: &str) -> &str {
     let Some((kind, end)) = field.rsplit_once('_') else { return field };
     let of_one = ["lower", "upper"].contains(&end) || end.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,4 +1,4 @@
-//! Files that are there in full or not at all: written to a temporary name beside the target, then renamed.
+//! Atomic files, written completely or not at all: written to a temporary name beside the target, then renamed.
 
 use std::ffi::OsStr;
 use std::fs::{File, TryLockError};
@@ -9,20 +9,21 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 
-/// Replaces the file at `path` by `contents`, or makes it: a process killed at any moment leaves either the file as it was,
-/// or the new one in full, and beside it at most a temporary file that [`sweep`] removes.
+/// Creates the file at `path` with `contents`, or replaces it. A process killed at any moment leaves either the old file or
+/// the complete new one, and beside it at most a temporary file, which [`sweep`] removes.
 ///
 /// # Errors
-/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to or the disk is full; the file is
-/// then as it was.
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, or if the disk is full; the file
+/// is then unchanged.
 pub fn replace(path: &Path, contents: &[u8]) -> Result<()> {
     write_with(path, |file| file.write_all(contents))
 }
 
-/// Makes the file at `path` with these contents, unless there is one; whether it did. Of several processes one makes it.
+/// Creates the file at `path` with these contents, unless it exists. Returns whether it did. If several processes call it,
+/// one creates the file.
 ///
 /// # Errors
-/// As [`replace`].
+/// The errors of [`replace`].
 #[cfg(feature = "study")]
 pub(crate) fn create(path: &Path, contents: &[u8]) -> Result<bool> {
     let failed = |source| Error::File { path: path.to_owned(), source };
@@ -36,19 +37,19 @@ pub(crate) fn create(path: &Path, contents: &[u8]) -> Result<bool> {
     }
 }
 
-/// Replaces the file at `path` by what `contents` writes.
+/// Replaces the file at `path` by the output of `contents`.
 ///
-/// The data reach the disk before the name does: a process killed at any moment leaves either the file as it
-/// was, or the new one in full, and beside it at most a temporary file that [`sweep`] removes.
+/// The data reach the disk before the name does. A process killed at any moment leaves either the old file or the complete
+/// new one, and beside it at most a temporary file, which [`sweep`] removes.
 ///
 /// # Errors
-/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, the disk is full, or
-/// `contents` fails; the file is then as it was.
+/// [`Error::File`] with `path`, if its directory does not exist or cannot be written to, if the disk is full, or if
+/// `contents` fails; the file is then unchanged.
 pub(crate) fn write_with(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     persist(path, contents).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
-/// Removes the temporary files that killed processes have left in `directory`, where it can; those of living processes
+/// Removes the stale temporary files of killed processes in `directory`, as far as possible; those of running processes
 /// stay.
 pub fn sweep(directory: &Path) {
     let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
@@ -60,12 +61,12 @@ pub fn sweep(directory: &Path) {
     }
 }
 
-/// Whether a file of this name is one that was being written.
+/// Whether a file name is that of a temporary file.
 pub(crate) fn is_temporary(name: &OsStr) -> bool {
     name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
 }
 
-/// How the names of temporary files begin.
+/// Prefix of the names of temporary files.
 const PREFIX: &str = ".asperity-";
 
 fn persist(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -77,7 +78,7 @@ fn persist(path: &Path, contents: impl FnOnce(&mut dyn Write) -> io::Result<()>)
     draft.publish()
 }
 
-/// A file that is written under its temporary name, which is gone unless it is published.
+/// A file written under a temporary name, which is removed unless it is published.
 pub(crate) struct Draft {
     temporary: NamedTempFile,
     directory: PathBuf,
@@ -85,7 +86,7 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// An empty file that is to replace the one at `path`.
+    /// Creates an empty file that is to replace the one at `path`.
     ///
     /// # Errors
     /// If its directory does not exist or cannot be written to.
@@ -95,27 +96,27 @@ impl Draft {
             _ => PathBuf::from("."),
         };
         let temporary = create_in(&directory).map_err(without_temporary_name)?;
-        // It says that its process lives, to `sweep`; it goes with the file. Without locks only a sweep at the same time harms.
-        // Where locks are not advisory it would keep those out who write under the temporary name.
+        // The lock shows `sweep` that the process is running, and ends with the file. Without locks only a simultaneous
+        // sweep is harmful. If locks are mandatory, it would block writing under the temporary name.
         if cfg!(unix) {
             let _ = temporary.as_file().try_lock();
         }
         Ok(Self { temporary, directory, path: path.to_owned() })
     }
 
-    /// Where it is written.
+    /// Path of the temporary file.
     pub(crate) fn temporary_path(&self) -> &Path {
         self.temporary.path()
     }
 
-    /// Replaces the file at its path, once all of it is on the disk.
+    /// Replaces the file at its path, once all data are on the disk.
     ///
     /// # Errors
     /// If the disk is full, or the file cannot be renamed.
     pub(crate) fn publish(self) -> io::Result<()> {
         self.temporary.as_file().sync_all()?;
         self.temporary.persist(&self.path).map_err(|failed| failed.error)?;
-        // The name itself survives a power cut only once its directory is on the disk; not every system can do that.
+        // The new name survives a power cut only once its directory is on the disk, which not every system supports.
         if cfg!(unix) {
             let _ = File::open(&self.directory).and_then(|directory| directory.sync_all());
         }
@@ -123,7 +124,7 @@ impl Draft {
     }
 }
 
-/// A temporary file by which other processes tell that they see the same directory; it goes with this value.
+/// A temporary file by which other processes check that they see the same directory; it is removed with this value.
 #[cfg(feature = "study")]
 pub(crate) struct Token {
     _file: NamedTempFile,
@@ -132,14 +133,14 @@ pub(crate) struct Token {
 
 #[cfg(feature = "study")]
 impl Token {
-    /// A file in `directory` with a number that no other has.
+    /// Creates a file with a unique number in `directory`.
     ///
     /// # Errors
     /// [`Error::File`] with `directory`.
     pub(crate) fn new(directory: &Path) -> Result<Self> {
         let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let text = format!("{} {now:?} {}", std::process::id(), directory.display());
-        // As many digits as an `f64` holds exactly: ranks exchange those.
+        // As many digits as an `f64` represents exactly, because ranks exchange those.
         let number = u64::from_str_radix(&super::sha256(text.as_bytes())[..12], 16).expect("hexadecimal");
         let file = tempfile::Builder::new().prefix(&Self::name(number)).rand_bytes(0).tempfile_in(directory);
         let file = file.map_err(|source| Error::File { path: directory.to_owned(), source })?;
@@ -165,14 +166,14 @@ fn create_in(directory: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
-        // As any other new file, readable by whom the umask lets; temporary files are private otherwise.
+        // Permissions like those of any new file, according to the umask; temporary files would be private.
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.prefix(PREFIX).tempfile_in(directory)
 }
 
-/// The name of a file that nobody asked for would only confuse.
+/// Removes the temporary name from an error, because it would only confuse.
 fn without_temporary_name(error: io::Error) -> io::Error {
     match error.kind() {
         ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, "its directory does not exist"),

@@ -1,4 +1,4 @@
-//! Digests of contents.
+//! SHA-256 digests.
 
 #[cfg(feature = "study")]
 use std::io::{self, Read};

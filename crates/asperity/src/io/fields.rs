@@ -1,11 +1,11 @@
-//! The container of the results: an HDF5 file of named fields, each with its unit, axes, pitch and origin.
+//! Container of results: an HDF5 file of named fields, each with its unit, axes, pitch and origin.
 //!
 //! ```text
 //! /             attributes: what the writer adds, for example `version`, `pass`; `digest`, of all of the file
 //! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
 //! ```
 //!
-//! A file takes its name when all of it is written, so that a killed run leaves only whole files: one for each pass.
+//! A file gets its name once all of it is written, so that a killed run leaves only complete files: one for each pass.
 //! `origin` is the position of the centre of the first cell.
 
 use std::collections::BTreeMap;
@@ -27,38 +27,38 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid, check_finite};
 use crate::units::Metre;
 
-/// Fields that are written to one file. Arrays go to the disk while others are added: no more than some are held in memory.
+/// A file of fields being written. Arrays are written to disk while others are added, so that only a few are in memory.
 pub struct FieldFile {
     attributes: BTreeMap<String, Attribute>,
-    /// The digest of each array, by its name.
+    /// Digest of each array, by name.
     arrays: BTreeMap<String, Digest>,
-    /// The file on the disk, or why there is none.
+    /// The file on disk, or the error of its creation.
     draft: Result<FieldDraft>,
-    /// Whether each value must be a finite number, unless its field may hold others.
+    /// Whether each value must be a finite number, unless its field may contain others.
     finite: bool,
 }
 
-/// A fact about a file.
+/// An attribute of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Attribute {
-    /// Text.
+    /// A text.
     Text(String),
     /// A number.
     Number(f64),
     /// A count.
     Integer(i64),
-    /// Some numbers.
+    /// Several numbers.
     Numbers(Vec<f64>),
 }
 
-/// An array as read from a file.
+/// An array read from a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredField {
     /// Unit of the values.
     pub unit: String,
     /// Names of the axes, `x,y` for a field.
     pub axes: String,
-    /// Distance of neighbouring values along each axis.
+    /// Distance between neighbouring values along each axis.
     pub pitch: Vec<Metre>,
     /// Position of the first value along each axis.
     pub origin: Vec<Metre>,
@@ -67,15 +67,15 @@ pub struct StoredField {
 }
 
 impl FieldFile {
-    /// A file with nothing in it, which is to be at `path`, in a folder that is made if there is none. It is there once
-    /// [`FieldFile::write`] has ended; errors until then come to light there.
+    /// Creates an empty file for `path`, in a folder that is created if missing. It exists at `path` once
+    /// [`FieldFile::write`] has succeeded, which also reports earlier errors.
     pub fn new(path: &Path) -> Self {
         let (attributes, arrays) = (BTreeMap::new(), BTreeMap::new());
         Self { attributes, arrays, draft: FieldDraft::new(path), finite: false }
     }
 
-    /// A file at `path` of the run of this identity, which it says. [`FieldFile::write`] refuses a value that is not finite by
-    /// [`Error::NotFinite`], unless its field may hold such values.
+    /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not finite with
+    /// [`Error::NotFinite`], unless its field may contain such values.
     #[cfg(feature = "study")]
     pub(crate) fn of_run(identity: &str, path: &Path) -> Self {
         let mut file = Self { finite: true, ..Self::new(path) };
@@ -83,7 +83,7 @@ impl FieldFile {
         file
     }
 
-    /// Adds a fact about the whole file.
+    /// Adds an attribute of the whole file.
     pub fn set(&mut self, name: &str, value: impl Into<Attribute>) -> &mut Self {
         self.attributes.insert(name.to_owned(), value.into());
         self
@@ -92,7 +92,7 @@ impl FieldFile {
     /// Adds a field on `grid`, whose first cell has its corner at `corner`.
     ///
     /// # Panics
-    /// If `values` are not on `grid`, or there is an array `name` already.
+    /// If the shape of `values` differs from that of `grid`, or if an array `name` exists.
     pub fn add_field(
         &mut self,
         name: &str,
@@ -106,11 +106,10 @@ impl FieldFile {
         self.add(name, unit, "x,y", &grid.shape, &grid.pitch, &origin, flat(&values.as_standard_layout()))
     }
 
-    /// Adds values on a section along x and into the depth z, whose first row is the surface and whose first column
-    /// is at `x`.
+    /// Adds values on a section along x and into the depth z. Its first row is the surface, and its first column is at `x`.
     ///
     /// # Panics
-    /// If there are no values, or there is an array `name` already.
+    /// If there are no values, or if an array `name` exists.
     pub fn add_section(
         &mut self,
         name: &str,
@@ -126,7 +125,7 @@ impl FieldFile {
     /// Adds values in layers below the cells of `grid`, `[ix, iy, iz]`.
     ///
     /// # Panics
-    /// If `values` are not on `grid`, or there is an array `name` already.
+    /// If the shape of `values` differs from that of `grid`, or if an array `name` exists.
     #[cfg(feature = "study")]
     pub(crate) fn add_layers(
         &mut self,
@@ -144,7 +143,7 @@ impl FieldFile {
     /// Adds values at `origin`, `origin + pitch`, … along one axis.
     ///
     /// # Panics
-    /// If there are no values, or there is an array `name` already.
+    /// If there are no values, or if an array `name` exists.
     pub fn add_series(
         &mut self,
         name: &str,
@@ -176,7 +175,7 @@ impl FieldFile {
         let describe = |dataset: &mut DatasetBuilder| {
             dataset.with_f64_data(values).with_shape(&sizes);
             if values.len() >= MIN_COMPRESSED {
-                // Most of a pressure field is 0, and neighbouring heights share their exponents.
+                // Most of a pressure field is 0, and neighbouring heights have similar exponents.
                 dataset.with_chunks(&chunk(&sizes)).with_shuffle().with_deflate(DEFLATE_LEVEL);
             }
             dataset
@@ -199,7 +198,7 @@ impl FieldFile {
         self
     }
 
-    /// Ends the file, and gives it its name.
+    /// Completes the file, and gives it its name.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -225,12 +224,12 @@ impl FieldFile {
     }
 }
 
-/// A file of fields under its temporary name.
+/// A field file under its temporary name.
 struct FieldDraft {
     path: PathBuf,
     file: File,
     draft: Draft,
-    /// Bytes of the arrays that wait to be written.
+    /// Bytes of the arrays waiting to be written.
     waiting: usize,
 }
 
@@ -243,7 +242,7 @@ impl FieldDraft {
         let open = || {
             let draft = Draft::new(path)?;
             let create = FileCreateProperties::new();
-            // Nobody else knows it, and it reaches the disk when it is published.
+            // No other process knows it, and it is synchronised to disk when it is published.
             let access = without_lock().with_sync_policy(SyncPolicy::OnClose);
             let file = File::create_with_options(draft.temporary_path(), create, access)?;
             Ok(Self { path: path.to_owned(), file, draft, waiting: 0 })
@@ -251,7 +250,7 @@ impl FieldDraft {
         open().map_err(|error| file_error(path, error))
     }
 
-    /// Adds an array of so many bytes.
+    /// Adds an array with this number of bytes.
     fn add(
         &mut self,
         name: &str,
@@ -268,12 +267,12 @@ impl FieldDraft {
     }
 }
 
-/// Access to a file that is not locked: files take their names when they are whole.
+/// Access without file locks, because files get their names when they are complete.
 fn without_lock() -> FileAccessProperties {
     FileAccessProperties::new().with_locking(FileLocking::Disabled)
 }
 
-/// The values of an array in the order of its axes, the last first.
+/// Returns the values of an array in the order of its axes, the last one fastest.
 fn flat<D: Dimension>(values: &ArrayRef<f64, D>) -> &[f64] {
     values.as_slice().expect("standard layout")
 }
@@ -281,10 +280,10 @@ fn flat<D: Dimension>(values: &ArrayRef<f64, D>) -> &[f64] {
 /// SHA-256.
 type Digest = [u8; 32];
 
-/// The attribute that holds the digest of all else.
+/// Attribute with the digest of everything else.
 const DIGEST: &str = "digest";
 
-/// The digest of an array and its attributes.
+/// Digest of an array and its attributes.
 fn array_digest<'a>(
     texts: [&str; 2],
     shape: &[usize],
@@ -297,11 +296,11 @@ fn array_digest<'a>(
     digest.finalize().into()
 }
 
-/// The digest of a whole file, hexadecimal.
+/// Digest of a whole file, hexadecimal.
 fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<String, Digest>) -> String {
     let mut text = String::new();
     for (name, value) in attributes {
-        // One number reads back as a list of one, or the other way round.
+        // A single number may read back as a list of one, or the other way round.
         let value = match value {
             Attribute::Number(number) => &Attribute::Numbers(vec![*number]),
             other => other,
@@ -312,20 +311,20 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
     sha256(text.as_bytes())
 }
 
-/// Fields of fewer values are not compressed.
+/// Fields with fewer values are not compressed.
 const MIN_COMPRESSED: usize = 1024;
-/// So many bytes of arrays are written together.
+/// Bytes of arrays that are written together.
 const MAX_WAITING: usize = 1 << 24;
-/// So many bytes of what describes arrays are kept while a file is read.
+/// Bytes of array descriptions kept while a file is read.
 const MAX_METADATA: usize = 1 << 24;
 /// Level of the compression, 1 to 9.
 const DEFLATE_LEVEL: u32 = 4;
 
-/// Whole rows, about 1 MiB of them; of very long rows a part.
+/// Returns the chunk shape: whole rows, about 1 MiB of them; for very long rows a part.
 fn chunk(shape: &[u64]) -> Vec<u64> {
-    /// Values of a chunk.
+    /// Number of values in a chunk.
     const VALUES: u64 = 1 << 17;
-    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 would do, which HDF5 2 refuses.
+    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 are enough, which HDF5 2 rejects.
     const MAX_CHUNK_SIDE: u64 = 1 << 15;
     match *shape {
         [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(MAX_CHUNK_SIDE)), ny.min(MAX_CHUNK_SIDE)],
@@ -339,16 +338,16 @@ fn chunk(shape: &[u64]) -> Vec<u64> {
     }
 }
 
-/// A file of fields, opened to be read.
+/// A field file, open for reading.
 pub struct Fields {
     path: PathBuf,
     file: File,
-    /// Names of the arrays, sorted, once they have been asked for.
+    /// Names of the arrays, sorted, once they have been read.
     names: OnceLock<Vec<String>>,
 }
 
 impl Fields {
-    /// Opens what [`FieldFile::write`] wrote.
+    /// Opens a file written by [`FieldFile::write`].
     ///
     /// # Errors
     /// [`Error::File`].
@@ -361,7 +360,7 @@ impl Fields {
         Ok(Self { path: path.to_owned(), file, names: OnceLock::new() })
     }
 
-    /// Names of the arrays, sorted.
+    /// Returns the names of the arrays, sorted.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -378,7 +377,7 @@ impl Fields {
         Ok(self.names.get_or_init(|| names))
     }
 
-    /// Facts about the whole file.
+    /// Returns the attributes of the whole file.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -387,7 +386,7 @@ impl Fields {
         Ok(attributes.into_iter().filter_map(|(name, value)| Some((name, attribute(&value)?))).collect())
     }
 
-    /// The array `name`.
+    /// Reads the array `name`.
     ///
     /// # Errors
     /// [`Error::NoField`], [`Error::File`].
@@ -400,10 +399,10 @@ impl Fields {
         self.file.dataset(name).and_then(|dataset| stored(&dataset)).map_err(|error| self.error(error))
     }
 
-    /// Reads all of it and compares it with the digest that it was written with.
+    /// Reads the whole file and compares it with its stored digest.
     ///
     /// # Errors
-    /// [`Error::File`] also where they differ.
+    /// [`Error::File`], also if they differ.
     pub fn verify(&self) -> Result<()> {
         let mut attributes = self.attributes()?;
         let written = attributes.remove(DIGEST);
@@ -426,7 +425,7 @@ impl Fields {
     }
 }
 
-/// The array `name` of the file at `path`.
+/// Reads the array `name` of the file at `path`.
 ///
 /// # Errors
 /// [`Error::NoField`], [`Error::File`].
@@ -435,7 +434,7 @@ pub fn read_field(path: &Path, name: &str) -> Result<StoredField> {
 }
 
 impl StoredField {
-    /// The values of a two-dimensional field, `[ix, iy]`; `None` for any other array.
+    /// Returns the values of a two-dimensional field, `[ix, iy]`; `None` for any other array.
     pub fn into_field(self) -> Option<Field> {
         self.values.into_dimensionality::<Ix2>().ok()
     }
@@ -583,7 +582,7 @@ mod tests {
         let large = Grid::new([1024, 1100], [1e-6; 2]).unwrap();
         let small = Grid::new([8, 9], [1e-6; 2]).unwrap();
         let mut file = FieldFile::new(&path);
-        // Some times as much as waits to be written, and more of each than fit into a header.
+        // Several times the amount that waits to be written, and more arrays than fit into a header.
         for n in 0..5 {
             file.add_field(&format!("large_{n}"), "m", &large, [0.0; 2], &(field(&large) + f64::from(n)));
             for m in 0..6 {
@@ -660,7 +659,7 @@ mod tests {
         }
         file.write().unwrap();
         let whole = std::fs::read(&path).unwrap();
-        // Whatever is read is read in full: the values, or an error.
+        // Every read returns either all values or an error.
         let read = || -> Result<()> {
             let fields = Fields::open(&path)?;
             fields.verify()?;
@@ -677,7 +676,7 @@ mod tests {
             read().is_err()
         });
         let found = found.count();
-        // Most of a small file is room.
+        // Most of a small file is padding.
         assert!(found > 80, "{found} of {}", whole.len());
         for length in [0, 100, whole.len() / 2, whole.len() - 1] {
             std::fs::write(&path, &whole[..length]).unwrap();

@@ -1,4 +1,4 @@
-//! Locks of the operating system on a file, which die with their process.
+//! Operating system locks on a file, which end with their process.
 
 use std::fs::{File, TryLockError};
 use std::io;
@@ -11,16 +11,16 @@ use web_time::Instant;
 
 use crate::io::regular;
 
-/// A lock that this process holds; it is given back with its last clone.
+/// A lock held by this process; it is released with its last clone.
 #[derive(Debug, Clone)]
 pub(crate) struct Lock {
-    /// The locked file; none where the file system has no locks.
+    /// The locked file; `None` if the file system has no locks.
     held: Option<Arc<File>>,
 }
 
 impl Lock {
-    /// Locks the file at `path`, which is made where it is missing and stays when the lock is given back. None if another has it for
-    /// longer than the `patience`.
+    /// Locks the file at `path`, which is created if missing and stays when the lock is released. Returns `None` if another
+    /// process holds the lock for longer than `patience`.
     pub(crate) fn take(path: &Path, patience: Duration) -> io::Result<Option<Self>> {
         if path.exists() {
             regular::check(path, "a file to be locked")?;
@@ -43,7 +43,7 @@ impl Lock {
     }
 }
 
-/// Whether somebody holds a lock on the file at `path`.
+/// Whether any process holds a lock on the file at `path`.
 pub(crate) fn is_taken(path: &Path) -> bool {
     let file = regular::open(path, "a file to be locked");
     file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))

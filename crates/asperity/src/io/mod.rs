@@ -1,11 +1,11 @@
-//! Files as such: written in full or not at all, fields in HDF5 and for ParaView.
+//! File access: atomic writing, fields in HDF5 and for ParaView.
 
-pub(crate) mod atomic; // a file is there in full or not at all
+pub(crate) mod atomic; // atomic files
 mod digest; // SHA-256
 pub mod fields; // HDF5: named fields with unit, axes, pitch
 #[cfg(feature = "study")]
-pub(crate) mod lock; // locks that die with their process
-pub(crate) mod regular; // regular files, to be read
+pub(crate) mod lock; // locks that end with their process
+pub(crate) mod regular; // reading of regular files
 pub mod vti; // fields for ParaView
 
 pub use atomic::{replace, sweep};

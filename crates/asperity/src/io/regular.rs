@@ -1,14 +1,14 @@
-//! Files that are read: regular ones only, and none larger than it may be.
+//! Reading of regular files with a limit on their size.
 
 use std::fs::{File, FileType, Metadata};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Reads the file at `path`, which is to be `expected`, "a case file", of at most so many bytes.
+/// Reads the file at `path`, of at most `most` bytes. `expected` describes it: "a case file".
 ///
 /// # Errors
-/// What the operating system says; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] with what it is instead
-/// of a regular file, the latter also with its size where that is more than `most`.
+/// The error of the operating system; [`ErrorKind::IsADirectory`] or [`ErrorKind::InvalidInput`] for anything but a regular
+/// file, with its kind; [`ErrorKind::InvalidInput`] also for a file larger than `most`, with its size.
 pub fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
     let mut file = open(path, expected)?;
     let length = file.metadata()?.len();
@@ -21,19 +21,20 @@ pub fn read(path: &Path, expected: &str, most: u64) -> io::Result<Vec<u8>> {
     Ok(content)
 }
 
-/// Opens the file at `path`, which is to be `expected`, to be read.
+/// Opens the file at `path` for reading. `expected` describes it.
 ///
 /// # Errors
-/// As [`read`].
+/// The errors of [`read`].
 pub(crate) fn open(path: &Path, expected: &str) -> io::Result<File> {
     check(path, expected)?;
     File::open(path)
 }
 
-/// Returns an error unless `path` leads to a regular file: a pipe or a device has no end, and opening one may wait for ever.
+/// Returns an error unless `path` leads to a regular file. A pipe or a device has no end, and opening one may block
+/// forever.
 ///
 /// # Errors
-/// As [`read`].
+/// The errors of [`read`].
 pub(crate) fn check(path: &Path, expected: &str) -> io::Result<()> {
     let about = std::fs::metadata(path)?;
     if about.is_file() {

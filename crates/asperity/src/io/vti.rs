@@ -1,6 +1,6 @@
-//! VTK image data, `.vti`, which ParaView opens: fields of results on their grid.
+//! VTK image data, `.vti`, for ParaView: fields of results on their grid.
 //!
-//! Format: "VTK XML file formats", image data with its numbers appended raw, little-endian. Each array is preceded by its
+//! Format: "VTK XML file formats", image data with appended raw numbers, little-endian. Each array is preceded by its
 //! length in bytes, and x runs fastest.
 
 use std::io::{self, Write};
@@ -14,7 +14,7 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::units::Metre;
 
-/// Where values stand on an image.
+/// Location of values on an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Of {
     /// Values at the points of an image.
@@ -71,17 +71,17 @@ impl Image<'_> {
     }
 }
 
-/// Writes the fields of the file at `path`, `NAME.h5`, on the grid of the lower body as `NAME.vti`, those on another grid
-/// of the upper body as `NAME-upper.vti`. Fields on a part of the lower body are undefined beyond it.
+/// Writes the fields of the file at `path`, `NAME.h5`, on the grid of the lower body as `NAME.vti`, and those on a
+/// different grid of the upper body as `NAME-upper.vti`. Fields on a part of the lower body are undefined beyond it.
 ///
 /// # Errors
-/// [`Error::File`](crate::Error::File) if the file cannot be read, or one of the others not be written.
+/// [`Error::File`](crate::Error::File) if the file cannot be read, or if one of the others cannot be written.
 pub fn write_fields(path: &Path) -> Result<()> {
     let fields = Fields::open(path)?;
     let mut lower: Option<Sheet> = None;
     let mut upper: Option<Sheet> = None;
     let names = fields.names()?;
-    // The bodies come first: they are the grids.
+    // The bodies come first, because they define the grids.
     let bodies = ["lower", "upper"].into_iter().map(str::to_owned).filter(|name| names.contains(name));
     let others = names.iter().filter(|name| !matches!(name.as_str(), "lower" | "upper")).cloned();
     for name in bodies.chain(others) {
@@ -122,7 +122,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// The values of a field whose first column is the body's `first`, x fastest.
+    /// Returns the values of a field whose first column is column `first` of the body, x fastest.
     fn placed(&self, field: &Field, first: usize) -> Vec<f32> {
         let [nx, ny] = self.shape;
         let mut values = vec![f32::NAN; nx * ny];
@@ -145,14 +145,14 @@ impl Sheet {
     }
 }
 
-/// Writes values on planes at evenly spaced depths under a body's surface as a volume: z is 0 at the surface and falls
-/// into the body. The centre of the first cell is at `origin`.
+/// Writes values on planes at evenly spaced depths under the surface of a body as a volume. z is 0 at the surface and
+/// decreases into the body. The centre of the first cell is at `origin`.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File).
 ///
 /// # Panics
-/// If there are no planes, or they are not of one shape.
+/// If there are no planes, or if their shapes differ.
 pub fn write_volume(
     path: &Path,
     name: &str,
@@ -185,7 +185,7 @@ mod tests {
     use crate::grid::Grid;
     use crate::io::fields::FieldFile;
 
-    /// What `vtk` of Python reads, as a line; none without it, which CI does not put up with.
+    /// Output line of a Python script with `vtk`; `None` if it is missing, which fails in CI.
     fn as_vtk_reads(path: &Path, say: &str) -> Option<String> {
         let python = std::env::var("ASPERITY_PYTHON").unwrap_or_else(|_| "python3".to_owned());
         let there =
@@ -216,7 +216,7 @@ mod tests {
         file.add_field("lower", "m", &grid, [0.0; 2], &numbered(&grid));
         file.add_field("upper", "m", &other, [0.0; 2], &numbered(&other));
         file.add_field("mean_pressure_upper", "Pa", &other, [0.0; 2], &numbered(&other));
-        // Wraps around: on columns 4 and 0.
+        // Wraps around: in columns 4 and 0.
         file.add_field("pressure_00001", "Pa", &part, [4e-6, 0.0], &numbered(&part));
         file.write().unwrap();
         write_fields(&path).unwrap();

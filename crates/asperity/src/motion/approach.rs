@@ -1,56 +1,55 @@
-//! The search for the approach of a pass at which its mean load is the one prescribed.
+//! Search for the approach of a pass with the prescribed mean load.
 
 use crate::error::{Error, LoadLimit, Result};
 use crate::motion::warm_start::Guess;
 use crate::units::{Metre, Newton};
 
-/// Largest residual η to which the positions of a trial are solved roughly.
+/// Largest residual η of a rough solution of the positions of a trial.
 pub(super) const MAX_RESIDUAL: f64 = 0.1;
-/// Approaches tried, after which the search is given up.
+/// Number of approaches tried before the search gives up.
 const MAX_TRIALS: usize = 100;
 
-/// Largest relative error of the load, in residuals η of its positions, that an exhausted bracket may leave: the load is
+/// Largest relative error of the load, in residuals η of its positions, accepted from an exhausted bracket. The load is
 /// uncertain by a part of η itself.
 const MAX_LOAD_ERROR: f64 = 100.0;
 
-/// Width of a bracket, in roundings of its approaches, that holds no more of them to try.
+/// Width of an exhausted bracket, in roundings of its approaches: it contains no further approaches to try.
 const BRACKET_ROUNDING: f64 = 4.0;
-/// Relative error of the load, as a share of the residual η: a load that differs from the one wanted by less does not tell on
-/// which side of it it is.
+/// Relative uncertainty of the load, as a fraction of the residual η. The sign of a smaller load error is unknown.
 const UNCERTAINTY: f64 = 0.1;
-/// Trials to the wanted residual that come as near to the load as that can tell, and not within the tolerance, after which the
-/// next of them is taken: on which side of the load they are is not known, and no bracket closes.
+/// Number of trials at the required residual whose load error is within the uncertainty but not within the tolerance. After
+/// these, the next such trial is accepted: the sign of their error is unknown, and no bracket closes.
 const MAX_UNCERTAIN_TRIALS: usize = 8;
-/// Trials one after the other that do not halve the least error of the load, after which the bracket is halved instead: the
-/// secant is that of a jump.
+/// Number of successive trials that do not halve the least error of the load, after which the bracket is bisected: the
+/// secant then crosses a jump.
 const MAX_STALLED_TRIALS: usize = 3;
-/// Relative error of the load after a secant step, in products of the errors of the two trials before it.
+/// Relative error of the load after a secant step, as a multiple of the product of the errors of the two trials before it.
 const SECANT_ERROR: f64 = 4.0;
 
-/// A search for the approach of a mean load.
+/// A search for the approach with a given mean load.
 pub(super) struct Search {
-    /// The mean load wanted.
+    /// The required mean load.
     pub(super) load: Newton,
     /// Relative tolerance on the load.
     pub(super) tolerance: f64,
-    /// Residual η of the accepted answer.
+    /// Residual η of the accepted solution.
     pub(super) residual: f64,
     /// Largest residual η to which the positions of a trial are solved.
     pub(super) roughest: f64,
-    /// Approach at which the bodies first touch: there is no load below it.
+    /// Approach of first touch; the load is 0 below it.
     pub(super) touch: Metre,
-    /// Length below which approaches do not differ: the rounding of the heights.
+    /// Resolution of approaches: the rounding of the heights.
     pub(super) resolution: Metre,
-    /// Where the load grows no more, or is not determined.
+    /// Approach at which the load stops growing or becomes undetermined.
     pub(super) limit: Limit,
 }
 
 /// The largest approach that is tried.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limit {
-    /// The approach; infinite where there is no limit.
+    /// The approach; infinite if there is no limit.
     pub(super) approach: Metre,
-    /// Why the load grows no more beyond this approach.
+    /// The reason for the limit.
     pub(super) cause: LoadLimit,
 }
 
@@ -58,7 +57,7 @@ pub(super) struct Limit {
 pub(super) struct Found<T> {
     /// The outcome of the trial.
     pub(super) outcome: T,
-    /// The approach and the slope there, to begin the next search with.
+    /// The approach and the slope there, as the initial guess of the next search.
     pub(super) guess: Guess,
     /// Approaches tried.
     pub(super) trials: usize,
@@ -67,9 +66,9 @@ pub(super) struct Found<T> {
 impl Search {
     /// Tries approaches by a bracketed secant iteration on ln W(δ).
     ///
-    /// `trial(δ, η)` gives the mean load at an approach, from positions solved to the residual η; the first of them to
-    /// `residual`. Far from the load a rough answer is enough to find the next approach; only the last trial is solved to
-    /// the wanted residual.
+    /// `trial(δ, η)` returns the mean load at an approach, from positions solved to the residual η; the first trial is
+    /// solved to `residual`. Far from the load a rough solution is enough to find the next approach. Only the last trial is
+    /// solved to the required residual.
     pub(super) fn run<T>(
         &self,
         first: Guess,
@@ -94,7 +93,8 @@ impl Search {
             if std::mem::replace(&mut was_rough, is_rough) != is_rough {
                 (least_excess, stalled) = (f64::INFINITY, 0);
                 if !is_rough && excess.abs() > self.roughest {
-                    // The rough answers before it promised that this one meets the load: from here on without them.
+                    // The rough solutions before this one were wrong about its load, so no further rough solutions are
+                    // used.
                     (rough_misled, before, below) = (true, None, 0.0);
                     (bracket, slope) = (Bracket::beyond(self.touch), first.slope);
                 }
@@ -103,7 +103,7 @@ impl Search {
             if !tells_no_side && excess.abs() > self.tolerance {
                 let refuted = bracket.narrow(Bound { approach, residual }, excess < 0.0);
                 if refuted {
-                    // A rougher answer told the wrong side of the load: from here on without them.
+                    // A rougher solution was on the wrong side of the load, so no further rough solutions are used.
                     (rough_misled, slope, least_excess) = (true, first.slope, f64::INFINITY);
                 }
             }
@@ -126,7 +126,7 @@ impl Search {
                     }
                     return Err(Error::LoadNotReached { load: self.load, below, trials, approach });
                 }
-                // The slope of a jump, on which a bracket closes, leads nowhere.
+                // The slope of a jump, on which a bracket closes, is useless.
                 let slope = if exhausted { first.slope } else { slope };
                 return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
             }
@@ -134,7 +134,7 @@ impl Search {
             if let Some((other, value)) = before {
                 let change = logarithm - value;
                 let secant = change / (approach - other);
-                // The slope of a change that no residual tells is noise.
+                // The slope of a change within the uncertainty is noise.
                 if secant.is_finite() && secant > 0.0 && change.abs() > UNCERTAINTY * self.residual {
                     slope = secant;
                 }
@@ -158,10 +158,10 @@ impl Search {
         Err(Error::LoadNotReached { load: self.load, below, trials: MAX_TRIALS, approach })
     }
 
-    /// The residual that is enough for the trial after two that missed the load by these.
+    /// Returns the residual for the next trial after two trials with these errors of the load.
     ///
-    /// The mean load is some thousand times more accurate than the residual, and the next trial is expected to miss it
-    /// by a few times the product of the last two: where that is within the tolerance, the trial is taken to be the last.
+    /// The mean load is about a thousand times more accurate than the residual. The next trial is expected to have an error
+    /// of a few times the product of the last two. If that is within the tolerance, the trial is treated as the last.
     fn residual_for(&self, excess: f64, before: f64) -> f64 {
         if SECANT_ERROR * (excess * before).abs() <= self.tolerance {
             return self.residual;
@@ -170,7 +170,7 @@ impl Search {
     }
 }
 
-/// The approaches between which the load is met, as far as trials tell.
+/// The approaches between which the load is met, according to the trials.
 struct Bracket {
     touch: Bound,
     low: Bound,
@@ -181,20 +181,21 @@ struct Bracket {
 #[derive(Clone, Copy)]
 struct Bound {
     approach: Metre,
-    /// The residual η of the trial that missed the load there; 0 where none is needed to know.
+    /// The residual η of the trial that set the bound; 0 if it needed none.
     residual: f64,
 }
 
 impl Bracket {
     const OPEN: Bound = Bound { approach: f64::INFINITY, residual: 0.0 };
 
-    /// All approaches beyond the first touch.
+    /// Creates the bracket of all approaches beyond first touch.
     fn beyond(touch: Metre) -> Self {
         let touch = Bound { approach: touch, residual: 0.0 };
         Self { touch, low: touch, high: Self::OPEN }
     }
 
-    /// Takes a trial as a bound, `below` the load wanted or above it; whether it refutes the bound of a rougher one.
+    /// Uses a trial as a bound, `below` the required load or above it. Returns whether it refutes the bound of a rougher
+    /// trial.
     fn narrow(&mut self, bound: Bound, below: bool) -> bool {
         let refuted;
         if below {
@@ -207,7 +208,7 @@ impl Bracket {
         refuted
     }
 
-    /// The bound at or beyond which an approach lies; the upper one of what is no number.
+    /// Returns the bound at or beyond which an approach lies; the upper one for NaN.
     fn bound_passed(&self, approach: Metre) -> Option<Bound> {
         if approach <= self.low.approach {
             Some(self.low)
@@ -218,18 +219,18 @@ impl Bracket {
         }
     }
 
-    /// The approach half-way between two bounds.
+    /// Returns the approach half-way between two bounds.
     fn middle(&self) -> Option<Metre> {
         let middle = 0.5 * (self.low.approach + self.high.approach);
         middle.is_finite().then_some(middle)
     }
 
-    /// A bound set by a trial to a residual above this.
+    /// Returns a bound set by a trial at a residual above this.
     fn bound_rougher_than(&self, residual: f64) -> Option<Bound> {
         [self.low, self.high].into_iter().find(|bound| bound.residual > residual)
     }
 
-    /// Whether it holds no more approaches to try, where these do not differ below the `resolution`.
+    /// Whether no approaches are left to try within the `resolution`.
     fn is_exhausted(&self, resolution: Metre) -> bool {
         let [low, high] = [self.low.approach, self.high.approach];
         let rounding = resolution.max(f64::EPSILON * low.abs().max(high.abs()));
@@ -302,7 +303,7 @@ mod tests {
             }
             other => panic!("{other:?}"),
         }
-        // What is just below it is found.
+        // A load just below the limit is found.
         let found = Search { load: 1.499, ..limited(1e-6, 8.0) };
         let found = found.run(first, MAX_RESIDUAL, |delta, _| Ok((curve(delta), ()))).unwrap();
         assert!((curve(found.guess.approach) / 1.499 - 1.0).abs() < 1e-6);
@@ -310,7 +311,7 @@ mod tests {
 
     #[test]
     fn rough_answers_on_the_wrong_side_do_not_mislead() {
-        // The rough load is twice too large below 1.2, half of it above.
+        // The rough load is twice too large below 1.2, and half the true load above.
         let rough = |delta: f64| if delta < 1.2 { 2.0 * delta } else { 0.5 * delta };
         let trial = |delta: f64, eta: f64| Ok((if eta > 1e-6 { rough(delta) } else { delta }, ()));
         let found = search(1e-6).run(Guess { approach: 1.1, slope: 2.0 }, MAX_RESIDUAL, trial).unwrap();
@@ -319,7 +320,8 @@ mod tests {
 
     #[test]
     fn a_rough_answer_on_the_wrong_side_of_the_load_closes_no_bracket() {
-        // A rough trial before it bears 1 % less than there is, and stands below the load: it is at 2.
+        // A rough trial before the limit reaches 1 % less than the true load, and is below the required load, which is met
+        // at 2.
         let trial = |delta: f64, eta: f64| {
             let short = if eta > 1e-6 && delta > 2.0 { 0.01 } else { 0.0 };
             Ok((delta * (1.0 - short), ()))
@@ -331,7 +333,7 @@ mod tests {
 
     #[test]
     fn a_bracket_that_closes_on_a_jump_hands_on_no_slope_of_it() {
-        // It jumps at 2 to the load wanted, within what is accepted of an exhausted bracket.
+        // The load jumps at 2 to the required load, within the error accepted from an exhausted bracket.
         let curve = |delta: f64| if delta < 2.0 { 0.9 * delta } else { delta + 1e-4 };
         let first = Guess { approach: 1.9, slope: 0.5 };
         let found = search(1e-9).run(first, 1e-6, |delta, _| Ok((curve(delta), ()))).unwrap();
@@ -340,7 +342,7 @@ mod tests {
 
     #[test]
     fn a_load_that_is_known_too_roughly_for_the_tolerance_is_met_as_nearly_as_it_is_known() {
-        // The load is uncertain by some part of the residual, otherwise at each approach.
+        // The load has an error of a part of the residual that varies from approach to approach.
         let uncertain = |delta: f64| 5e-5 * (1e15 * delta).sin();
         let trial = |delta: f64, _| Ok((delta.powf(1.5) * (1.0 + uncertain(delta)), ()));
         let first = Guess { approach: 0.3, slope: 2.0 };

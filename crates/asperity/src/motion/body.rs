@@ -1,4 +1,4 @@
-//! A body as a motion changes it.
+//! A body whose cells a motion can change.
 
 use std::collections::BTreeMap;
 
@@ -6,29 +6,29 @@ use crate::error::{Result, check_in};
 use crate::grid::{CellValues, Field};
 use crate::units::Dimension;
 
-/// One of two bodies that face each other: its heights, and what else of it a motion may change cell by cell.
+/// One of two contacting bodies: its heights, and its other properties that a motion may change cell by cell.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Body {
-    /// Heights of the surface, of the upper body those of its underside, m.
+    /// Heights of the surface, m; for the upper body, heights of its underside.
     pub heights: Field,
-    /// Most pressure that its cells bear, Pa; infinite where the body is elastic.
+    /// Largest pressure that each cell can carry, Pa; infinite if the body is elastic.
     pub hardness: CellValues,
-    /// What laws keep of the body besides, by name in snake case: a film's thickness, an accumulated strain, ….
+    /// Further state that laws store with the body, by name in snake case: a film's thickness, an accumulated strain, ….
     pub state: BTreeMap<String, State>,
 }
 
-/// A field that a law keeps of a body.
+/// A field that a law stores with a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// SI unit of the values; `1` where they have none.
+    /// SI unit of the values; `1` for pure numbers.
     pub unit: String,
-    /// A value for each cell of the body.
+    /// One value for each cell of the body.
     pub values: Field,
 }
 
 impl Body {
-    /// A body of these heights that bears at most the pressure `hardness`.
+    /// Creates a body with these heights, which can carry at most the pressure `hardness`.
     pub fn new(heights: Field, hardness: impl Into<CellValues>) -> Self {
         Self { heights, hardness: hardness.into(), state: BTreeMap::new() }
     }
@@ -43,7 +43,7 @@ impl Body {
         self.heights.ncols()
     }
 
-    /// Whether each field has a value for each cell, and the hardness a meaning.
+    /// Checks that each field has a value for each cell, and that the hardness is valid.
     pub(super) fn validate(&self) -> Result<()> {
         let shape = [self.columns(), self.width()];
         assert!(self.hardness.fits(shape), "shape of the hardness");

@@ -1,4 +1,4 @@
-//! The contact at one position, kept in proportion to the real area of contact.
+//! The contact at one position, stored as its cells in contact only.
 
 use crate::error::Result;
 use crate::grid::{Field, Seat};
@@ -25,7 +25,7 @@ pub struct Contact {
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
-    /// Temperature of the surfaces on each cell in contact, in the order of the pressures, absolute; none where it is not
+    /// Absolute temperature of the surfaces on each cell in contact, in the order of the pressures; `None` if it is not
     /// computed.
     pub temperature: Option<Vec<Kelvin>>,
     /// Load W = ΔA Σ p, N.
@@ -36,13 +36,12 @@ pub struct Contact {
     pub approach: Metre,
     /// Scale-free complementarity residual η.
     pub residual: f64,
-    /// Cost: iterations of this solution, convolutions of all that led to it.
+    /// Cost: iterations of this solution, and convolutions of all solutions that led to it.
     pub stats: Stats,
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position`, sliding where there is friction, from the pressure `start` where there is
-    /// one.
+    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` if given.
     #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
@@ -72,14 +71,14 @@ impl Contact {
         Ok(Self::new(position, sliding, &solution))
     }
 
-    /// The same contact at a position on the way back, which costs nothing more.
+    /// Returns the same contact at a position of the return stroke, at no further cost.
     pub(super) fn back(&self, position: Position) -> Self {
-        // Without friction 0 as before, not −0.
+        // Without friction: 0 as before, not −0.
         let tangential_force = 0.0 - self.tangential_force;
         Self { position, tangential_force, stats: Stats::default(), ..self.clone() }
     }
 
-    /// A contact of which the pressure at an approach and the cost are known alone.
+    /// Creates a contact from its pressure at an approach and its cost alone.
     pub(super) fn from_pressure(
         pair: &Pair,
         position: Position,
@@ -102,7 +101,7 @@ impl Contact {
         }
     }
 
-    /// The contact of a solution.
+    /// Creates the contact from a solution.
     pub(super) fn new(position: Position, sliding: Option<&Sliding>, solution: &Solution) -> Self {
         let mut pressure = Vec::new();
         let mut plastic = Vec::new();
@@ -129,7 +128,7 @@ impl Contact {
         }
     }
 
-    /// The pressure on all cells that face each other, `width` across.
+    /// Returns the pressure on all cells of the overlap, `width` across.
     pub fn pressure_field(&self, width: usize) -> Field {
         let mut field = Field::zeros([self.position.columns, width]);
         let cells = field.as_slice_mut().expect("standard layout");
@@ -137,7 +136,7 @@ impl Contact {
         field
     }
 
-    /// The temperature of the cells in contact, K, NaN elsewhere, `width` across; none where it is not computed.
+    /// Returns the temperature of the cells in contact, K, NaN elsewhere, `width` across; `None` if it is not computed.
     pub fn temperature_field(&self, width: usize) -> Option<Field> {
         let temperature = self.temperature.as_ref()?;
         let mut field = Field::from_elem([self.position.columns, width], f64::NAN);
@@ -147,7 +146,8 @@ impl Contact {
         Some(field)
     }
 
-    /// Plastic interference w of each cell in contact, in the order of the pressures; 0 where a cell does not yield.
+    /// Returns the plastic interference w of each cell in contact, in the order of the pressures; 0 in cells that do not
+    /// yield.
     pub fn interference(&self) -> Vec<Metre> {
         let mut plastic = self.plastic.iter().peekable();
         let of = |(cell, _): &(u32, Pascal)| plastic.next_if(|(at, _)| at == cell).map_or(0.0, |(_, w)| *w);
@@ -164,7 +164,7 @@ impl Contact {
         pair.cell_area() * self.plastic.iter().map(|(_, w)| w).sum::<f64>()
     }
 
-    /// The record of this position: a row of `steps.csv`.
+    /// Returns the record of this position: a row of `steps.csv`.
     pub(super) fn record(
         &self,
         pair: &Pair,
@@ -210,16 +210,16 @@ impl Contact {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct StaticContact {
-    /// The contact in numbers.
+    /// The record of the contact.
     pub record: StaticRecord,
-    /// The solution, with its fields.
+    /// The solution with its fields.
     pub solution: Solution,
 }
 
-/// Presses a pair whose bodies face each other with all their columns.
+/// Presses a pair of bodies together at full overlap.
 ///
 /// # Errors
-/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::Interrupted`].
+/// The errors of [`crate::solver::solve_normal`], and [`crate::Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -239,14 +239,14 @@ pub fn press(
     Ok(StaticContact { record: StaticRecord::new(&solution), solution })
 }
 
-/// Presses a pair as [`press`] does, of which each rank has the rows of its `slab`. All ranks do it together; the record is that
-/// of the whole contact, the solution that of the rows.
+/// Presses a pair like [`press`], with the rows of one `slab` on each rank. All ranks call it together. The record
+/// describes the whole contact, the solution the rows of the slab.
 ///
 /// # Errors
-/// Returns the errors of [`crate::solver::solve_normal`]. The other ranks wait for one that has an error.
+/// The errors of [`crate::solver::solve_normal`]. If one rank fails, the others keep waiting for it.
 ///
 /// # Panics
-/// If the bodies have another shape than the slab.
+/// If the shape of the bodies differs from that of the slab.
 pub fn press_slab(
     pair: &Pair,
     slab: &Slab,
@@ -262,14 +262,14 @@ pub fn press_slab(
     Ok(StaticContact { record: StaticRecord::of_slab(&solution, slab), solution })
 }
 
-/// The operators of a pair whose bodies face each other with all their columns, and the gap between them.
+/// Returns the operators of a pair at full overlap, and the gap between the bodies.
 pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
     assert_eq!(pair.lower.heights.dim(), pair.upper.heights.dim(), "shapes of the bodies");
     Ok((pair.operators(pair.lower_grid(), boundary)?, pair.initial_gap(&pair.at_rest())))
 }
 
 impl StaticRecord {
-    /// The numbers of a contact without friction.
+    /// Returns the record of a contact without friction.
     pub(super) fn new(solution: &Solution) -> Self {
         Self {
             load: solution.load(),
@@ -289,7 +289,7 @@ impl StaticRecord {
         }
     }
 
-    /// The numbers of a contact without friction of which each rank has the solution on its slab.
+    /// Returns the record of a contact without friction whose solution is distributed over the slabs of the ranks.
     fn of_slab(solution: &Solution, slab: &Slab) -> Self {
         let own = Self::new(solution);
         let [load, contact_area, gaps, elastic_energy, plastic_cells, plastic_volume] = slab.merged([

@@ -1,4 +1,4 @@
-//! The course of a contact: the one loop of every computation that takes more than one step.
+//! The loop shared by all computations of more than one step.
 
 use crate::error::{Error, Result};
 use crate::motion::record::{IncrementRecord, SweepRecord};
@@ -7,75 +7,75 @@ use crate::motion::state::{LoadedContact, LoadingState, SlidingState};
 use crate::motion::watch::{Progress, Watch};
 use crate::units::Newton;
 
-/// What a contact goes through, step after step: the increments of a loading, the updates of a contact that slides in place, the
-/// points of a sweep, the passes of a motion.
+/// A computation in steps: increments of a loading, updates of a contact that wears in place, points of a load sweep, or
+/// passes of a motion.
 pub(super) trait Course {
-    /// A step that is solved, and does not count yet.
+    /// A solved step that is not committed yet.
     type Solved;
 
-    /// Solves the next step; none once all are done.
+    /// Solves the next step; returns `None` once all are done.
     ///
     /// # Errors
-    /// What keeps the step from being solved. The course cannot go on after it.
+    /// The reason why the step cannot be solved. The course cannot continue after it.
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<Self::Solved>>;
 
-    /// What outputs take of a solved step.
+    /// Returns the report of a solved step for the outputs.
     fn report<'a>(&'a self, solved: &'a Self::Solved) -> Step<'a>;
 
-    /// Makes a solved step count: the next one begins where it ends.
+    /// Commits a solved step: the next one begins from its end.
     fn take(&mut self, solved: Self::Solved);
 }
 
-/// A step of a course, before it counts.
+/// Report of a step before it is committed.
 #[non_exhaustive]
 pub enum Step<'a> {
     /// An increment of a loading.
     Increment {
         /// The loading after it.
         state: &'a LoadingState,
-        /// Increments in all.
+        /// Total number of increments.
         of: usize,
     },
     /// An increment of a loading of elasto-plastic bodies.
     Flow {
-        /// The increment in numbers.
+        /// The record of the increment.
         record: &'a IncrementRecord,
-        /// Increments in all, with those in which the load is taken off.
+        /// Total number of increments, unloading included.
         of: usize,
     },
-    /// An update of a contact that slides in place.
+    /// An update of a contact that wears in place.
     Update {
         /// The contact after it.
         state: &'a SlidingState,
-        /// Updates in all, without the contact before it slides.
+        /// Total number of updates, without the initial contact.
         of: usize,
     },
-    /// A point of a sweep.
+    /// A point of a load sweep.
     Point {
-        /// The point in numbers.
+        /// The record of the point.
         record: &'a SweepRecord,
-        /// The contact there.
+        /// The contact at the point.
         contact: &'a LoadedContact,
-        /// Points in all.
+        /// Total number of points.
         of: usize,
     },
     /// A pass of a motion.
     Pass(PassReport<'a>),
 }
 
-/// Takes the steps of a course. An output that cannot be written ends the course.
+/// Receives the steps of a course. An error of an output ends the course.
 pub trait Output {
-    /// Takes a step.
+    /// Receives a step.
     ///
     /// # Errors
-    /// What kept it from being written.
+    /// The reason why the step could not be written.
     fn step(&mut self, step: &Step<'_>) -> Result<()>;
 }
 
-/// Goes through the steps that are left.
+/// Runs the remaining steps.
 ///
 /// # Errors
-/// Returns the errors of the course and of the outputs; [`Error::Interrupted`].
+/// The errors of the course and of the outputs; [`Error::Interrupted`].
 pub(super) fn run<C: Course>(
     course: &mut C,
     watch: &dyn Watch,
@@ -87,11 +87,11 @@ pub(super) fn run<C: Course>(
     Ok(())
 }
 
-/// Hands a solved step out, and makes it count.
+/// Passes a solved step to the outputs and commits it.
 ///
 /// # Errors
-/// Returns the errors of the outputs, and [`Error::NotFinite`] if a height or a state of a body is not finite. The step then does
-/// not count.
+/// The errors of the outputs, and [`Error::NotFinite`] if the bodies have NaN or infinite values. The step is then not
+/// committed.
 pub(super) fn finish<C: Course>(
     course: &mut C,
     solved: C::Solved,
@@ -108,7 +108,7 @@ pub(super) fn finish<C: Course>(
 }
 
 impl<'a> Step<'a> {
-    /// The number of the step. It counts from 1; the contact before it slides in place is update 0.
+    /// Number of the step, from 1; the initial contact of wear in place is update 0.
     pub fn number(&self) -> usize {
         match self {
             Self::Increment { state, .. } => state.increments.len(),
@@ -119,7 +119,7 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
+    /// Returns whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
     pub(crate) fn is_last(&self) -> bool {
         match self {
             Self::Increment { of, .. }
@@ -130,7 +130,7 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// The report of the pass, where the step is one.
+    /// Returns the pass, if the step is a pass of a motion.
     pub fn pass(&self) -> Option<&PassReport<'a>> {
         match self {
             Self::Pass(report) => Some(report),
@@ -138,7 +138,7 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// An error if the bodies that the step leaves are no numbers.
+    /// Checks that the bodies after the step have only finite values.
     fn check(&self) -> Result<()> {
         match self {
             Self::Update { state, .. } => state.pair.check_finite(),
@@ -147,7 +147,7 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// The error that something is wrong at this step.
+    /// Wraps an error as one at this step.
     fn at(&self, source: Box<Error>) -> Error {
         let number = self.number();
         match self {
@@ -158,7 +158,7 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Tells those who look on that the step is done. The positions of a pass have told of themselves.
+    /// Notifies the watch that the step is done. The positions of a pass have notified it already.
     fn tell(&self, watch: &dyn Watch) {
         let solved = |load: Newton, positions: usize| {
             let solved = self.number();

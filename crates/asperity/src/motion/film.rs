@@ -1,4 +1,4 @@
-//! Tribofilms: what grows on a body where it is rubbed, and is rubbed off again.
+//! Tribofilms: films that grow on a rubbed surface and are removed by rubbing.
 
 use serde::Serialize;
 
@@ -15,24 +15,26 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// Planck's constant, J s.
 const PLANCK: f64 = 6.626_070_15e-34;
 
-/// Name of the state in which a body keeps the thickness of its film, m.
+/// Name of the body state that stores the thickness of the film, m.
 pub const FILM: &str = "film";
-/// Name of the state in which a body keeps what the mechano-chemical law has grown, m.
+/// Name of the body state that stores the growth by the mechano-chemical law, m.
 const GROWN: &str = "film_grown";
 
-/// Accepted activation energies, besides 0: up to 60 eV, far above that of any bond. A number in eV without its unit is refused.
+/// Accepted activation energies, besides 0: up to 60 eV, far above that of any chemical bond. A number in eV without its
+/// unit is rejected.
 pub(crate) const ACTIVATION_ENERGIES: Range = Range { least: 1e-24, most: 1e-17, unit: "J" };
-/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³ without its unit is refused.
+/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³ without its
+/// unit is rejected.
 pub(crate) const ACTIVATION_VOLUMES: Range = Range { least: 1e-36, most: 1e-18, unit: "m³" };
-/// Accepted temperatures of a known growth rate. A number in °C without its unit, below 200, is refused.
+/// Accepted temperatures of a known growth rate. A number below 200, in °C without its unit, is rejected.
 pub(crate) const GROWTH_TEMPERATURES: Range = Range { least: 200.0, most: 5000.0, unit: "K" };
 /// Accepted factors x of the mechano-chemical law.
 pub(crate) const GROWTH_FACTORS: Range = Range { least: 1e-45, most: 1.0, unit: "" };
 /// Accepted rates C₄ of the mechano-chemical law, besides 0.
 pub(crate) const REMOVAL_RATES: Range = Range { least: 1e-15, most: 1e15, unit: "1/s" };
 
-/// Largest exponent of Arrhenius' law. A film that grows at e⁵⁰⁰ of the known rate is at its thickest at once; sums of such rates
-/// over positions, passes and time stay finite.
+/// Largest exponent of Arrhenius' law. A film that grows at e⁵⁰⁰ of the known rate reaches its limit at once. Sums of such
+/// rates over positions, passes and time stay finite.
 const MAX_EXPONENT: f64 = 500.0;
 
 /// The film of a body: a thickness in each cell, which grows and is removed while the cell is in contact.
@@ -41,28 +43,28 @@ pub struct Film {
     law: FilmLaw,
     max_thickness: Metre,
     hardness: Option<Pascal>,
-    /// The hardness of the body without film; known once the bodies are prepared.
+    /// Hardness of the body without its film; set when the bodies are prepared.
     bare: Option<CellValues>,
 }
 
-/// How a film grows and is removed. It serialises under the keys of a case file.
+/// Law of growth and removal of a film. It serialises under the keys of a case file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "law", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FilmLaw {
     /// df/dt = G (1 − f/f_max) − R f, where G follows Arrhenius under a stress σ and R = r p v.
     Arrhenius {
-        /// Growth of a film of no thickness at the next two, > 0.
+        /// Growth rate of a film of zero thickness at the reference temperature and stress below, > 0.
         rate: MetrePerSecond,
-        /// Temperature of that rate, 200 … 5000 K.
+        /// Reference temperature, 200 … 5000 K.
         at_temperature: Kelvin,
-        /// Stress of that rate.
+        /// Reference stress.
         at_stress: Pascal,
         /// Activation energy ΔU, 0 or 10⁻²⁴ … 10⁻¹⁷ J.
         activation_energy: Joule,
         /// Activation volume ΔV, 0 or 10⁻³⁶ … 10⁻¹⁸ m³.
         activation_volume: CubicMetre,
-        /// The stress that drives it.
+        /// The driving stress.
         stress: FilmStress,
         /// Removal r per pressure and distance slid, ≥ 0, 1/(Pa m).
         removal: f64,
@@ -72,14 +74,14 @@ pub enum FilmLaw {
     ///
     /// A. Ghanbarzadeh et al., Tribol. Int. 93, 573 (2016).
     MechanoChemical {
-        /// The factor x, 10⁻⁴⁵ … 1: of order 10⁻¹⁶.
+        /// The factor x, 10⁻⁴⁵ … 1, typically about 10⁻¹⁶.
         x: f64,
-        /// The thickness C₃ that removal takes in the end, 0 to f_max.
+        /// The final thickness C₃ lost to removal, 0 to f_max.
         c3: Metre,
-        /// The rate C₄ at which it does, 0 or 10⁻¹⁵ … 10¹⁵ 1/s.
+        /// The rate C₄ of removal, 0 or 10⁻¹⁵ … 10¹⁵ 1/s.
         c4: f64,
     },
-    /// A solid lubricant, as bonded MoS₂, which begins at its largest thickness and is only worn off: df = −k p |ds| while f > 0.
+    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and only wears: df = −k p |ds| while f > 0.
     SolidLubricant {
         /// Wear coefficient k of the film, > 0, 1/Pa.
         wear: PerPascal,
@@ -87,13 +89,13 @@ pub enum FilmLaw {
 }
 
 impl FilmLaw {
-    /// Whether a film changes with time: a solid lubricant does with the distance slid alone.
+    /// Whether the film changes with time. A solid lubricant changes only with the distance slid.
     pub fn takes_time(&self) -> bool {
         !matches!(self, Self::SolidLubricant { .. })
     }
 }
 
-/// The stress that drives the growth of a film.
+/// The stress that drives film growth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmStress {
     /// The pressure.
@@ -105,8 +107,8 @@ pub enum FilmStress {
 choice!(FilmStress: "pressure" => Pressure, "shear" => Shear);
 
 impl Film {
-    /// A film of at most `max_thickness`, > 0, that follows a law, and at its thickest bears at most the pressure `hardness`, which
-    /// is below that of the body.
+    /// Creates a film of thickness at most `max_thickness`, > 0, with a law. At its thickest it can carry at most the
+    /// pressure `hardness`, which is below that of the body.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -181,8 +183,8 @@ impl Film {
         self.max_thickness
     }
 
-    /// Adds the rates of growth and removal over a position to their sums on a body, 0 or 1: ∫G dt in m and ∫R dt; of the
-    /// mechano-chemical law the exponents of growth and removal; of a solid lubricant nothing, and what is worn off, m.
+    /// Adds the rates of growth and removal at a position to their sums on a body, 0 or 1. Arrhenius: ∫G dt in m and ∫R dt.
+    /// Mechano-chemical: the exponents of growth and removal. Solid lubricant: nothing, and the depth worn off, m.
     pub(super) fn add_rates(&self, body: usize, touching: &Touching, sums: &mut [Field]) {
         let [grown, removed] = sums else { unreachable!("two sums") };
         let temperature = touching.temperature[body];
@@ -231,7 +233,7 @@ impl Film {
         FilmStates { thickness: field(FILM).unwrap_or_default(), grown: field(GROWN).unwrap_or_default() }
     }
 
-    /// The thickness of a cell, and what it has grown, after so many passes: exact where contact and temperature are frozen.
+    /// Returns the thickness and growth of a cell after `passes` passes; exact if contact and temperature are frozen.
     fn after(&self, [thickness, grown]: [Metre; 2], [growth, removal]: [f64; 2], passes: f64) -> [Metre; 2] {
         match self.law {
             FilmLaw::Arrhenius { .. } => {
@@ -251,7 +253,7 @@ impl Film {
         }
     }
 
-    /// The mean thickness of a cell over so many passes; of none its thickness now.
+    /// Returns the mean thickness of a cell over `passes` passes; the present thickness for 0 passes.
     pub(super) fn mean_thickness(&self, states: [Metre; 2], rates: [f64; 2], passes: f64) -> Metre {
         let ([thickness, grown], [growth, removal]) = (states, rates);
         match self.law {
@@ -274,7 +276,7 @@ impl Film {
         }
     }
 
-    /// Prepares a body: the film that it begins with where none is known yet, and the hardness that the film leaves.
+    /// Prepares a body: sets the initial film if there is none yet, and the hardness under the film.
     fn prepare(&mut self, body: &mut Body) {
         let (states, begin) = match self.law {
             FilmLaw::Arrhenius { .. } => (&[FILM][..], 0.0),
@@ -290,7 +292,7 @@ impl Film {
         self.soften(body);
     }
 
-    /// Gives a body the hardness H − (H − H_f) min(f/f_max, 1) that its film leaves.
+    /// Sets the hardness of a body under its film, H − (H − H_f) min(f/f_max, 1).
     fn soften(&self, body: &mut Body) {
         let (Some(soft), Some(bare)) = (self.hardness, &self.bare) else { return };
         let thickness = &body.state[FILM].values;
@@ -308,26 +310,26 @@ fn mean_decay(a: f64) -> f64 {
     if a > 1e-8 { -(-a).exp_m1() / a } else { 1.0 - 0.5 * a }
 }
 
-/// Growth g and removal l of a mechano-chemical film in a cell at constant exponents G and R per pass, by the passes t since the
-/// beginning.
+/// Growth g and removal l of a mechano-chemical film in a cell at constant exponents G and R per pass, as functions of the
+/// passes t since the beginning.
 ///
 /// g = f_max + (g₀ − f_max) e^(−Gt),  l = C₃ + (l₀ − C₃) e^(−Rt),  f = g − l
 ///
-/// Where f would fall below 0 the cell is bare, l = g, until R (C₃ − g) < G (f_max − g): from g* = (R C₃ − G f_max)/(R − G) on it
-/// grows again.
+/// Where f would fall below 0 the cell is bare, l = g, while R (C₃ − g) ≥ G (f_max − g). It grows again from g* = (R C₃ − G
+/// f_max)/(R − G) on.
 struct Balance {
-    /// The largest thickness f_max, and the thickness C₃ that is removed in the end.
+    /// The largest thickness f_max, and the final removal C₃.
     ends: [Metre; 2],
     /// Exponents G and R.
     rates: [f64; 2],
-    /// Growth and removal at the beginning.
+    /// Initial growth and removal.
     begin: [Metre; 2],
-    /// The passes at which the film is used up and at which it grows again, if it is used up.
+    /// The passes at which the film is used up and at which it grows again; `None` if it is never used up.
     bare: Option<[f64; 2]>,
 }
 
 impl Balance {
-    /// The balance of a cell of this thickness and growth.
+    /// Creates the balance of a cell of this thickness and growth.
     fn new(ends: [Metre; 2], rates: [f64; 2], [thickness, grown]: [Metre; 2]) -> Self {
         let begin = [grown, grown - thickness];
         let mut balance = Self { ends, rates, begin, bare: None };
@@ -335,17 +337,17 @@ impl Balance {
         balance
     }
 
-    /// The growth after so many passes.
+    /// Growth after `passes` passes.
     fn grown(&self, passes: f64) -> Metre {
         self.ends[0] + (self.begin[0] - self.ends[0]) * (-self.rates[0] * passes).exp()
     }
 
-    /// The removal of a film that is not used up.
+    /// Removal of a film that is not used up.
     fn removed(&self, passes: f64) -> Metre {
         self.ends[1] + (self.begin[1] - self.ends[1]) * (-self.rates[1] * passes).exp()
     }
 
-    /// The thickness after so many passes.
+    /// Thickness after `passes` passes.
     fn thickness(&self, passes: f64) -> Metre {
         match self.bare {
             Some([begin, end]) if passes >= begin => {
@@ -359,7 +361,7 @@ impl Balance {
         }
     }
 
-    /// The mean thickness over so many passes; of none the thickness at the beginning.
+    /// Mean thickness over `passes` passes; the initial thickness for 0 passes.
     fn mean_thickness(&self, passes: f64) -> Metre {
         match self.bare {
             Some([begin, end]) if passes > begin => {
@@ -374,7 +376,7 @@ impl Balance {
         }
     }
 
-    /// The mean of g − l.
+    /// Mean of g − l.
     fn mean_unbounded(&self, passes: f64) -> Metre {
         let mean = |which: usize| {
             let end = self.ends[which];
@@ -383,13 +385,14 @@ impl Balance {
         mean(0) - mean(1)
     }
 
-    /// The balance of a cell that has been bare until now, from its `end` on.
+    /// Returns the balance of a cell that regrows after it has been bare until `end`.
     fn regrown(&self, end: f64) -> Self {
         let grown = self.grown(end);
         Self { begin: [grown; 2], bare: None, ..*self }
     }
 
-    /// The passes between which the cell is bare: of a film that is used up, its removal is faster than its growth.
+    /// Returns the passes between which the cell is bare, for a film that is used up, whose removal is faster than its
+    /// growth.
     fn bare(&self) -> Option<[f64; 2]> {
         let ([most, removed], [growth, removal]) = (self.ends, self.rates);
         let (to_grow, to_remove) = (most - self.begin[0], removed - self.begin[1]);
@@ -397,26 +400,26 @@ impl Balance {
             return None;
         }
         let difference = |passes: f64| self.grown(passes) - self.removed(passes);
-        // The film is thinnest where growth and removal are equally fast.
+        // The film is thinnest when growth and removal are equally fast.
         let thinnest = ((removal * to_remove) / (growth * to_grow)).ln() / (removal - growth);
         let thinnest = if thinnest.is_finite() { thinnest } else { f64::MAX.sqrt() / removal };
         if difference(thinnest) >= 0.0 {
             return None;
         }
         let begin = first_zero(difference, thinnest);
-        // f_max − g falls to f_max − g*.
+        // f_max − g decreases to f_max − g*.
         let again = removal * (most - removed) / (removal - growth);
         let end = (to_grow / again).ln() / growth;
         Some([begin, if end.is_finite() { end.max(begin) } else { f64::INFINITY }])
     }
 }
 
-/// The value, or 0 for one below it. A value that is no number stays as it is.
+/// Returns the value, or 0 if it is below 0. NaN stays NaN.
 fn at_least_0(value: f64) -> f64 {
     if value < 0.0 { 0.0 } else { value }
 }
 
-/// The zero of a function that falls from a value of at least 0 at 0 to one below 0 at `end`.
+/// Finds the zero of a function that falls from a value of at least 0 at 0 to a value below 0 at `end`.
 fn first_zero(value: impl Fn(f64) -> f64, end: f64) -> f64 {
     if value(0.0) <= 0.0 {
         return 0.0;
@@ -438,7 +441,7 @@ pub(super) struct FilmStates<'a> {
 }
 
 impl FilmStates<'_> {
-    /// Thickness, and what has grown, of a flat cell.
+    /// Thickness and growth of a flat cell.
     pub(super) fn at(&self, cell: usize) -> [Metre; 2] {
         [&self.thickness, &self.grown].map(|values| values.get(cell).copied().unwrap_or(0.0))
     }
@@ -460,17 +463,17 @@ impl<'a> Growing<'a> {
     }
 }
 
-/// Growth and removal of the films of both bodies. The heights grow with them; the cells bear less under a soft one.
+/// Growth and removal of the films of both bodies. The heights grow with the films, and cells under a soft film carry less.
 #[derive(Debug, Clone)]
 pub struct Films {
     films: [Option<Film>; 2],
 }
 
 impl Films {
-    /// The films of the lower and of the upper body; none of a body that has none.
+    /// Creates the films of the lower and of the upper body; `None` for a body without film.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a film that is harder than its body, or bears less than a body that bears everything.
+    /// [`Error::Unsupported`] if a film is harder than its body, or if a film has a hardness and its body has none.
     pub fn new(films: [Option<Film>; 2], pair: &Pair) -> Result<Self> {
         for (film, body) in films.iter().zip([&pair.lower, &pair.upper]) {
             if let Some(soft) = film.as_ref().and_then(|film| film.hardness)

@@ -1,4 +1,4 @@
-//! Plastic strain, residual stress and displacement that plastic flow leaves in elasto-plastic bodies.
+//! Plastic state below the surfaces of elasto-plastic bodies.
 
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
@@ -8,44 +8,44 @@ use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, Te
 use crate::stress::{Component, Stress};
 use crate::units::{CubicMetre, Joule, Metre, Pascal};
 
-/// The plastic state of a body: its strain, residual stress and displaced surface.
+/// Plastic state below the surface of a body.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FlowedVolume {
     /// The body: 0 the lower, 1 the upper one.
     pub body: usize,
-    /// The grid of its surface.
+    /// Grid of the surface.
     pub grid: Grid,
     /// Depths of the faces of the layers, from 0 at the surface.
     pub faces: Vec<Metre>,
-    /// Plastic strain, `[layer, component, ix, iy]`, and what else flow has left.
+    /// Plastic strain, `[layer, component, ix, iy]`, and the rest of the plastic state.
     pub state: PlasticState,
     /// Residual stress K ε, Pa.
     pub residual_stress: TensorField,
     /// Inward displacement r of the surface, m.
     pub displacement: Field,
-    /// Largest accumulated plastic strain, and where it is: x and y from the corner of the body, z from its surface.
+    /// Largest accumulated plastic strain and its place: x and y from the corner of the body, z from its surface.
     pub max_strain: (f64, [Metre; 3]),
-    /// Volume of all cells with plastic strain.
+    /// Volume that has yielded.
     pub yielded_volume: CubicMetre,
     /// Energy stored in the residual stress, −½ ∫ ε : K ε.
     pub stored_energy: Joule,
 }
 
-/// The plastic flow of a pass.
+/// Results of a pass of elasto-plastic bodies.
 pub(super) struct FlowedPass {
-    /// The plastic state of each body once the load is taken off.
+    /// The plastic state after unloading.
     pub(super) volumes: Vec<FlowedVolume>,
-    /// The positions in numbers.
+    /// The records of the positions.
     pub(super) steps: Vec<FlowStepRecord>,
-    /// The pass in numbers.
+    /// The record of the pass.
     pub(super) record: PassFlowRecord,
-    /// The plastic state under the load at the chosen position; empty if none is chosen.
+    /// The plastic state under the load at the selected position; empty if none is selected.
     pub(super) looked_at: Vec<PlasticState>,
 }
 
 impl FlowedVolume {
-    /// Returns the plastic state of each body of a contact under its load.
+    /// Returns the volumes of the bodies of a contact under its load.
     pub(super) fn loaded(contact: &mut PlasticContact) -> Vec<Self> {
         let sides = contact.sides().to_vec();
         let of = |(body, side): (&mut PlasticBody, usize)| {
@@ -55,7 +55,7 @@ impl FlowedVolume {
         contact.bodies().iter_mut().zip(sides).map(of).collect()
     }
 
-    /// Returns the plastic state of each body of an unloaded contact, whose stress is the residual stress.
+    /// Returns the volumes of the bodies of an unloaded contact, whose stress is the residual stress.
     pub(super) fn unloaded(contact: &mut PlasticContact) -> Vec<Self> {
         let sides = contact.sides().to_vec();
         let of = |(body, side): (&mut PlasticBody, usize)| {
@@ -83,7 +83,7 @@ impl FlowedVolume {
         }
     }
 
-    /// Largest principal stress of the residual stress.
+    /// Largest principal value of the residual stress.
     fn max_tension(&self) -> Pascal {
         let mut most = 0.0_f64;
         for layer in self.residual_stress.outer_iter() {
@@ -96,7 +96,7 @@ impl FlowedVolume {
         most
     }
 
-    /// Range of the displacement of the surface.
+    /// Range of the surface displacement.
     fn range(&self) -> Metre {
         let (least, most) = self
             .displacement
@@ -105,14 +105,14 @@ impl FlowedVolume {
         most - least
     }
 
-    /// Displacement of the surface along +x against the depths, in the mean over the grid: −∫ 2 ε_xz dz.
+    /// Displacement of the surface along +x relative to the deep material, as the mean over the grid: −∫ 2 ε_xz dz.
     fn shift(&self, strain: &TensorField) -> Metre {
         let shear = strain.index_axis(ndarray::Axis(1), Component::Xz as usize);
         let layers = shear.outer_iter().zip(self.faces.windows(2));
         -layers.map(|(shear, faces)| 2.0 * (faces[1] - faces[0]) * shear.mean().unwrap_or(0.0)).sum::<f64>()
     }
 
-    /// The strain that has come since the state `before` in the net, over that which has accumulated: ∫ √(⅔ Δε:Δε) over ∫ Δp̄.
+    /// Net strain since the state `before` over the strain accumulated since then: ∫ √(⅔ Δε:Δε) over ∫ Δp̄.
     fn net_strain(&self, before: &PlasticState) -> f64 {
         let [mut net, mut all] = [0.0; 2];
         for layer in 0..self.faces.len() - 1 {
@@ -134,13 +134,13 @@ impl FlowedVolume {
     }
 }
 
-/// A `pair` with its surfaces where plastic strain has brought them; with `sign` −1 where they would be without.
+/// Returns a `pair` with its surfaces displaced by the plastic strain; with `sign` −1 the displacement is removed.
 pub(super) fn displaced(mut pair: Pair, volumes: &[FlowedVolume], sign: f64) -> Pair {
     volumes.iter().for_each(|volume| displace(&mut pair, volume.body, &volume.displacement, sign));
     pair
 }
 
-/// Moves the surface of a body by an inward displacement, `sign` times.
+/// Moves the surface of a body by `sign` times an inward displacement.
 pub(super) fn displace(pair: &mut Pair, body: usize, inward: &Field, sign: f64) {
     match body {
         0 => pair.lower.heights.scaled_add(-sign, inward),
@@ -148,11 +148,11 @@ pub(super) fn displace(pair: &mut Pair, body: usize, inward: &Field, sign: f64) 
     }
 }
 
-/// Increments so far, in sum.
+/// Sums over increments.
 #[derive(Default)]
 pub(super) struct FlowSums {
     pub(super) products: usize,
-    /// The largest.
+    /// The largest return-mapping residual.
     pub(super) mismatch: f64,
     pub(super) plastic_work: Joule,
 }
@@ -166,7 +166,7 @@ impl FlowSums {
 }
 
 impl FlowStepRecord {
-    /// The `increments` of a step, at whose end the bodies are those of a `contact`.
+    /// Sums the `increments` of a step that ends with the bodies of a `contact`.
     pub(super) fn of(increments: &[Increment], contact: &mut PlasticContact) -> Self {
         let mut sums = FlowSums::default();
         increments.iter().for_each(|increment| sums.add(increment));
@@ -185,7 +185,7 @@ impl FlowStepRecord {
 }
 
 impl FlowRecord {
-    /// What these volumes have come to in increments of these sums.
+    /// Returns the record of these volumes and of the increments with these sums.
     pub(super) fn of(volumes: &[FlowedVolume], sums: &FlowSums) -> Self {
         let (max_plastic_strain, max_plastic_strain_position) = volumes
             .iter()
@@ -215,7 +215,7 @@ impl FlowRecord {
 }
 
 impl FlowRecord {
-    /// What a motion of these positions and passes has left, once the load is taken off.
+    /// Returns the record of the residual state after a motion with these positions and passes.
     pub fn of_passes(left: &[FlowedVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
         let steps = steps.iter().filter_map(|step| step.flow);
         let passes: Vec<PassFlowRecord> = passes.iter().filter_map(|pass| pass.flow).collect();
@@ -233,8 +233,8 @@ impl FlowRecord {
 }
 
 impl PassFlowRecord {
-    /// A pass that has brought bodies from the states `before` to these volumes, by so much plastic work in the lower and in the upper
-    /// body, and under the outer columns of the overlap.
+    /// Returns the record of a pass that brought bodies from the states `before` to these volumes, with the plastic work in
+    /// the lower and in the upper body, and under the outer columns of the overlap.
     pub(super) fn of(
         volumes: &[FlowedVolume],
         before: &[PlasticState],

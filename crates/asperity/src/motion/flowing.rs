@@ -15,83 +15,84 @@ use crate::plasticity::{Facing, FlowParams, Interface, PlasticBody, PlasticConta
 use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
 use crate::units::Joule;
 
-/// A solved static contact of elasto-plastic bodies.
+/// Result of a static contact of elasto-plastic bodies.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FlowedContact {
-    /// The contact in numbers, under its last load.
+    /// The record of the contact under its last load.
     pub record: StaticRecord,
-    /// The contact under its last load; its gap includes the plastic displacement of the surfaces.
+    /// The contact under its last load. Its gap includes the plastic displacement of the surfaces.
     pub solution: Equilibrium,
-    /// Slip of all increments until then together along x and y, m; none without friction.
+    /// Sum of the slip of all increments along x and y up to the last load, m; `None` without friction.
     pub slip: Option<[Field; 2]>,
-    /// How far the energy that friction took may be from what the record says: see
+    /// Bound on the error of the frictional energy in the record: see
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
-    /// The plastic state of the bodies.
+    /// The plastic state and its history.
     pub flowed: Flowed,
 }
 
-/// The plastic state of the bodies of a static contact.
+/// Plastic state below the surfaces of a static contact, and its history.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct Flowed {
-    /// The increments, and those in which the load is taken off.
+    /// The increments, unloading included.
     pub increments: Vec<IncrementRecord>,
     /// The plastic state of each elasto-plastic body under the last load.
     pub volumes: Vec<FlowedVolume>,
-    /// The same once the load is taken off; nothing where it is not.
+    /// The plastic state after unloading; empty if the load stays.
     pub residual: Vec<FlowedVolume>,
 }
 
 impl Flowed {
-    /// A `pair` with its surfaces where the plastic strain under the last load has brought them.
+    /// Returns a `pair` with its surfaces displaced by the plastic strain under the last load.
     pub fn displaced(&self, pair: Pair) -> Pair {
         flowed::displaced(pair, &self.volumes, 1.0)
     }
 }
 
-/// The loading of elasto-plastic bodies.
+/// Loading path of elasto-plastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FlowPath {
-    /// The stages, one after another; what acts in the plane counts with friction alone.
+    /// The stages, one after another. Tangential loading counts only with friction.
     pub stages: Vec<Stage>,
-    /// Equal steps in which the load is taken off at the end, ≥ 1; none where it stays.
+    /// Number of equal unloading steps at the end, ≥ 1; `None` if the load stays.
     pub unloading: Option<usize>,
-    /// When a step is done.
+    /// Convergence criteria of a step.
     pub flow: FlowParams,
 }
 
 impl FlowPath {
-    /// Through these stages, and no further.
+    /// Creates a path through these stages, without unloading.
     pub fn new(stages: Vec<Stage>) -> Self {
         Self { stages, unloading: None, flow: FlowParams::new() }
     }
 
-    /// The same, whose load is taken off at the end in so many steps.
+    /// Sets the number of unloading steps at the end.
     #[must_use]
     pub fn with_unloading(self, steps: impl Into<Option<usize>>) -> Self {
         Self { unloading: steps.into(), ..self }
     }
 
-    /// Increments in all, with those in which the load is taken off.
+    /// Total number of increments, unloading included.
     fn increments(&self) -> usize {
         Stage::increments(&self.stages) + self.unloading.unwrap_or(0)
     }
 
-    /// The same with another measure of when a step is done.
+    /// Sets the convergence criteria of a step.
     #[must_use]
     pub fn with_flow(self, flow: FlowParams) -> Self {
         Self { flow, ..self }
     }
 }
 
-/// Presses a pair whose bodies face each other with all their columns, and of which those that are given, lower one first, flow below
-/// their surfaces, along a `path`; under `friction` they stick or slip.
+/// Presses a pair at full overlap along a `path`. The given `bodies`, lower one first, are elasto-plastic. Under `friction`
+/// they stick or slip.
 ///
 /// # Errors
-/// [`Error::AtIncrement`] with what is wrong there, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without contact; those of the outputs.
+/// [`Error::AtIncrement`] with the cause, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without
+/// contact, and the errors of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -131,7 +132,7 @@ pub fn press_flowing(
     flowing.finish()
 }
 
-/// The loading of elasto-plastic bodies as it proceeds.
+/// A contact of elasto-plastic bodies on its loading path.
 struct Flowing<'a> {
     contact: PlasticContact,
     path: &'a FlowPath,
@@ -139,9 +140,9 @@ struct Flowing<'a> {
     sums: FlowSums,
     slip: Option<[Field; 2]>,
     dissipation_error: Joule,
-    /// Where the stage under way began.
+    /// State at the beginning of the current stage.
     origin: Option<Origin>,
-    /// The contact under its last load, once that is reached.
+    /// The contact under its last load, once it is reached.
     loaded: Option<Loaded>,
 }
 
@@ -156,9 +157,9 @@ struct Loaded {
 }
 
 impl Loaded {
-    /// The stage in which the load is taken off in so many steps.
+    /// Creates the unloading stage with `increments` steps.
     fn unloading(&self, increments: usize) -> Stage {
-        // The force of bodies that slide is all that friction holds, and so it is under each smaller load.
+        // The force of bodies in gross slip is the whole friction force, also under each smaller load.
         let slides = self.solution.frictional().filter(|solution| solution.stick.sum() == 0.0);
         let tangential = match slides.map(FrictionalSolution::force) {
             Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
@@ -195,7 +196,7 @@ impl Course for Flowing<'_> {
 }
 
 impl Flowing<'_> {
-    /// The index of the stage under way, the stage, and the next step in it, from 1; none after the last.
+    /// Returns the index of the current stage, the stage, and its next step, from 1; `None` after the last.
     fn stage(&mut self) -> Result<Option<(usize, Stage, usize)>> {
         let (stages, done) = (&self.path.stages, self.increments.len());
         if let Some((index, step)) = Stage::after(stages, done) {
@@ -223,7 +224,7 @@ impl Flowing<'_> {
         })
     }
 
-    /// Goes on to what is prescribed.
+    /// Advances to a prescribed loading.
     fn increment(&mut self, loading: Loading, stage: usize, watch: &AtRest<'_>) -> Result<IncrementRecord> {
         let contact = &mut self.contact;
         let before = contact.equilibrium().and_then(Equilibrium::frictional).cloned();
@@ -246,7 +247,7 @@ impl Flowing<'_> {
         Ok(IncrementRecord { increment, stage, dissipation, flow: Some(flow), ..record })
     }
 
-    /// The contact at the end of its path.
+    /// Returns the contact at the end of its path.
     fn finish(mut self) -> Result<FlowedContact> {
         let loaded = self.loaded.take().expect("the end of the path");
         let Loaded { solution, slip, dissipation, dissipation_error, volumes, flow } = loaded;

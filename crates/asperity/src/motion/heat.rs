@@ -1,4 +1,4 @@
-//! The flash temperature over the passes of a motion, computed in each of them or in some.
+//! Flash temperature over the passes of a motion, computed in every pass or in every n-th.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -11,8 +11,8 @@ use crate::motion::path::Position;
 use crate::temperature::FlashTemperature;
 use crate::units::Kelvin;
 
-/// Name of the state in which a body keeps how much warmer than it each cell was, in the mean over its contacts of the last pass
-/// whose flash temperature was computed, K; there where that is not computed in each pass.
+/// Name of the body state that stores the mean temperature rise of each cell over its contacts of the last pass with a
+/// computed flash temperature, K. It exists only if the flash temperature is not computed in every pass.
 pub const FLASH: &str = "flash_temperature";
 
 /// The flash temperature of every n-th computed pass.
@@ -26,8 +26,8 @@ impl PassHeat {
         Self { flash: Mutex::new(flash), every }
     }
 
-    /// What tells the temperatures, position by position, of the pass after so many computed ones, in which bodies of these `bulk`
-    /// temperatures are a `pair`.
+    /// Returns the temperature model of the pass after `done` computed ones, position by position, for a `pair` with these
+    /// `bulk` temperatures.
     pub(super) fn of_pass(&self, done: usize, pair: &Pair, bulk: [Kelvin; 2]) -> Box<Heat<'_>> {
         if self.is_computed(done) {
             let mut flash = self.flash.lock().unwrap_or_else(PoisonError::into_inner);
@@ -42,14 +42,14 @@ impl PassHeat {
         });
         Box::new(move |cells: [&[u32]; 2], position: &Position, _: &[f64]| {
             let seats = position.seats(shapes);
-            // Both surfaces of a contact have one temperature.
+            // Both surfaces have the same temperature in contact.
             let of_body = |body: usize, cell: u32| bulk[body] + seats[body].value(&rise[body], cell as usize);
             let both = cells[0].iter().zip(cells[1]);
             Ok(both.map(|(&lower, &upper)| 0.5 * (of_body(0, lower) + of_body(1, upper))).collect())
         })
     }
 
-    /// Keeps in the bodies what the passes go by whose temperatures are not computed.
+    /// Stores in the bodies the temperatures used by passes without their own computation.
     pub(super) fn remember(&self, done: usize, pair: &mut Pair, contacts: &[Contact], bulk: [Kelvin; 2]) {
         if self.every == 1 || !self.is_computed(done) {
             return;

@@ -1,4 +1,4 @@
-//! A pass that wears while it is solved, so that the pressures are those at its end.
+//! A pass solved together with its wear, so that the pressures are those at its end.
 
 use std::ops::Range;
 
@@ -16,12 +16,13 @@ use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{Bounds, Control, Method, Params, Solution, solve_normal_watched};
 
 impl Solver<'_> {
-    /// Solves a pass again that wear would change too much: with the depth that each cell of the bodies has lost at its end, the
-    /// `compliance`, m/Pa, times the sum of the pressures that it bears at all positions. All positions are one problem, from the
-    /// pressures of the `outcome`. That is Euler's implicit step, which is stable at any wear, as of a contact in place.
+    /// Solves again a pass with too much wear for an explicit step. Each cell of the bodies is lowered by the depth lost at
+    /// the end of the pass, which is `compliance`, m/Pa, times the sum of its pressures over all positions. All positions
+    /// form one problem, which starts from the pressures of the `outcome`. This is backward Euler, stable for any wear, as
+    /// in wear in place.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where each position bears a load of its own, or shear displaces the bodies normally;
+    /// [`Error::Unsupported`] if a load holds at each position, or if shear displaces the bodies normally;
     /// [`Error::NotConverged`], [`Error::Interrupted`].
     pub(super) fn solve_implicitly(
         &self,
@@ -84,31 +85,31 @@ impl Solver<'_> {
     }
 }
 
-/// What is said where a pass wears too much to be solved explicitly, and cannot be solved otherwise.
+/// Message for a pass with too much wear for an explicit step that cannot be solved implicitly.
 const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
      cells or a shorter pass; the implicit solution needs one approach for the whole pass and no coupling of shear to normal \
      displacements";
 
-/// The displacement at all positions of a pass, one above the other in one field, under the pressures at all of them: that of the
-/// bodies, and the depth that their cells have worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the pressures that a
-/// cell of a body bears.
+/// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is the elastic
+/// displacement of the bodies plus the depth worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the
+/// pressures on a cell of a body over the positions.
 struct WornPass<'a> {
     pair: &'a Pair,
     positions: &'a [Position],
     operators: &'a Operators,
-    /// As many columns as face each other at all positions.
+    /// Grid with the total number of overlap columns of all positions.
     grid: Grid,
-    /// Depth over the sum of pressures κ of the lower and of the upper body, m/Pa.
+    /// Depth per sum of pressures κ of the lower and of the upper body, m/Pa.
     compliance: [CellValues; 2],
 }
 
 impl WornPass<'_> {
-    /// The rows of each position, in their order.
+    /// Iterates over the positions, in order, with their rows.
     fn rows(&self) -> impl Iterator<Item = (&Position, Range<usize>)> {
         rows(self.positions)
     }
 
-    /// The depths that the bodies have worn under pressures at all positions.
+    /// Returns the depths worn off the bodies by the pressures at all positions.
     fn worn(&self, pressure: &Field) -> [Option<Field>; 2] {
         [0, 1].map(|body| {
             let compliance = &self.compliance[body];
@@ -136,7 +137,7 @@ impl Operator for WornPass<'_> {
         &self.grid
     }
 
-    /// Whatever lies beyond the edges of a position: no displacement is free of its mean once all of them wear.
+    /// Free for every boundary of the positions: once all cells wear, no mean displacement is undetermined.
     fn boundary(&self) -> Boundary {
         Boundary::FREE
     }
@@ -145,7 +146,7 @@ impl Operator for WornPass<'_> {
         self.pair.response().harmonic_displacement(qx, qy)
     }
 
-    /// Of cells at one position, as the bodies give way to them.
+    /// Influence between cells at one position, from the elastic response alone.
     fn influence(&self, i: usize, j: usize) -> f64 {
         let pitch = self.grid.pitch;
         self.pair.response().influence(pitch).at(i as f64 * pitch[0], j as f64 * pitch[1])
@@ -196,7 +197,7 @@ impl Operator for WornPass<'_> {
     }
 }
 
-/// The rows of each position, one above the other.
+/// Iterates over the positions with their stacked rows.
 fn rows(positions: &[Position]) -> impl Iterator<Item = (&Position, Range<usize>)> {
     let mut first = 0;
     positions.iter().map(move |position| {
@@ -206,7 +207,7 @@ fn rows(positions: &[Position]) -> impl Iterator<Item = (&Position, Range<usize>
     })
 }
 
-/// Fields of one width, one above the other.
+/// Stacks fields of one width.
 fn stacked(fields: impl Iterator<Item = Field>) -> Field {
     let fields: Vec<Field> = fields.collect();
     let views: Vec<_> = fields.iter().map(|field| field.view()).collect();

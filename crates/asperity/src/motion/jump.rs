@@ -1,4 +1,4 @@
-//! How many passes a computed one stands for.
+//! Extrapolation of a computed pass over several passes.
 
 use std::f64::consts::PI;
 
@@ -10,19 +10,21 @@ use crate::motion::pair::Pair;
 use crate::operator::Boundary;
 use crate::units::{Dimension, MAX_COUNT, Metre};
 
-/// How far passes that are not computed may be taken for granted.
+/// Limits of the extrapolation over passes that are not computed.
 ///
-/// A computed pass stands for J passes. What its laws sum over a pass is taken to change by as much per pass as it did since the
-/// computed one before: with that mean over the jump, S + ½ J dS, wear is of second order in J (Adams and Bashforth) and a film
-/// grows as it would under frozen contact. How far the heights are from those of S alone is the estimate of the error.
+/// A computed pass is extrapolated over J passes. The sums S of its laws over a pass are assumed to change per pass by dS,
+/// as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. Wear is then of second order in J
+/// (Adams and Bashforth), and a film grows as under frozen contact. The difference of the heights to those from S alone
+/// estimates the error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Acceleration {
-    /// Largest error estimate of a jump, over the depth to which the largest pressure of the pass presses a single cell, > 0.
+    /// Largest error estimate of an extrapolation, relative to the depth to which the largest pressure of the pass presses
+    /// a single cell, > 0.
     pub tolerance: f64,
-    /// The most passes that one stands for, ≥ 1.
+    /// Largest number of passes per extrapolation, ≥ 1.
     pub max_jump: usize,
-    /// The deepest wear in a jump, > 0.
+    /// Largest wear depth in an extrapolation, > 0.
     pub max_wear: Metre,
 }
 
@@ -33,22 +35,22 @@ impl Default for Acceleration {
 }
 
 impl Acceleration {
-    /// Every pass is computed.
+    /// Computes every pass.
     pub const NONE: Self = Self { tolerance: 0.01, max_jump: 1, max_wear: f64::INFINITY };
 
-    /// The same with a tolerance.
+    /// Sets the tolerance.
     #[must_use]
     pub const fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with another longest jump.
+    /// Sets the largest number of passes per extrapolation.
     #[must_use]
     pub const fn with_max_jump(self, max_jump: usize) -> Self {
         Self { max_jump, ..self }
     }
 
-    /// The same with another deepest wear in a jump.
+    /// Sets the largest wear depth in an extrapolation.
     #[must_use]
     pub const fn with_max_wear(self, max_wear: Metre) -> Self {
         Self { max_wear, ..self }
@@ -62,56 +64,56 @@ impl Acceleration {
     }
 }
 
-/// The last jump: what the choice of the next one needs.
+/// The last extrapolation, needed to choose the next one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Jump {
-    /// Passes that the computed one stood for, ≥ 1.
+    /// Passes of the extrapolation, ≥ 1.
     pub passes: usize,
-    /// What each law that repeats has summed over the computed pass.
+    /// Sums over the computed pass of each law that repeats.
     pub sums: Vec<Sums>,
 }
 
-/// Bounds of a jump that are known before its error is.
+/// Bounds on an extrapolation that are known before its error.
 pub(super) struct Bounds {
-    /// Passes that are left.
+    /// Remaining passes.
     pub(super) left: usize,
-    /// Volumes of plastic flow, and of the wear of a pass.
+    /// Volumes of plastic flow and of wear in a pass.
     pub(super) volumes: [f64; 2],
-    /// Deepest wear of a pass.
+    /// Largest wear depth of a pass.
     pub(super) deepest: Metre,
-    /// Passes of wear at which a chequered pattern of pressures would not decay.
+    /// Number of passes of wear at which a checkerboard mode of the pressures would no longer decay.
     pub(super) stable: f64,
 }
 
-/// How many passes a computed one stands for.
+/// The extrapolation of a computed pass.
 pub(super) struct Leap {
-    /// The passes, ≥ 1.
+    /// Passes of the extrapolation, ≥ 1.
     pub(super) passes: usize,
-    /// What laws sum over a pass in the mean of these passes; none of one pass, whose sums are its own.
+    /// Mean over these passes of the sums of the laws; `None` for a single pass, which uses its own sums.
     pub(super) mean: Option<Vec<Sums>>,
     /// Estimate of the error of the heights.
     pub(super) error: Metre,
 }
 
 impl Leap {
-    /// The pass stands for itself.
+    /// No extrapolation: a single pass.
     pub(super) const ONE: Self = Self { passes: 1, mean: None, error: 0.0 };
 }
 
-/// How far the surfaces give way to a pressure of 1 at the shortest waves that cells have, m/Pa.
+/// Compliance of the surfaces at the shortest waves on the grid, m/Pa.
 #[derive(Clone, Copy)]
 pub(super) struct Softness {
-    /// To the pressure on a single cell.
+    /// Under a pressure on a single cell.
     pub(super) single: f64,
-    /// To a chequered pressure, the least of all.
+    /// Under a checkerboard pressure; the smallest of all.
     pub(super) chequered: f64,
 }
 
 impl Softness {
-    /// That of a pair with a boundary.
+    /// Computes the compliance of a pair with a boundary.
     pub(super) fn of(pair: &Pair, boundary: Boundary) -> Self {
-        /// Cells over which the alternating sum is taken; it is faded out towards them.
+        /// Reach of the alternating sum in cells; it is tapered towards them.
         const REACH: i32 = 32;
         let pitch = pair.pitch();
         let response = pair.response();
@@ -133,7 +135,7 @@ impl Softness {
     }
 }
 
-/// Depth that `laws` take in a pass off the cell which is in contact longest, under a pressure of 1, of both bodies, m/Pa.
+/// Largest depth worn off a cell of both bodies in a pass per unit pressure, m/Pa: that of the cell longest in contact.
 pub(super) fn relaxation(
     pair: &Pair,
     contacts: &[Contact],
@@ -158,11 +160,11 @@ pub(super) fn relaxation(
 }
 
 impl Acceleration {
-    /// The most passes that the computed one may stand for, as far as the error allows it.
+    /// Returns the largest number of passes of the next extrapolation, before its error is known.
     pub(super) fn most(&self, bounds: &Bounds, before: &Jump) -> usize {
         let [plastic, worn] = bounds.volumes;
         let most = if plastic > worn * before.passes as f64 {
-            // What flows is not repeated: the surfaces shake down first.
+            // Plastic flow does not repeat: the surfaces shake down first.
             before.passes / 2
         } else {
             let within = (self.max_wear / bounds.deepest).min(bounds.stable);
@@ -172,7 +174,7 @@ impl Acceleration {
     }
 }
 
-/// The mean over `passes` of sums that change by as much per pass as they did since `before`.
+/// Returns the mean over `passes` of sums whose change per pass since `before` continues.
 pub(super) fn extrapolated(now: &[Sums], before: &Jump, passes: usize) -> Vec<Sums> {
     let factor = 0.5 * passes as f64 / before.passes as f64;
     let mean = |(now, then): (&Field, &Field)| {

@@ -1,4 +1,4 @@
-//! The laws by which a pass changes the bodies.
+//! Laws by which a pass changes the bodies.
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field, Seat};
@@ -13,82 +13,83 @@ use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre}
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
 ///
-/// A pass goes through it in two calls. [`Law::add`] reads the contact at each position, in order, and adds what it does to
-/// sums over the pass. [`Law::advance`] then changes the bodies by these sums. A law keeps what it needs from one pass to the
-/// next in the bodies' [`crate::motion::Body::state`], never in itself: results and resumed runs know the bodies alone, and a
-/// pass is tried at several approaches before one of them counts.
+/// A law is called in two steps. [`Law::add`] reads the contact at each position, in order, and adds its effect to sums
+/// over the pass. [`Law::advance`] then changes the bodies by these sums. A law stores data between passes in
+/// [`crate::motion::Body::state`], never in itself. Results and resumed runs contain only the bodies, and a pass is tried
+/// at several approaches before one is accepted.
 pub trait Law: Send + Sync {
-    /// The word by which results know the law, in snake case: that of the plastic flow is `plastic`, and its volumes are in
-    /// the columns `plastic_volume_lower`, ….
+    /// Name of the law in results, in snake case. Plastic flow is `plastic`, with its volumes in the columns
+    /// `plastic_volume_lower`, ….
     fn name(&self) -> &str;
 
-    /// Prepares the bodies before their first pass: adds the state that the law keeps of them where it is not there yet.
+    /// Prepares the bodies before their first pass: adds the state of the law if it is missing.
     fn prepare(&mut self, pair: &mut Pair) {
         let _ = pair;
     }
 
-    /// Number of fields that the law sums over a pass on each body.
+    /// Number of fields that the law sums over a pass for each body.
     fn sums(&self) -> usize {
         1
     }
 
-    /// Adds what the contact at one position does to the sums on the lower and on the upper body, which are zero at the
+    /// Adds the effect of the contact at one position to the sums on the lower and on the upper body, which are zero at the
     /// beginning of the pass.
     fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]);
 
-    /// Whether passes that one stands for do again what it does: wear does, plastic flow does not.
+    /// Whether the law acts again in each extrapolated pass: wear does, plastic flow does not.
     fn repeats(&self) -> bool {
         true
     }
 
-    /// The most depth that the law takes off each body per pressure and distance slid, 1/Pa, where shear is `friction` times the
-    /// pressure: what decides how many passes one may stand for before pressures swing.
+    /// Largest depth that the law removes from each body per pressure and distance slid, 1/Pa, with shear equal to
+    /// `friction` times the pressure. It limits the extrapolation over passes, before pressures oscillate.
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
         let _ = friction;
         [0.0; 2]
     }
 
-    /// As [`Law::per_pressure`], cell by cell of the lower and of the upper body under these sums: what wear in place is solved
-    /// with. It need not be exact, what [`Law::advance`] takes counts; the nearer, the longer the updates may be.
+    /// [`Law::per_pressure`] for each cell of the lower and of the upper body with these sums, used to solve wear in place.
+    /// An estimate is enough, because [`Law::advance`] determines the depth removed. The closer it is, the longer the
+    /// updates may be.
     fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {
         let _ = (pair, sums);
         self.per_pressure(friction).map(CellValues::Uniform)
     }
 
-    /// Changes the state of the bodies by so many `passes` with these sums, and gives the height that each cell of the lower
-    /// and of the upper body loses to the law, m: below 0 where a cell grows. The heights are lowered by the caller.
+    /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that each cell of the lower
+    /// and of the upper body loses to the law, m, below 0 if a cell grows. The caller lowers the heights.
     fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2];
 }
 
 /// The cells in contact at one position.
 ///
-/// Their quantities are slices of one length. A cell in contact lies on a cell of each body, or, in a shift, between two of its
-/// columns; [`Touching::add`] and [`Touching::keep_largest`] bring to the body what happens to it there.
+/// Their quantities are slices of equal length. A cell in contact lies on one cell of each body or, in a shift, between two
+/// of its columns. [`Touching::add`] and [`Touching::keep_largest`] transfer its values to the body.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Touching<'a> {
     /// The relative position of the bodies.
     pub position: &'a Position,
-    /// Flat cells of the lower and of the upper body under those in contact, or the first of two.
+    /// Flat cells of the lower and of the upper body under those in contact; the first one if a cell lies between two.
     cells: [&'a [u32]; 2],
     seats: [Seat; 2],
     /// Pressure on each of the cells in contact, Pa.
     pub pressure: &'a [Pascal],
-    /// Plastic interference w of each of these cells, m; 0 where the pressure is below what the cells bear.
+    /// Plastic interference w of each of these cells, m; 0 if the pressure is below the hardness.
     pub interference: &'a [Metre],
     /// Magnitude of the shear traction on each of these cells, Pa; 0 without friction.
     pub shear: &'a [Pascal],
-    /// Temperature of the surface of the lower and of the upper body on each of these cells, K; NaN where it is not known.
+    /// Surface temperature of the lower and of the upper body on each of these cells, K; NaN if unknown.
     pub temperature: [&'a [Kelvin]; 2],
-    /// Distance over which the bodies slide from this position to the next, m.
+    /// Sliding distance from this position to the next, m.
     pub sliding_distance: Metre,
-    /// Time from this position to the next, s; NaN where the speed is not known.
+    /// Time from this position to the next, s; NaN if the speed is unknown.
     pub time: Second,
 }
 
 impl Touching<'_> {
-    /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between two
-    /// columns each has its part of the value: what is added is, in the whole, the sum of the values.
+    /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between
+    /// two columns the value is split by their weights, so that the total added is the sum of the values.
     pub fn add(&self, body: usize, sum: &mut Field, value: impl Fn(usize) -> f64) {
         let sum = sum.as_slice_mut().expect("standard layout");
         let (seat, cells) = (&self.seats[body], self.cells[body].iter().enumerate());
@@ -102,8 +103,8 @@ impl Touching<'_> {
         }
     }
 
-    /// Keeps the largest value that each cell of a body, 0 the lower or 1 the upper one, has had at any position. The value of a
-    /// cell at this position is what [`Touching::add`] brings there, of each cell in contact its value by the index.
+    /// Updates the largest value of each cell of a body, 0 the lower or 1 the upper one, over all positions. The values at
+    /// this position are given for each cell in contact by its index, and transferred as in [`Touching::add`].
     pub fn keep_largest(&self, body: usize, largest: &mut Field, value: impl Fn(usize) -> f64) {
         let largest = largest.as_slice_mut().expect("standard layout");
         let seat = &self.seats[body];
@@ -118,19 +119,19 @@ impl Touching<'_> {
         }
     }
 
-    /// The value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index: between two columns it is
-    /// the mean by the parts on each.
+    /// Returns the value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index. Between two columns
+    /// it is the weighted mean.
     pub fn value(&self, body: usize, values: &CellValues, index: usize) -> f64 {
         self.seats[body].value(values, self.cells[body][index] as usize)
     }
 }
 
-/// What laws see of a position besides the contact.
+/// Data of a position for laws, besides the contact.
 #[derive(Clone, Copy)]
 pub(super) struct Passage {
-    /// How the bodies slide on the way forth, if there is friction.
+    /// Sliding on the forward stroke, if there is friction.
     pub(super) sliding: Option<Sliding>,
-    /// Distance slid from one position to the next.
+    /// Sliding distance from one position to the next.
     pub(super) distance: Metre,
     /// Time from one position to the next.
     pub(super) time: Second,
@@ -141,25 +142,26 @@ pub(super) struct Passage {
 /// Sums of a law over a pass, on the lower and on the upper body.
 pub type Sums = [Vec<Field>; 2];
 
-/// Tells the temperature of cells in contact, of the lower and of the upper body at a position, under the flux of friction on each.
+/// Computes the temperature of cells in contact, of the lower and of the upper body at a position, from the frictional heat
+/// flux on each.
 pub(super) type Heat<'a> =
     dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<Vec<Kelvin>> + 'a;
 
 /// The heat of friction at a position.
 pub(super) struct Warmth {
     pub(super) record: HeatRecord,
-    /// Temperature of the surfaces on each cell in contact.
+    /// Surface temperature of each cell in contact.
     pub(super) temperature: Vec<Kelvin>,
 }
 
-/// No sums yet of `laws` on a `pair`.
+/// Creates zero sums for `laws` on a `pair`.
 pub(super) fn nothing(laws: &[Box<dyn Law>], pair: &Pair) -> Vec<Sums> {
     let shapes = [pair.lower.heights.raw_dim(), pair.upper.heights.raw_dim()];
     laws.iter().map(|law| shapes.map(|shape| vec![Field::zeros(shape); law.sums()])).collect()
 }
 
-/// The sums of `laws` over contacts on frozen bodies, and the temperatures at each of them where `heat` tells them; else the
-/// surfaces are as warm as the bodies.
+/// Sums `laws` over contacts on frozen bodies. `heat` computes the temperatures at each contact; without it the surfaces
+/// have the temperatures of the bodies.
 pub(super) fn sums(
     laws: &[Box<dyn Law>],
     pair: &Pair,
@@ -210,8 +212,8 @@ pub(super) fn sums(
     Ok((sums, warm))
 }
 
-/// Lets `laws` change a `pair` by so many passes with these sums. What each law took is added to the `lost` so far, and the depths
-/// that it took are given.
+/// Applies `laws` to a `pair` for `passes` passes with these sums. Adds the volume removed by each law to `lost`, and
+/// returns the depths removed.
 pub(super) fn advance(
     laws: &[Box<dyn Law>],
     pair: &mut Pair,
@@ -229,8 +231,8 @@ pub(super) fn advance(
     depths
 }
 
-/// The depth that `laws` take off each cell of the lower and of the upper body per pressure on it over a `distance`, under these
-/// sums, where shear is `friction` times the pressure, m/Pa.
+/// Returns the depth that `laws` remove from each cell of the lower and of the upper body per pressure over a `distance`,
+/// m/Pa, with these sums and shear equal to `friction` times the pressure.
 pub(super) fn compliance(
     laws: &[Box<dyn Law>],
     pair: &Pair,
@@ -251,19 +253,19 @@ pub(super) fn compliance(
     })
 }
 
-/// The depths that `laws` would take off a `pair` in so many passes with these sums.
+/// Returns the depths that `laws` would remove from a `pair` in `passes` passes with these sums.
 pub(super) fn tried(laws: &[Box<dyn Law>], pair: &Pair, sums: &[Sums], passes: usize) -> Vec<[Field; 2]> {
     let mut pair = pair.clone();
     laws.iter().zip(sums).map(|(law, sums)| law.advance(&mut pair, sums, passes as f64)).collect()
 }
 
-/// The deepest that laws take off a cell of each body, of all laws together.
+/// Returns the largest depth removed from a cell of each body by all laws together.
 pub(super) fn deepest(depths: &[[Field; 2]]) -> [Metre; 2] {
     let most = |field: &Field| field.iter().fold(0.0, |most: f64, value| most.max(*value));
     depths.iter().fold([0.0; 2], |sum: [f64; 2], depth| [sum[0] + most(&depth[0]), sum[1] + most(&depth[1])])
 }
 
-/// How far depths are from others: the largest difference of a cell, of all laws together.
+/// Returns the largest difference between two sets of depths at a cell, summed over all laws.
 pub(super) fn difference(one: &[[Field; 2]], other: &[[Field; 2]]) -> Metre {
     let of_field = |one: &Field, other: &Field| {
         one.iter().zip(other).fold(0.0, |most: f64, (one, other)| most.max((one - other).abs()))
@@ -274,7 +276,7 @@ pub(super) fn difference(one: &[[Field; 2]], other: &[[Field; 2]]) -> Metre {
     one.iter().zip(other).map(of_law).sum()
 }
 
-/// Takes a `depth` off each cell of the lower and of the upper body, m, and adds its volume to what is `lost`.
+/// Removes a `depth` from each cell of the lower and of the upper body, m, and adds its volume to `lost`.
 pub(super) fn remove(pair: &mut Pair, depth: &[Field; 2], interiors: &[Interior; 2], lost: &mut LostVolume) {
     pair.lower.heights -= &depth[0];
     pair.upper.heights += &depth[1];

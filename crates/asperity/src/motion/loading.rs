@@ -1,4 +1,4 @@
-//! The history of a static contact: what it bears depends on how it came there.
+//! Loading history of a static contact, on which its state depends.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -15,28 +15,30 @@ use crate::solver::{
 };
 use crate::units::{Joule, Metre, SquareMetre};
 
-/// One stage of a loading: what is prescribed at its end, and in how many equal steps it is reached.
+/// One stage of a loading: the values prescribed at its end, and the number of equal steps to reach them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// What acts at the end of the stage. Without friction nothing acts in the plane, whatever is prescribed there.
+    /// Loading at the end of the stage. Without friction, tangential values have no effect.
     pub loading: Loading,
     /// Number of equal steps, ≥ 1.
     pub increments: usize,
 }
 
-/// Loads a pair whose bodies face each other with all their columns, stage after stage: from where they do not touch, or
-/// from a state `under_way`, from which it comes to the same as without the interruption, bit by bit.
+/// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
+/// gives the same result, bit by bit.
 ///
-/// Between the ends of its stages a load, an approach, a force or a displacement grows in equal steps; from 0 at first, an
-/// approach from the first touch, and where a stage prescribes another quantity than the one before, from what it is then.
+/// Within a stage, a load, an approach, a force or a displacement grows in equal steps. The first stage starts from 0, or
+/// from first touch for an approach. If a stage prescribes another quantity than the one before, that quantity starts from
+/// its present value.
 ///
-/// What has flowed plastically does not flow back. As long as no cell would, the plastic interference of an increment is
-/// that of all its loading at once; from where some cell would, the surfaces stay flattened by what each cell has taken up
-/// so far, and the increment is solved afresh on them. This is the incremental law of perfect plasticity: in each
-/// increment w grows where p is at its cap, and nowhere shrinks.
+/// Plastic deformation is irreversible. As long as no plastic interference would decrease, an increment is solved as if
+/// loaded at once. As soon as one would, the surfaces stay flattened by the plastic deformation so far, and the increment
+/// is solved again on them. This is the incremental law of perfect plasticity: in each increment w grows where p is at its
+/// cap, and shrinks nowhere.
 ///
 /// # Errors
-/// Returns the errors of [`solver::solve_frictional`]; [`Error::Unsupported`] without stages; [`Error::Interrupted`]; the errors of the outputs.
+/// The errors of [`solver::solve_frictional`] and of the outputs; [`Error::Unsupported`] without stages;
+/// [`Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -62,7 +64,7 @@ pub fn load_in_stages(
 struct InStages<'a> {
     bodies: Bodies<'a>,
     stages: &'a [Stage],
-    /// What the last increment has left; none before the first.
+    /// State after the last increment; `None` before the first.
     state: Option<LoadingState>,
 }
 
@@ -100,12 +102,12 @@ impl Course for InStages<'_> {
 }
 
 impl Stage {
-    /// Increments of all `stages`.
+    /// Total number of increments of all `stages`.
     pub(super) fn increments(stages: &[Self]) -> usize {
         stages.iter().map(|stage| stage.increments).sum()
     }
 
-    /// The index of the stage, and the step in it, from 1, after so many increments that are `done`; none after the last.
+    /// Returns the index of the stage and its next step, from 1, after `done` increments; `None` after the last.
     pub(super) fn after(stages: &[Self], done: usize) -> Option<(usize, usize)> {
         let mut left = done;
         for (index, stage) in stages.iter().enumerate() {
@@ -118,10 +120,10 @@ impl Stage {
     }
 }
 
-/// The steady state of a pair that rolls along x, see [`solver::solve_rolling`].
+/// Solves the steady state of a pair that rolls along x, see [`solver::solve_rolling`].
 ///
 /// # Errors
-/// Returns the errors of [`solver::solve_rolling`].
+/// The errors of [`solver::solve_rolling`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -142,7 +144,7 @@ pub fn roll(
 }
 
 impl LoadedContact {
-    /// Pressed together in one step, without friction, over the initial `gap`.
+    /// Presses together in one step, without friction, over the initial `gap`.
     pub(super) fn pressed(
         pair: &Pair,
         operator: &mut dyn Operator,
@@ -159,7 +161,7 @@ impl LoadedContact {
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
     }
 
-    /// The contact in steady rolling along x, over the initial `gap`.
+    /// Solves the contact in steady rolling along x, over the initial `gap`.
     #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
     pub(super) fn rolling(
         pair: &Pair,
@@ -193,7 +195,7 @@ impl LoadedContact {
 
 /// Two bodies under a loading, and the solver of an increment.
 struct Bodies<'a> {
-    /// The initial gap of the bodies as they are prepared.
+    /// Initial gap of the undeformed bodies.
     gap: Field,
     solver: Solver<'a>,
     bounds: Bounds,
@@ -206,8 +208,7 @@ enum Solver<'a> {
     Frictional(Box<dyn CoupledOperator>, &'a Friction),
 }
 
-/// Decrease of a plastic interference, in tolerances as a share of std(u), up to which it counts as none: each of the two
-/// answers has an error.
+/// Largest ignored decrease of a plastic interference, in tolerances relative to std(u). Both solutions have an error.
 const MAX_DECREASE: f64 = 4.0;
 
 impl<'a> Bodies<'a> {
@@ -230,7 +231,7 @@ impl<'a> Bodies<'a> {
         Ok(Self { gap, solver, bounds, area: pair.cell_area(), params })
     }
 
-    /// The state after an increment that begins with the state `before`.
+    /// Returns the state after an increment that starts from the state `before`.
     fn load(
         &mut self,
         stage: usize,
@@ -291,7 +292,7 @@ impl<'a> Bodies<'a> {
         Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error })
     }
 
-    /// The contact at the end of its loading.
+    /// Returns the contact at the end of its loading.
     fn finish(self, state: LoadingState) -> LoadedContact {
         let LoadingState { increments, contact: solution, flattening, slip, dissipation_error, .. } = state;
         let now = solution.normal().plastic_interference();
@@ -312,7 +313,7 @@ impl<'a> Bodies<'a> {
 }
 
 impl Solver<'_> {
-    /// An increment over the initial `gap`, from the `last` one.
+    /// Solves an increment over the initial `gap`, from the `last` one.
     fn solve(
         &mut self,
         gap: &Field,
@@ -347,12 +348,12 @@ impl Solver<'_> {
 }
 
 impl Origin {
-    /// Bodies that just do not touch at this approach.
+    /// Creates the state of bodies that just do not touch, at this approach.
     pub(super) fn apart(approach: Metre) -> Self {
         Self { load: 0.0, approach, force: [0.0; 2], displacement: [0.0; 2] }
     }
 
-    /// The state of a contact in equilibrium.
+    /// Creates the state of a contact in equilibrium.
     pub(super) fn of(contact: &Equilibrium) -> Self {
         let (normal, shear) = (contact.normal(), contact.frictional());
         Self {
@@ -363,7 +364,7 @@ impl Origin {
         }
     }
 
-    /// The loading so far on the way to the end of the stage, which is met exactly.
+    /// Interpolates the loading towards the end of the stage, which is met exactly.
     pub(super) fn towards(&self, end: Loading, share: f64) -> Loading {
         let between = |from: f64, to: f64| if share == 1.0 { to } else { from + share * (to - from) };
         let both = |from: [f64; 2], to: [f64; 2]| [between(from[0], to[0]), between(from[1], to[1])];
@@ -384,7 +385,7 @@ impl Origin {
 }
 
 impl IncrementRecord {
-    /// What is known of an increment by the contact at its end.
+    /// Creates the record of an increment from the contact at its end.
     pub(super) fn of(contact: &Equilibrium) -> Self {
         let (normal, shear) = (contact.normal(), contact.frictional());
         let area = normal.grid.cell_area();
@@ -411,7 +412,7 @@ impl IncrementRecord {
     }
 }
 
-/// The numbers of a contact that has flowed so far, but for its shear.
+/// Returns the record of a contact with its plastic interference so far, without its shear.
 pub(super) fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
     StaticRecord {
         elastic_energy: contact.elastic_energy(),

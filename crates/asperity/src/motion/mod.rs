@@ -1,4 +1,4 @@
-//! Two bodies in relative motion: positions, passes, the pair's geometry and its plastic change.
+//! Two bodies in relative motion: positions, passes, the geometry of the pair and its plastic change.
 
 mod approach;
 mod body;
@@ -78,23 +78,23 @@ use crate::error::{Error, Result};
 use crate::solver::{Control, Friction, Sliding};
 use crate::units::{Kelvin, Metre, MetrePerSecond, Newton, Second};
 
-/// Where a load that is prescribed holds in a motion; an approach holds at every position of every pass.
+/// Where a prescribed load holds in a motion. A prescribed approach holds at every position of every pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadControl {
-    /// In the mean over a pass, at the one approach of all its positions that makes it so.
+    /// As the mean over a pass, at one common approach of all its positions.
     Pass,
     /// At every position.
     Step,
 }
 
-/// The strategy by which the bodies pass over each other.
+/// How the bodies pass over each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Strategy {
-    /// The upper body enters on the left, passes over, leaves on the right; only what faces is solved.
+    /// The upper body enters on the left, passes over and leaves on the right. Only the overlap is solved.
     Overlap,
-    /// Both height matrices are shifted circularly and the full problem is solved at each step.
+    /// Both surfaces are shifted circularly, and the full problem is solved at each step.
     Shift {
-        /// Speed of the lower surface along x; only the ratio of the two matters.
+        /// Speed of the lower surface along x. Only the ratio of the two speeds matters.
         speed_lower: MetrePerSecond,
         /// Speed of the upper surface along x.
         speed_upper: MetrePerSecond,
@@ -102,8 +102,8 @@ pub enum Strategy {
 }
 
 impl LoadControl {
-    /// The largest load that can be asked for where the cells at each position bear so much together: in the mean over a
-    /// pass, or at the position that bears the least.
+    /// Returns the plastic limit of the load from the limits `bearable` of all positions: their mean under pass control,
+    /// their smallest under step control.
     pub fn plastic_limit(self, bearable: &[Newton]) -> Newton {
         match self {
             Self::Pass => bearable.iter().sum::<f64>() / bearable.len() as f64,
@@ -112,7 +112,7 @@ impl LoadControl {
     }
 }
 
-/// An error where a load is prescribed that is not below the [`LoadControl::plastic_limit`].
+/// Returns an error if a prescribed load is not below the [`LoadControl::plastic_limit`].
 pub(crate) fn check_limit(control: Control, limit: Newton) -> Result<()> {
     match control {
         Control::Load(load) if load >= limit => Err(Error::BeyondPlasticLimit { load, limit }),
@@ -121,7 +121,7 @@ pub(crate) fn check_limit(control: Control, limit: Newton) -> Result<()> {
 }
 
 impl Strategy {
-    /// Sign of the velocity of the upper body against the lower one: 0 where both roll alike.
+    /// Sign of the velocity of the upper body relative to the lower one; 0 if both roll alike.
     pub fn direction(&self) -> f64 {
         match *self {
             Self::Overlap => 1.0,
@@ -130,7 +130,7 @@ impl Strategy {
         }
     }
 
-    /// The positions of a pass of two bodies of so many columns, every `stride`-th.
+    /// Returns every `stride`-th position of a pass of two bodies with `lower` and `upper` columns.
     pub fn positions(&self, lower: usize, upper: usize, stride: usize) -> Vec<Position> {
         match *self {
             Self::Overlap => overlap_positions(lower, upper, stride),
@@ -144,19 +144,19 @@ impl Strategy {
 /// When plastic deformation changes the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlasticUpdate {
-    /// After the pass: each cell is lowered by its share of the largest plastic interference it saw.
+    /// After the pass: each cell is lowered by its share of the largest plastic interference during the pass.
     Pass,
-    /// At every position, each on the surfaces that the one before has left.
+    /// At every position: each position is solved on the surfaces left by the one before.
     Step,
 }
 
 choice!(PlasticUpdate: "pass" => Pass, "step" => Step);
 
-/// A motion: how often, how finely and under what the bodies pass over each other.
+/// Parameters of a motion: number of passes, steps, control, friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Motion {
-    /// How the bodies pass over each other: overlap or circular shift.
+    /// Overlap or circular shift.
     pub strategy: Strategy,
     /// Number of passes, ≥ 1.
     pub passes: usize,
@@ -164,27 +164,27 @@ pub struct Motion {
     pub stride: usize,
     /// Control of the normal direction: load or approach.
     pub control: Control,
-    /// Where a load holds.
+    /// Where a prescribed load holds.
     pub load_control: LoadControl,
     /// When plastic deformation is applied.
     pub plastic_update: PlasticUpdate,
     /// Relative tolerance on the pass-mean load, > 0.
     pub load_tolerance: f64,
-    /// Friction of the sliding bodies, if they have any.
+    /// Friction of the sliding bodies, if any.
     pub friction: Option<Friction>,
-    /// Speed of the upper body over the lower one in an overlap, > 0, where it is known; a shift has its own speeds.
+    /// Speed of the upper body over the lower one in an overlap, > 0, if known. A shift has its own speeds.
     pub speed: Option<MetrePerSecond>,
-    /// Temperatures of the lower and of the upper body, > 0, where they are known.
+    /// Temperatures of the lower and of the upper body, > 0, if known.
     pub bulk: Option<[Kelvin; 2]>,
-    /// Whether a pass goes one way, or there and back.
+    /// Whether a pass is one forward stroke, or a forward and a return stroke.
     pub path: Path,
-    /// Where along y the passes lie; other than at 0 where the boundary is periodic along y.
+    /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
     pub offset_y: OffsetY,
 }
 
 impl Motion {
-    /// One pass in steps of a cell, in which a load holds in the mean over the pass to 10⁻⁴ and plastic deformation is applied
-    /// after it; without friction.
+    /// Creates a motion of one pass in steps of one cell, without friction. A load holds as the mean over the pass to 10⁻⁴,
+    /// and plastic deformation is applied after the pass.
     pub const fn new(strategy: Strategy, control: Control) -> Self {
         Self {
             strategy,
@@ -202,81 +202,81 @@ impl Motion {
         }
     }
 
-    /// The same by another strategy.
+    /// Sets the strategy.
     #[must_use]
     pub const fn with_strategy(self, strategy: Strategy) -> Self {
         Self { strategy, ..self }
     }
 
-    /// The same over so many passes, ≥ 1.
+    /// Sets the number of passes, ≥ 1.
     #[must_use]
     pub const fn with_passes(self, passes: usize) -> Self {
         Self { passes, ..self }
     }
 
-    /// The same in steps of so many cells, ≥ 1.
+    /// Sets the number of cells per step, ≥ 1.
     #[must_use]
     pub const fn with_stride(self, stride: usize) -> Self {
         Self { stride, ..self }
     }
 
-    /// The same under another load or approach.
+    /// Sets the load or approach.
     #[must_use]
     pub const fn with_control(self, control: Control) -> Self {
         Self { control, ..self }
     }
 
-    /// The same with a load that holds there.
+    /// Sets where a prescribed load holds.
     #[must_use]
     pub const fn with_load_control(self, load_control: LoadControl) -> Self {
         Self { load_control, ..self }
     }
 
-    /// The same with plastic deformation applied then.
+    /// Sets when plastic deformation is applied.
     #[must_use]
     pub const fn with_plastic_update(self, plastic_update: PlasticUpdate) -> Self {
         Self { plastic_update, ..self }
     }
 
-    /// The same to another relative tolerance on the pass-mean load, > 0.
+    /// Sets the relative tolerance on the pass-mean load, > 0.
     #[must_use]
     pub const fn with_load_tolerance(self, load_tolerance: f64) -> Self {
         Self { load_tolerance, ..self }
     }
 
-    /// The same with friction, or without.
+    /// Sets or removes the friction.
     #[must_use]
     pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
         Self { friction: friction.into(), ..self }
     }
 
-    /// The same at a speed of the upper body in an overlap, > 0.
+    /// Sets the speed of the upper body in an overlap, > 0.
     #[must_use]
     pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
         Self { speed: speed.into(), ..self }
     }
 
-    /// The same with bodies of these temperatures, > 0.
+    /// Sets the temperatures of the bodies, > 0.
     #[must_use]
     pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
         Self { bulk: bulk.into(), ..self }
     }
 
-    /// The same with passes that go one way, or there and back.
+    /// Sets the path of a pass: one forward stroke, or a forward and a return stroke.
     #[must_use]
     pub const fn with_path(self, path: Path) -> Self {
         Self { path, ..self }
     }
 
-    /// The same with passes that lie elsewhere along y.
+    /// Sets the offset of the passes along y.
     #[must_use]
     pub const fn with_offset_y(self, offset_y: OffsetY) -> Self {
         Self { offset_y, ..self }
     }
 
-    /// The positions of a `pass`, from 1, of a lower and an upper body of so many `columns`, `width` cells across.
+    /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width` cells across.
     ///
-    /// Passes in one direction by a shift go on from one another: the slower surface is where the pass before has left it.
+    /// One-way passes by a shift continue from one another: the slower surface starts where the pass before left it.
     pub fn positions(&self, columns: [usize; 2], width: usize, pass: usize) -> Vec<Position> {
         let forth = match (self.strategy, self.path) {
             (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
@@ -294,8 +294,8 @@ impl Motion {
         positions
     }
 
-    /// Whether all passes have the same positions: they all lie at one place along y, and the surfaces of a shift are back where they
-    /// began, because they move by whole rounds, or there and back.
+    /// Whether all passes have the same positions. They do if they share one offset along y, and if the surfaces of a shift
+    /// return to their start: by whole rounds, or by a return stroke.
     pub fn repeats(&self) -> bool {
         let returns = match (self.strategy, self.path) {
             (Strategy::Overlap, _) | (_, Path::Reciprocating) => true,
@@ -307,8 +307,8 @@ impl Motion {
         returns && self.offset_y == OffsetY::NONE
     }
 
-    /// How many of so many positions of a pass, the first ones, are contacts of their own: the way back of bodies that stay as they
-    /// are meets the contacts of the way forth again, unless friction displaces their surfaces normally.
+    /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
+    /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally.
     pub(crate) fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
         let stays = self.plastic_update == PlasticUpdate::Pass || !yields;
         let pushed =
@@ -316,7 +316,7 @@ impl Motion {
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
     }
 
-    /// Time from one position to the next of bodies of that pitch along x; NaN where the speed is not known.
+    /// Time from one position to the next for a pitch along x; NaN if the speed is not known.
     pub fn step_time(&self, pitch: Metre) -> Second {
         let step = self.stride as f64 * pitch;
         match self.strategy {
@@ -325,7 +325,7 @@ impl Motion {
         }
     }
 
-    /// What laws see of a position of bodies of that pitch along x besides the contact.
+    /// Returns the data of a position that laws need besides the contact, for a pitch along x.
     fn passage(&self, pitch: Metre) -> law::Passage {
         law::Passage {
             sliding: self.sliding(Way::Forth),
@@ -335,13 +335,13 @@ impl Motion {
         }
     }
 
-    /// How the bodies slide on one of the ways, if there is friction: the upper one towards where it goes.
+    /// Direction of sliding and friction on a stroke, if there is friction: the upper body slides towards its motion.
     pub fn sliding(&self, way: Way) -> Option<Sliding> {
         let direction = [way.sign() * self.strategy.direction(), 0.0];
         self.friction.map(|friction| Sliding { friction, direction })
     }
 
-    /// Distance over which bodies of that pitch slide over each other from one position to the next.
+    /// Sliding distance from one position to the next, for a pitch along x.
     pub fn sliding_distance(&self, pitch: Metre) -> Metre {
         let step = self.stride as f64 * pitch;
         match self.strategy {

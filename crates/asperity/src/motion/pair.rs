@@ -1,4 +1,4 @@
-//! Two bodies that face each other.
+//! A pair of contacting bodies.
 
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Seat, check_finite};
@@ -11,26 +11,26 @@ use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 
-/// Two bodies that face each other, with the elastic response of their materials.
+/// Two contacting bodies, with the elastic response of their materials.
 #[derive(Debug, Clone)]
 pub struct Pair {
     /// The lower body.
     pub lower: Body,
-    /// The upper body; its heights are those of its underside.
+    /// The upper body, with the heights of its underside.
     pub upper: Body,
     pitch: [Metre; 2],
     compliances: Compliances,
     response: SharedResponse,
-    /// The lower body's share of the plastic deformation, where it is not for the softer of two cells to take it.
+    /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
     share: Option<f64>,
 }
 
 impl Pair {
-    /// Two bodies of these materials; `upper` is the height of the underside.
+    /// Creates a pair of bodies with these materials; `upper` is the height of the underside.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] where heights are
-    /// missing, [`Error::OutOfRange`] if both materials are rigid and neither is coated.
+    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights are missing,
+    /// [`Error::OutOfRange`] if both materials are rigid and neither is coated.
     pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
         let (a, b) = (*lower.grid(), *upper.grid());
         if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
@@ -64,13 +64,13 @@ impl Pair {
         })
     }
 
-    /// The same pair with another hardness of the lower and of the upper body, each a number or a map of its cells.
+    /// Sets the hardness of the lower and of the upper body, each a number or a map of its cells.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a hardness that is not above 0.
     ///
     /// # Panics
-    /// If a map has another shape than its body.
+    /// If the shape of a map differs from that of its body.
     pub fn with_hardness(mut self, [lower, upper]: [CellValues; 2]) -> Result<Self> {
         (self.lower.hardness, self.upper.hardness) = (lower, upper);
         self.lower.validate()?;
@@ -78,15 +78,15 @@ impl Pair {
         Ok(self)
     }
 
-    /// The same pair with another division of the plastic deformation: `share` of it to the lower body, 0 … 1.
+    /// Sets the share of the lower body in the plastic deformation, 0 … 1.
     pub fn with_plastic_share(self, share: f64) -> Self {
         Self { share: Some(share), ..self }
     }
 
-    /// The same surfaces on bodies of another `response` than that of the materials.
+    /// Replaces the elastic response of the materials by another `response`.
     ///
-    /// Hardness and plastic share stay those of the materials; so do [`Pair::modulus`] and [`Pair::compliances`], which no
-    /// contact depends on then.
+    /// Hardness and plastic share stay those of the materials. So do [`Pair::modulus`] and [`Pair::compliances`], which
+    /// then no longer affect any contact.
     pub fn with_response(self, response: impl Into<SharedResponse>) -> Self {
         Self { response: response.into(), ..self }
     }
@@ -96,12 +96,12 @@ impl Pair {
         self.pitch
     }
 
-    /// Composite modulus E* of the bodies without their coatings.
+    /// Composite modulus E* of the bodies, without their coatings.
     pub fn modulus(&self) -> Pascal {
         self.compliances.modulus()
     }
 
-    /// The elastic constants of the pair without the coatings.
+    /// Elastic compliances of the pair, without the coatings.
     pub fn compliances(&self) -> &Compliances {
         &self.compliances
     }
@@ -111,12 +111,13 @@ impl Pair {
         &self.response
     }
 
-    /// Whether pressure displaces the bodies tangentially and shear normally; false where the response to shear is not known.
+    /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the response to
+    /// shear is unknown.
     pub(super) fn couples(&self) -> bool {
         self.response.coupled().is_some_and(|coupled| coupled.couples())
     }
 
-    /// Refuses bodies whose response to shear is not known, by [`Error::Unsupported`].
+    /// Returns [`Error::Unsupported`] if the response to shear is unknown.
     pub(super) fn check_shear(&self) -> Result<()> {
         self.response
             .coupled()
@@ -124,15 +125,15 @@ impl Pair {
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }
 
-    /// The operators of contacts on the cells of a `largest` grid; [`Error::Unsupported`] where the response knows no such
-    /// boundary.
+    /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support
+    /// the boundary.
     pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {
         self.check_line(&largest, boundary)?;
         Ok(Operators::new(largest, self.response.clone(), boundary))
     }
 
-    /// Refuses a boundary that is periodic along one axis of a grid for bodies whose response to a line of cells is not known, by
-    /// [`Error::Unsupported`].
+    /// Returns [`Error::Unsupported`] if the boundary is periodic along one axis of a grid and the response to a line of
+    /// cells is unknown.
     pub(super) fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
         let line = boundary.line(largest, boundary.datum(largest));
         if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
@@ -143,8 +144,8 @@ impl Pair {
         Ok(())
     }
 
-    /// The shares of the plastic deformation that the lower and the upper body take where cells of this `hardness` face each
-    /// other: all of it the softer, half of it each where both are equally hard.
+    /// Returns the shares of the lower and of the upper body in the plastic deformation of cells with this `hardness`: all
+    /// for the softer, half each if both are equally hard.
     pub fn plastic_shares(&self, hardness: [Pascal; 2]) -> [f64; 2] {
         let lower = self.share.unwrap_or_else(|| plastic_share(hardness[0], hardness[1]));
         [lower, 1.0 - lower]
@@ -155,23 +156,23 @@ impl Pair {
         self.lower.hardness.min().min(self.upper.hardness.min()).is_finite()
     }
 
-    /// The most pressure that any two cells bear where they face each other, infinite where both are elastic.
+    /// Largest pressure that any two opposing cells can carry; infinite if both are elastic.
     pub fn max_hardness(&self) -> Pascal {
         self.lower.hardness.max().min(self.upper.hardness.max())
     }
 
-    /// The least pressure that two cells bear where they face each other.
+    /// Smallest pressure that any two opposing cells can carry.
     pub fn min_hardness(&self) -> Pascal {
         self.lower.hardness.min().min(self.upper.hardness.min())
     }
 
-    /// Bounds of the pressure on the cells that face each other: none above the hardness of the softer, nor above what the
-    /// shear of bodies that slide under `friction` leaves of it.
+    /// Returns the pressure bounds on the cells of the overlap: the hardness of the softer cell, reduced by the shear of
+    /// bodies that slide under `friction`.
     pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
         self.bounds_of([&self.lower.hardness, &self.upper.hardness], position, friction)
     }
 
-    /// The bounds of bodies on the same grids that have this hardness, lower one first.
+    /// Returns the bounds for bodies on the same grids with this hardness, lower one first.
     pub(super) fn bounds_of(
         &self,
         hardness: [&CellValues; 2],
@@ -183,7 +184,7 @@ impl Pair {
         friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
     }
 
-    /// The one position of a contact at rest, whose bodies face each other with all their columns.
+    /// Returns the single position of a static contact at full overlap.
     pub fn at_rest(&self) -> Position {
         Position::flush(self.lower.columns())
     }
@@ -203,12 +204,12 @@ impl Pair {
         self.grid(self.upper.columns())
     }
 
-    /// A grid of so many columns of this pair.
+    /// Creates a grid with `columns` columns of this pair.
     pub fn grid(&self, columns: usize) -> Grid {
         Grid { shape: [columns, self.lower.width()], pitch: self.pitch }
     }
 
-    /// Checks the heights of both bodies, and what laws keep of them.
+    /// Checks the heights of both bodies, and the state that laws store with them.
     ///
     /// # Errors
     /// [`Error::NotFinite`].
@@ -222,24 +223,24 @@ impl Pair {
         Ok(())
     }
 
-    /// Undeformed gap h = z₂ − z₁ of the cells that face each other.
+    /// Undeformed gap h = z₂ − z₁ of the cells of the overlap.
     pub fn initial_gap(&self, position: &Position) -> Field {
         initial_gap([&self.lower.heights, &self.upper.heights], position)
     }
 
-    /// How the cells of the contact at `position` lie on the lower and on the upper body.
+    /// Placement of the contact at `position` on the lower and on the upper body.
     pub(crate) fn seats(&self, position: &Position) -> [Seat; 2] {
         position.seats([self.lower_grid().shape, self.upper_grid().shape])
     }
 
-    /// The flat cells of the lower and of the upper body under a flat cell of the contact at `position`: of the two that it may lie
-    /// between the one before, whose part is 1 − [`Position::fraction`].
+    /// Returns the flat cells of the lower and of the upper body under a flat cell of the contact at `position`. If it lies
+    /// between two columns, this is the first one, whose weight is 1 − [`Position::fraction`].
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
         self.seats(position).map(|seat| seat.cell(cell))
     }
 }
 
-/// The values `of` of the values of two bodies of these shapes where their cells face each other.
+/// Combines by `of` the values of two bodies of these shapes at opposing cells.
 pub(crate) fn facing_values(
     values: [&CellValues; 2],
     shapes: [[usize; 2]; 2],
@@ -262,7 +263,7 @@ pub(crate) fn facing_values(
     CellValues::Field(facing)
 }
 
-/// Undeformed gap h = z₂ − z₁ of the cells of the lower and the upper surface that face each other.
+/// Undeformed gap h = z₂ − z₁ between opposing cells of the lower and of the upper surface.
 pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
     let [lower, upper] = position.seats(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
     let mut gap = Field::zeros([position.columns, surfaces[0].ncols()]);

@@ -1,4 +1,4 @@
-//! All positions of one pass.
+//! The positions of one pass.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -19,17 +19,18 @@ use crate::operator::Operators;
 use crate::solver::{Control, Params};
 use crate::units::Newton;
 
-/// A pass at one prescribed load or approach: its contacts, and the pair, which the laws are to change if its positions have not.
+/// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless the
+/// positions have done so.
 pub(super) struct Pass {
     /// The contacts at the positions.
     pub(super) contacts: Vec<Contact>,
-    /// The bodies, which each position may have changed.
+    /// The bodies, possibly changed by each position.
     pub(super) pair: Pair,
     /// Whether the laws have changed the bodies position by position.
     pub(super) has_changed: bool,
-    /// The volumes that each law took from the bodies.
+    /// Volumes removed from the bodies by each law.
     pub(super) lost: Vec<LostVolume>,
-    /// What it has made of bodies that flow below their surfaces; none of others.
+    /// Results for elasto-plastic bodies; `None` for others.
     pub(super) flowed: Option<FlowedPass>,
 }
 
@@ -40,7 +41,7 @@ impl Pass {
     }
 }
 
-/// The solver of a pass: all that its trials have in common.
+/// The solver of a pass: data shared by all its trials.
 pub(super) struct Solver<'a> {
     pub(super) operators: &'a Operators,
     pub(super) positions: &'a [Position],
@@ -48,16 +49,16 @@ pub(super) struct Solver<'a> {
     pub(super) interiors: &'a [Interior; 2],
     pub(super) laws: &'a [Box<dyn Law>],
     pub(super) watch: &'a dyn Watch,
-    /// Pass and trial, for the watch.
+    /// Pass and trial, for progress reports.
     pub(super) progress: Progress,
 }
 
-/// Convolutions after which a rough answer is given up.
+/// Largest number of convolutions spent on a rough solution.
 const MAX_ROUGH_CONVOLUTIONS: usize = 300;
 
 impl Solver<'_> {
-    /// Solves all positions roughly, to a residual above that of the `params`, or to theirs where that does not lead anywhere:
-    /// no rough answer is worth an error.
+    /// Solves all positions roughly, to a residual above that of the `params`. If a rough solution fails, it falls back to
+    /// the residual of the `params`, because a rough solution must not cause an error.
     pub(super) fn solve_roughly(
         &self,
         pair: &Pair,
@@ -76,7 +77,7 @@ impl Solver<'_> {
         self.solve(pair, control, params, earlier)
     }
 
-    /// Solves all positions, from the contacts of up to two earlier trials at the same positions, the latest first.
+    /// Solves all positions, starting from the contacts of up to two earlier trials at the same positions, latest first.
     pub(super) fn solve(
         &self,
         pair: &Pair,
@@ -139,12 +140,12 @@ impl Solver<'_> {
     }
 }
 
-/// Least extrapolation of a guess, in steps between the two earlier approaches.
+/// Smallest extrapolation of a guess, in steps between the two earlier approaches.
 const MIN_EXTRAPOLATION: f64 = -0.5;
 /// Largest extrapolation of a guess, in steps between the two earlier approaches.
 const MAX_EXTRAPOLATION: f64 = 1.0;
 
-/// The pressure at a position, extrapolated over the approach from those of earlier trials.
+/// Extrapolates the pressure at a position over the approach from those of earlier trials.
 fn first_guess(earlier: &[Vec<Contact>], index: usize, control: Control, width: usize) -> Option<Field> {
     let latest = &earlier.first()?[index];
     if latest.pressure.is_empty() {

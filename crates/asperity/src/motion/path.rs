@@ -1,4 +1,4 @@
-//! The relative positions of a pass.
+//! Relative positions of a pass.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,28 +7,28 @@ use crate::choice::choice;
 use crate::grid::Seat;
 use crate::units::MetrePerSecond;
 
-/// What a pass of a motion is.
+/// Strokes of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Path {
     /// All positions once.
     OneWay,
-    /// All positions there, and in reverse order back, with sliding and friction the other way round.
+    /// All positions in a forward stroke, then in reverse order in a return stroke with sliding and friction reversed.
     Reciprocating,
 }
 
 choice!(Path: "one-way" => OneWay, "reciprocating" => Reciprocating);
 
-/// The way of a pass on which a position is.
+/// Stroke of a pass to which a position belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// As the strategy has it.
+    /// The forward stroke, in the direction of the strategy.
     Forth,
-    /// The other way round.
+    /// The return stroke.
     Back,
 }
 
 impl Way {
-    /// 1 on the way forth, −1 on the way back.
+    /// 1 on the forward stroke, −1 on the return stroke.
     pub fn sign(self) -> f64 {
         match self {
             Self::Forth => 1.0,
@@ -37,12 +37,12 @@ impl Way {
     }
 }
 
-/// Where along y the upper body passes over the lower one, pass by pass; cells beyond the width come in on the other side.
+/// Offset of the upper body along y, pass by pass. Cells beyond the width re-enter on the other side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OffsetY {
-    /// So many cells further in each pass than in the one before, the first one at 0.
+    /// This many cells more in each pass than in the one before; the first pass is at 0.
     Cells(usize),
-    /// Anywhere: a displacement for each pass, drawn from the seed and the number of the pass.
+    /// A random offset for each pass, drawn from the seed and the number of the pass.
     Random {
         /// The seed.
         seed: u64,
@@ -50,10 +50,10 @@ pub enum OffsetY {
 }
 
 impl OffsetY {
-    /// All passes lie where the first does.
+    /// No offset: all passes lie where the first does.
     pub const NONE: Self = Self::Cells(0);
 
-    /// The displacement of the upper body in a `pass`, from 1, along bodies of a `width`, in cells below that.
+    /// Returns the offset of the upper body in a `pass`, from 1, in cells, below the `width` of the bodies.
     pub fn of_pass(self, pass: usize, width: usize) -> usize {
         match self {
             Self::Cells(cells) => (cells % width * ((pass - 1) % width)) % width,
@@ -66,41 +66,42 @@ impl OffsetY {
     }
 }
 
-/// One relative position: which columns of the lower body face which of the upper one.
+/// A relative position: which columns of the lower and of the upper body overlap.
 ///
 /// Column `j` of the contact is column `lower + j` of the lower body and `upper + j` of the upper one, both counted
-/// cyclically (in an overlap neither wraps around). Where a surface lies between two of its columns, column `j` is on the way
-/// from that column to the next, by the `fraction` of the body.
+/// cyclically (in an overlap neither wraps around). If a surface lies between two of its columns, column `j` is displaced
+/// from that column to the next by the `fraction` of the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     /// Columns by which the upper body has moved to the right of the lower one.
     pub offset: f64,
-    /// First column of the lower body that faces the upper one.
+    /// First column of the lower body in the overlap.
     pub lower: usize,
-    /// First column of the upper body that faces the lower one.
+    /// First column of the upper body in the overlap.
     pub upper: usize,
-    /// Parts of a column, from 0, below 1, by which the contact lies beyond the columns of the lower and of the upper body.
+    /// Fraction of a column, 0 ≤ fraction < 1, by which the contact is displaced from the columns of the lower and of the
+    /// upper body.
     pub fraction: [f64; 2],
-    /// Number of columns that face each other.
+    /// Number of columns of the overlap.
     pub columns: usize,
     /// Cells along y by which the upper body is displaced, counted cyclically.
     pub across: usize,
-    /// The way on which it lies.
+    /// The stroke of the position.
     pub way: Way,
 }
 
 impl Position {
-    /// Bodies that face each other with all of so many columns.
+    /// Creates the position of full overlap of two bodies with `columns` columns.
     pub fn flush(columns: usize) -> Self {
         Self { offset: 0.0, lower: 0, upper: 0, fraction: [0.0; 2], columns, across: 0, way: Way::Forth }
     }
 
-    /// The same position on the way back.
+    /// Returns the same position on the return stroke.
     pub(super) fn back(self) -> Self {
         Self { way: Way::Back, ..self }
     }
 
-    /// How the contact lies on bodies of these shapes, lower one first.
+    /// Placement of the contact on bodies of these shapes, lower one first.
     pub(crate) fn seats(&self, shapes: [[usize; 2]; 2]) -> [Seat; 2] {
         let row = (shapes[1][1] - self.across) % shapes[1][1];
         [
@@ -109,18 +110,18 @@ impl Position {
         ]
     }
 
-    /// Where the contact begins on the lower and on the upper body, in columns.
+    /// Start of the contact on the lower and on the upper body, in columns.
     pub fn places(&self) -> [f64; 2] {
         [self.lower as f64 + self.fraction[0], self.upper as f64 + self.fraction[1]]
     }
 }
 
-/// The positions of an overlap pass: the upper body enters from the left, passes over and leaves on the right.
+/// Returns the positions of an overlap pass: the upper body enters from the left, passes over and leaves on the right.
 ///
-/// Of the `lower + upper − 1` positions at which bodies of so many columns face each other, every `stride`-th, the
-/// one at which their left edges are flush always among them.
+/// There are `lower + upper − 1` positions at which the bodies overlap. Every `stride`-th is returned, always including the
+/// one at which the left edges are flush.
 pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Position> {
-    // Any stride beyond the bodies leaves the one position.
+    // A stride larger than both bodies leaves one position.
     let stride = stride.min(lower + upper);
     let (lower, upper, stride) = (lower as isize, upper as isize, stride as isize);
     let first = -((upper - 1) / stride);
@@ -140,10 +141,10 @@ pub fn overlap_positions(lower: usize, upper: usize, stride: usize) -> Vec<Posit
         .collect()
 }
 
-/// The positions of a pass by circular shift: the faster surface goes once around, `stride` columns a step.
+/// Returns the positions of a pass by circular shift: the faster surface goes once around, `stride` columns per step.
 ///
-/// All of the `columns` face each other throughout. Equal speeds roll, a zero speed slides. The slower surface moves by parts
-/// of a column where the ratio of the speeds wants it.
+/// All `columns` overlap throughout. Equal speeds are rolling, a zero speed is sliding. The slower surface moves by
+/// fractions of a column if the ratio of the speeds requires it.
 pub fn shift_positions(
     columns: usize,
     stride: usize,
@@ -153,7 +154,7 @@ pub fn shift_positions(
     shift_positions_after(0, columns, stride, [speed_lower, speed_upper])
 }
 
-/// The positions of a pass by circular shift after so many rounds of the faster surface.
+/// Returns the positions of a pass by circular shift after `rounds` rounds of the faster surface.
 pub(super) fn shift_positions_after(
     rounds: usize,
     columns: usize,
@@ -168,7 +169,7 @@ pub(super) fn shift_positions_after(
                 |speed: f64| whole_if_near((rounds * columns) as f64 * speed / fastest) % columns as f64;
             let moved = |speed: f64| whole_if_near(before(speed) + (step * stride) as f64 * speed / fastest);
             let (lower, upper) = (moved(speed_lower), moved(speed_upper));
-            // The contact begins at −moved in the body's frame.
+            // The contact begins at −moved in the frame of the body.
             let start = |moved: f64| (-moved).floor().rem_euclid(columns as f64) as usize;
             let fraction = |moved: f64| -moved - (-moved).floor();
             Position {
@@ -182,11 +183,11 @@ pub(super) fn shift_positions_after(
         .collect()
 }
 
-/// A number of columns without what rounding has left of a whole one.
+/// Removes the rounding error from a nearly whole number of columns.
 fn whole_if_near(moved: f64) -> f64 {
-    /// Parts of a column that are none: what rounding leaves after 10⁸ columns.
+    /// Fractions of a column below this are rounding error after up to 10⁸ columns.
     const NEAR: f64 = 1e-7;
-    // Added to −0, 0 makes 0 of it.
+    // Adding 0 turns −0 into 0.
     if (moved - moved.round()).abs() < NEAR { moved.round() + 0.0 } else { moved }
 }
 
@@ -228,7 +229,7 @@ mod tests {
         let between =
             Position { offset: -4.5, lower: 5, upper: 1, fraction: [0.0, 0.5], ..Position::flush(8) };
         assert_eq!(slip[3], between);
-        // A round later the slower surface goes on from where it was: at half of its own.
+        // One round later the slower surface continues from its last place, at half of its own round.
         let next = shift_positions_after(1, 8, 1, [1.0, -0.5]);
         assert_eq!((next[0].lower, next[0].upper, next[0].offset), (0, 4, -4.0));
         assert_eq!(shift_positions_after(2, 8, 1, [1.0, -0.5]), slip);
@@ -240,7 +241,7 @@ mod tests {
         assert_eq!(of(OffsetY::Cells(2)), [0, 2, 4, 1, 3, 0, 2]);
         assert_eq!(of(OffsetY::Cells(12)), of(OffsetY::Cells(2)));
         assert_eq!(of(OffsetY::NONE), [0; 7]);
-        // Frozen: whoever changes them changes what a resumed motion goes on with.
+        // Frozen: a change of these numbers changes how a resumed motion continues.
         assert_eq!(of(OffsetY::Random { seed: 0 }), [3, 1, 0, 4, 0, 0, 2]);
         let mut met = [0; 5];
         (1..=500).for_each(|pass| met[OffsetY::Random { seed: 3 }.of_pass(pass, 5)] += 1);

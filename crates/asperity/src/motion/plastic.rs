@@ -1,12 +1,12 @@
-//! Levelling by plastic flow.
+//! Truncation of the surfaces at the hardness.
 
 use crate::grid::Field;
 use crate::motion::law::{Law, Touching};
 use crate::motion::pair::Pair;
 
-/// Levelling by perfectly plastic flow: each cell of both bodies is lowered by its share of the largest plastic interference
-/// that it saw on frozen bodies. (The mean over the positions of a pass instead of the largest would take up only a few per
-/// cent of it.) Flow is not repeated: passes that one stands for add nothing to it.
+/// Truncation of the surfaces by perfectly plastic deformation. Each cell of both bodies is lowered by its share of the
+/// largest plastic interference during a pass on frozen bodies. The mean over the positions, instead of the largest, would
+/// account for only a few per cent of it. Extrapolation over passes does not repeat it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PlasticFlow;
 

@@ -1,17 +1,17 @@
-//! What becomes of bodies that flow pass after pass.
+//! Long-term regime of elasto-plastic bodies over many passes: shakedown, cyclic plasticity, ratcheting.
 
 use crate::motion::record::{PassFlowRecord, Regime};
 use crate::units::Metre;
 
-/// Plastic work of a pass over that of the first, below which bodies have shaken down.
+/// Plastic work of a pass relative to the first, below which the bodies have shaken down.
 const SHAKEN_DOWN: f64 = 1e-3;
-/// Relative change of the plastic work from a pass to the next, up to which passes are alike.
+/// Largest relative change of the plastic work from one pass to the next in a steady regime.
 const ALIKE: f64 = 0.05;
-/// Net strain of a pass over what accumulates in it, below which flow is cyclic.
+/// Net strain of a pass relative to the strain accumulated in it, below which the plastic flow is cyclic.
 const CYCLIC: f64 = 0.05;
 
 impl Regime {
-    /// What becomes of bodies in these passes.
+    /// Determines the regime from the records of the passes.
     pub fn of(passes: &[PassFlowRecord]) -> Self {
         let work = |pass: &PassFlowRecord| pass.plastic_work_lower + pass.plastic_work_upper;
         let Some(first) = passes.iter().map(work).find(|work| *work > 0.0) else {
@@ -31,8 +31,8 @@ impl Regime {
     }
 }
 
-/// How fast bodies ratchet: by how much in the last of these passes the largest plastic strain has grown, and the surface has moved
-/// along x of the body where it moves more.
+/// Returns the ratcheting rates in the last of these passes: the growth of the largest plastic strain, and the displacement
+/// along x of the surface of the body that moves more.
 pub(super) fn rates(passes: &[PassFlowRecord]) -> Option<(f64, Metre)> {
     let [.., before, last] = passes else { return None };
     let strain = |pass: &PassFlowRecord| pass.max_plastic_strain_lower.max(pass.max_plastic_strain_upper);
@@ -44,7 +44,7 @@ pub(super) fn rates(passes: &[PassFlowRecord]) -> Option<(f64, Metre)> {
 mod tests {
     use super::*;
 
-    /// Passes of these plastic works and net strains, whose surface moves by −1 µm.
+    /// Passes with these plastic works and net strains, whose surface moves by −1 µm.
     fn passes(works: &[(f64, f64)]) -> Vec<PassFlowRecord> {
         let pass = |(plastic_work_lower, net_strain_lower): &(f64, f64)| PassFlowRecord {
             plastic_work_lower: *plastic_work_lower,
@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(of(&[(1.0, 1.0), (0.5, 0.5), (0.49, 0.04)]), Regime::Cyclic);
         assert_eq!(of(&[(1.0, 1.0), (0.5, 0.5), (0.49, 0.4)]), Regime::Ratchets);
         assert_eq!(rates(&passes(&[(1.0, 1.0), (0.5, 0.5)])), Some((0.0, -1e-6)));
-        // What grows from nothing is no shakedown.
+        // Plastic work that grows from nearly zero is no shakedown.
         assert_eq!(of(&[(1.0, 1.0), (1e-5, 1.0), (5e-4, 1.0)]), Regime::Undecided);
         let words: Vec<String> =
             [Regime::ShakesDown, Regime::Elastic].iter().map(|r| serde_json::to_string(r).unwrap()).collect();

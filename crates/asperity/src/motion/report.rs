@@ -1,4 +1,4 @@
-//! What a motion hands out, pass after pass.
+//! Report of a motion after each pass.
 
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
@@ -15,40 +15,41 @@ use crate::units::Pascal;
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct PassReport<'a> {
-    /// The pass in numbers.
+    /// The record of the pass.
     pub record: &'a PassRecord,
-    /// The positions of the pass in numbers.
+    /// The records of the positions.
     pub steps: &'a [StepRecord],
     /// The contacts of the pass, position by position.
     pub contacts: &'a [Contact],
     /// The bodies after the pass.
     pub pair: &'a Pair,
-    /// Most pressure that the cells of the lower and of the upper body bore at the beginning of the pass, Pa. A film that grows or is
-    /// removed gives the bodies after the pass another hardness.
+    /// Largest pressure that the cells of the lower and of the upper body could carry at the beginning of the pass, Pa.
+    /// Growth or removal of a film changes the hardness of the bodies after the pass.
     pub hardness: [&'a CellValues; 2],
-    /// How they move.
+    /// The parameters of the motion.
     pub motion: &'a Motion,
-    /// The state in which the next pass begins: with it [`crate::motion::Simulation::resumed`] goes on with the same bits.
+    /// The state in which the next pass begins. [`crate::motion::Simulation::resumed`] continues from it with the same
+    /// bits.
     pub warm: &'a WarmStart,
-    /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
+    /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
     pub flowed: &'a [FlowedVolume],
-    /// What has flowed in these under the load at the position that is [looked at](crate::motion::Simulation::looking_at); nothing where
-    /// none is.
+    /// The plastic state under the load at the [selected position](crate::motion::Simulation::looking_at); empty if none is
+    /// selected.
     pub looked_at: &'a [PlasticState],
 }
 
 impl PassReport<'_> {
-    /// The least pressure that two cells bore where they faced each other.
+    /// Smallest pressure that two opposing cells could carry.
     pub fn min_hardness(&self) -> Pascal {
         self.hardness[0].min().min(self.hardness[1].min())
     }
 
-    /// The bounds of the pressure of a contact of the pass.
+    /// Returns the pressure bounds of a contact of the pass.
     pub fn bounds(&self, contact: &Contact) -> Bounds {
         self.pair.bounds_of(self.hardness, &contact.position, self.motion.friction.as_ref())
     }
 
-    /// Mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
+    /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {

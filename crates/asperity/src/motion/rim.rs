@@ -1,4 +1,4 @@
-//! A body without its rim: the cells that its free ends do not disturb.
+//! The interior of a body: the cells not disturbed by its free ends.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::grid::Field;
 use crate::motion::Strategy;
 use crate::operator::Boundary;
 
-/// The cells of a body that are farther than the rim from its free ends.
+/// Cells of a body farther than the rim from its free ends.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interior {
     ranges: [Range<usize>; 2],
@@ -16,12 +16,12 @@ pub struct Interior {
 }
 
 impl Interior {
-    /// The interiors of the lower and of the upper body, of `shapes`, whose rim is the part `rim` of their length, 0 to
-    /// ½: the cells whose centres are farther than `rim` × length from each free end, at least the one or two in the
-    /// middle.
+    /// Creates the interiors of the lower and of the upper body with these `shapes`. The rim is the fraction `rim` of their
+    /// length, 0 to ½. The interior holds the cells whose centres are farther than `rim` × length from each free end, and
+    /// at least the one or two cells in the middle.
     ///
-    /// Ends along x are free in an overlap; in a shift, which joins them, those of a body that stands still under a boundary
-    /// that is free along x. Ends along y are free under one that is free along y.
+    /// Ends along x are free in an overlap. A shift joins the ends, but those of a stationary body are free under a
+    /// boundary that is free along x. Ends along y are free under a boundary that is free along y.
     pub fn of_bodies(shapes: [[usize; 2]; 2], boundary: Boundary, strategy: Strategy, rim: f64) -> [Self; 2] {
         let ends = match strategy {
             Strategy::Overlap => [true; 2],
@@ -40,12 +40,12 @@ impl Interior {
         })
     }
 
-    /// Whether a flat cell of the body is in the interior.
+    /// Whether a flat cell of the body lies in the interior.
     pub fn holds(&self, cell: usize) -> bool {
         self.ranges[0].contains(&(cell / self.width)) && self.ranges[1].contains(&(cell % self.width))
     }
 
-    /// The interior of a field on the body.
+    /// Returns the interior part of a field on the body.
     pub fn of<'a>(&self, field: &'a Field) -> ArrayView2<'a, f64> {
         let [columns, across] = &self.ranges;
         field.slice(s![columns.clone(), across.clone()])

@@ -1,4 +1,4 @@
-//! A static contact that slides some distance: the same cells face each other all the way, and wear in place.
+//! Wear in place: a static contact slides some distance while the same cells stay in contact.
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
@@ -22,61 +22,61 @@ use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_n
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
-/// How a static contact slides: the upper body towards +x over a lower one whose cells stay under the same cells of it, as a pin
-/// on a disc, or a body that is worn alike all along its way.
+/// Sliding of a contact that wears in place. The upper body slides towards +x over a lower one whose cells stay under the
+/// same cells of it, as for a pin on a disc, or for a body that wears uniformly along its path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Slide {
     /// Distances slid at the ends of the updates, > 0, increasing.
     pub ends: Vec<Metre>,
-    /// What is prescribed in the normal direction, all the way.
+    /// Prescribed load or approach, constant over the whole distance.
     pub control: Control,
-    /// Friction of the bodies, if they have any.
+    /// Friction of the bodies, if any.
     pub friction: Option<Friction>,
-    /// Speed of the upper body over the lower one, > 0, where it is known.
+    /// Speed of the upper body over the lower one, > 0, if known.
     pub speed: Option<MetrePerSecond>,
-    /// Temperatures of the lower and of the upper body, > 0, where they are known.
+    /// Temperatures of the lower and of the upper body, > 0, if known.
     pub bulk: Option<[Kelvin; 2]>,
 }
 
 impl Slide {
-    /// Over a `distance`, > 0, in so many `updates`, ≥ 1, the i-th of which ends at distance · (i/updates)²: a contact that wears
-    /// changes ever more slowly. An update is a step of backward Euler: the error of depths is of the first order in their number,
-    /// that of worn volumes none.
+    /// Slides over a `distance`, > 0, in `updates` updates, ≥ 1. The i-th ends at distance · (i/updates)², because a
+    /// wearing contact changes ever more slowly. An update is a step of backward Euler. The error of depths is of first
+    /// order in the number of updates; worn volumes have none.
     pub fn graded(distance: Metre, updates: usize, control: Control) -> Self {
         let end = |update: usize| distance * (update as f64 / updates as f64).powi(2);
         Self::to((1..=updates).map(end).collect(), control)
     }
 
-    /// In updates that end at these distances.
+    /// Slides in updates that end at these distances.
     pub const fn to(ends: Vec<Metre>, control: Control) -> Self {
         Self { ends, control, friction: None, speed: None, bulk: None }
     }
 
-    /// The same with friction, or without.
+    /// Sets or removes the friction.
     #[must_use]
     pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
         Self { friction: friction.into(), ..self }
     }
 
-    /// The same at a speed, > 0.
+    /// Sets the speed, > 0.
     #[must_use]
     pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
         Self { speed: speed.into(), ..self }
     }
 
-    /// The same with bodies of these temperatures, > 0.
+    /// Sets the temperatures of the bodies, > 0.
     #[must_use]
     pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
         Self { bulk: bulk.into(), ..self }
     }
 
-    /// How the bodies slide, if there is friction.
+    /// Direction of sliding and friction, if there is friction.
     fn sliding(&self) -> Option<Sliding> {
         self.friction.map(|friction| Sliding { friction, direction: [1.0, 0.0] })
     }
 
-    /// What laws see of the update that ends at the distance of that index, besides the contact.
+    /// Returns the data of an update that laws need besides the contact; `update` is the index of the distance at its end.
     fn passage(&self, update: usize) -> Passage {
         let before = if update == 0 { 0.0 } else { self.ends[update - 1] };
         let distance = self.ends[update] - before;
@@ -88,7 +88,7 @@ impl Slide {
         }
     }
 
-    /// The time that a distance takes; NaN where the speed is not known.
+    /// Time to slide a distance; NaN if the speed is unknown.
     fn time(&self, distance: Metre) -> Second {
         self.speed.map_or(f64::NAN, |speed| distance / speed)
     }
@@ -121,32 +121,33 @@ impl Slide {
 }
 
 impl SlidingState {
-    /// The state of a `contact` whose bodies are those after these `updates`, the last of which had that `pressure`.
+    /// Creates the state of a `contact` with these bodies after these `updates`; the last one ended with this `pressure`.
     pub fn resumed(contact: &InPlace, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
         Self { pair: contact.pair.clone(), updates, pressure }
     }
 }
 
-/// A contact that has slid all its way.
+/// A contact that has slid the whole distance.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct WornContact {
     /// The state after the last update.
     pub state: SlidingState,
-    /// The contact of the bodies as they are then, in numbers.
+    /// The record of the final contact.
     pub record: StaticRecord,
-    /// The contact of the bodies as they are then.
+    /// The final contact.
     pub solution: Solution,
-    /// Absolute temperature of the cells in contact, K, NaN elsewhere; none where it is not computed.
+    /// Absolute temperature of the cells in contact, K, NaN elsewhere; `None` if it is not computed.
     pub temperature: Option<Field>,
 }
 
-/// Two bodies that slide in place.
+/// Two bodies that wear in place.
 ///
-/// An update is implicit (backward Euler): the contact is solved on the bodies as it leaves them, worn by κ p, which is the contact
-/// problem with [`Compliant`] cells, κ = Σ k |Δs| over both bodies cell by cell. So pressures stay smooth however long the update
-/// is, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film is that of the film's mean thickness
-/// in the update, found together with the contact. Films grow, and cells flow plastically, on the bodies that the update found.
+/// An update is implicit (backward Euler): the contact is solved on the bodies at the end of the update, worn by κ p. This
+/// is the contact problem with [`Compliant`] cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
+/// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
+/// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
+/// deformation use the bodies at the beginning of the update.
 pub struct InPlace {
     slide: Slide,
     boundary: Boundary,
@@ -158,18 +159,18 @@ pub struct InPlace {
     pair: Pair,
 }
 
-/// The largest change of the coefficients from one solution of an update to the next at which they count as found, as a share of
+/// Largest change of the coefficients from one solution of an update to the next at which they have converged, relative to
 /// the largest coefficient.
 const COEFFICIENT_ACCURACY: f64 = 1e-4;
-/// Solutions of an update after which its coefficients are taken as they are: they change by less than the film.
+/// Number of solutions of an update after which its coefficients are accepted. They then change by less than the film does.
 const MAX_SOLUTIONS: usize = 12;
 
 impl InPlace {
-    /// A contact of a `pair` whose bodies face each other with all their columns.
+    /// Creates a contact of a `pair` at full overlap.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for input without meaning, [`Error::BeyondPlasticLimit`] if the bodies cannot
-    /// carry the load.
+    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for invalid input, [`Error::BeyondPlasticLimit`] if the bodies
+    /// cannot carry the load.
     ///
     /// # Panics
     /// If the bodies have different shapes.
@@ -191,19 +192,19 @@ impl InPlace {
         })
     }
 
-    /// The same contact, whose updates change the bodies by a `law`, too: after those by which they do already, of which plastic
-    /// flow is the first.
+    /// Adds a `law` by which updates change the bodies, after the existing laws. Plastic deformation is the first.
     pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
         self.laws.push(Box::new(law));
         self
     }
 
-    /// The same contact, whose friction heats bodies of these thermal constants, lower one first, to the steady temperature of
-    /// each update: the contact stays on the upper body, and the lower one passes it with the speed.
+    /// Adds frictional heating of bodies with these thermal constants, lower one first, to the steady temperature of each
+    /// update. The contact is stationary on the upper body and moves over the lower one at the sliding speed.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies; those of [`SteadyTemperature::new`].
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, and the errors of
+    /// [`SteadyTemperature::new`].
     pub fn with_heat(mut self, thermal: [Thermal; 2]) -> Result<Self> {
         let Slide { friction: Some(_), bulk: Some(bulk), speed: Some(speed), .. } = self.slide else {
             return Err(Error::Unsupported(
@@ -215,21 +216,22 @@ impl InPlace {
         Ok(self)
     }
 
-    /// The bodies as they are before they slide.
+    /// The bodies before sliding.
     pub fn pair(&self) -> &Pair {
         &self.pair
     }
 
-    /// How the contact slides.
+    /// The parameters of the sliding.
     pub fn slide(&self) -> &Slide {
         &self.slide
     }
 
-    /// Slides all the way: from the beginning, or from a state `under_way`, from which it comes to the same as without the
-    /// interruption, bit by bit.
+    /// Slides the whole distance, from the beginning or from a state `under_way`. A resumed contact gives the same result,
+    /// bit by bit.
     ///
     /// # Errors
-    /// Returns the errors of [`crate::solver::solve_normal`] and [`SteadyTemperature::solve`]; [`Error::Interrupted`]; the errors of the outputs.
+    /// The errors of [`crate::solver::solve_normal`], of [`SteadyTemperature::solve`] and of the outputs;
+    /// [`Error::Interrupted`].
     pub fn run(
         self,
         under_way: Option<SlidingState>,
@@ -243,12 +245,12 @@ impl InPlace {
         contact.end(state.expect("the contact before it slides"), watch)
     }
 
-    /// The contact of the bodies as the last update has left them.
+    /// Solves the contact of the bodies after the last update.
     fn end(mut self, state: SlidingState, watch: &dyn Watch) -> Result<WornContact> {
         let (solution, contact) =
             self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
         let flash = self.flash(&contact)?;
-        // Where nothing touches no cell has one.
+        // Without contact no cell has a temperature.
         let heated = self.heat.is_some();
         let temperature = heated.then(|| flash.map_or_else(Vec::new, |flash| flash.temperature));
         let contact = Contact { temperature, ..contact };
@@ -256,7 +258,7 @@ impl InPlace {
         Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
     }
 
-    /// The contact before it slides.
+    /// Solves the contact before sliding.
     fn begin(&mut self, watch: &dyn Watch) -> Result<SlidingState> {
         let pair = self.pair.clone();
         let (solution, contact) = self.press(&pair, None, 0.0.into(), 0, watch)?;
@@ -270,7 +272,7 @@ impl InPlace {
         Ok(SlidingState { pressure: solution.pressure, updates: vec![record], pair })
     }
 
-    /// The update that ends at the distance of that `index`.
+    /// Solves the update that ends at the distance of this `index`.
     fn advance(&mut self, state: &mut SlidingState, index: usize, watch: &dyn Watch) -> Result<()> {
         let passage = self.slide.passage(index);
         let mut compliance =
@@ -312,7 +314,8 @@ impl InPlace {
         Ok(())
     }
 
-    /// The contact of a `pair` whose cells have this `compliance` besides, from the pressure `start`, after so many updates `done`.
+    /// Solves the contact of a `pair` with the additional cell `compliance`, from the pressure `start`, after `done`
+    /// updates.
     fn press(
         &mut self,
         pair: &Pair,
@@ -333,7 +336,8 @@ impl InPlace {
         Ok((solution, contact))
     }
 
-    /// The depth κ that laws take off each cell of both bodies per pressure on it over a `distance`, under these sums, m/Pa.
+    /// Returns the depth κ that laws remove from each cell of both bodies per pressure over a `distance`, m/Pa, with these
+    /// sums.
     fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre) -> CellValues {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
         let [lower, upper] = law::compliance(&self.laws, pair, sums, friction, distance);
@@ -341,7 +345,7 @@ impl InPlace {
         facing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper)
     }
 
-    /// What the laws sum over an update.
+    /// Returns the sums of the laws over an update.
     fn sums(
         &self,
         pair: &Pair,
@@ -355,7 +359,7 @@ impl InPlace {
         Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), passage, heat)?.0)
     }
 
-    /// The temperature of the cells in contact; none where it is not wanted or nothing touches.
+    /// Returns the temperature of the cells in contact; `None` if it is not requested or nothing touches.
     fn flash(&mut self, contact: &Contact) -> Result<Option<FlashStep>> {
         let (Some(heat), Some(speed), Some(friction)) =
             (&mut self.heat, self.slide.speed, self.slide.friction)
@@ -370,7 +374,7 @@ impl InPlace {
         heat.solve(&cells, &flux).map(Some)
     }
 
-    /// What a contact tells of an update.
+    /// Creates the record of an update from its contact.
     fn record(&self, pair: &Pair, contact: &Contact, flash: Option<&FlashStep>) -> UpdateRecord {
         let cells = || contact.pressure.iter().map(|(cell, _)| *cell as usize);
         let film = |body: &Body| match body.state.get(FILM) {
@@ -412,10 +416,10 @@ impl InPlace {
     }
 }
 
-/// The updates of a contact that slides in place.
+/// The updates of a contact that wears in place.
 struct Updates {
     contact: InPlace,
-    /// What the last update has left; none before the contact is pressed.
+    /// State after the last update; `None` before the contact is pressed.
     state: Option<SlidingState>,
 }
 

@@ -1,11 +1,11 @@
-//! Contact spots: connected cells that touch.
+//! Contact spots: connected cells in contact.
 
-/// Cells across the largest contact spot: of the spot with the most cells, the number of columns or, if fewer, of rows
-/// that it lies in; 0 without contact. Along a periodic axis a spot that goes all around has no end, and is as wide as it
-/// is along the other one.
+/// Width in cells of the largest contact spot, which is the one with the most cells: its number of columns or rows,
+/// whichever is smaller; 0 without contact. A spot that goes all around a periodic axis has no end along it, and its width
+/// is the one along the other axis.
 ///
-/// `cells` are the flat cells in contact in ascending order on a grid of `shape`, connected over edges and corners and,
-/// where the grid is `periodic` along x or y, over its rim.
+/// `cells` are the flat cells in contact in ascending order on a grid of `shape`. They are connected over edges and corners
+/// and, if the grid is `periodic` along x or y, across its boundary.
 pub(crate) fn largest_spot(
     cells: impl Iterator<Item = usize>,
     shape: [usize; 2],
@@ -41,7 +41,7 @@ pub(crate) fn largest_spot(
     across(&mut spots, &cells_in_order, shape, periodic)
 }
 
-/// Joins the cells of two neighbouring lines that touch each other.
+/// Joins the touching cells of two neighbouring lines.
 fn join_lines(
     spots: &mut Spots,
     line: &[(usize, usize)],
@@ -71,7 +71,7 @@ fn join_lines(
     }
 }
 
-/// Cells across the largest spot.
+/// Width of the largest spot in cells.
 fn across(spots: &mut Spots, cells: &[[usize; 2]], shape: [usize; 2], periodic: [bool; 2]) -> usize {
     let mut counts = vec![0_usize; cells.len()];
     for cell in 0..cells.len() {
@@ -89,7 +89,7 @@ fn across(spots: &mut Spots, cells: &[[usize; 2]], shape: [usize; 2], periodic: 
     narrower([distinct(0), distinct(1)], shape, periodic)
 }
 
-/// The lesser of two widths, unless a spot has no end along that axis.
+/// Returns the smaller of two widths, without that of an axis along which the spot has no end.
 fn narrower(widths: [usize; 2], shape: [usize; 2], periodic: [bool; 2]) -> usize {
     let endless = [0, 1].map(|axis| periodic[axis] && widths[axis] == shape[axis]);
     match endless {
@@ -106,7 +106,7 @@ struct Spots {
 }
 
 impl Spots {
-    /// Adds a cell as a set of its own.
+    /// Adds a cell as a new set.
     fn add(&mut self) -> usize {
         self.parent.push(self.parent.len());
         self.parent.len() - 1
@@ -144,17 +144,17 @@ mod tests {
         assert_eq!(spot(vec![], false), 0);
         assert_eq!(spot(vec![37], false), 1);
         assert_eq!(spot(block(2..5, 1..9), false), 3);
-        // A diagonal is one spot; in the corners of a periodic grid lies one spot of two cells across.
+        // A diagonal is one spot. In the corners of a periodic grid lies one spot of two cells across.
         assert_eq!(spot((0..5).map(|i| i * width + i).collect(), false), 5);
         assert_eq!(spot(vec![0, 9, 90, 99], true), 2);
         assert_eq!(spot(vec![0, 9, 90, 99], false), 1);
-        // Along a line that goes on for ever it has no width.
+        // Along an endless line it has no width.
         let line = || block(0..7, 0..3).into_iter().map(|cell| cell / width * 3 + cell % width);
         assert_eq!(largest_spot(line(), [10, 3], [false, true]), 7);
         assert_eq!(largest_spot(line(), [10, 3], [false, false]), 3);
     }
 
-    /// Held against a flood from cell to cell.
+    /// Compared with a flood fill from cell to cell.
     #[test]
     fn spots_are_those_of_a_flood() {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
@@ -169,7 +169,7 @@ mod tests {
         }
     }
 
-    /// The widths of the spots with the most cells.
+    /// Widths of the spots with the most cells.
     fn flood(touches: &[bool], shape: [usize; 2], periodic: [bool; 2]) -> Vec<usize> {
         let mut left = touches.to_vec();
         let mut spots = Vec::new();

@@ -1,4 +1,4 @@
-//! What courses at rest have come to: all that the next step depends on.
+//! States of static courses: everything that the next step depends on.
 
 use std::borrow::Cow;
 
@@ -8,27 +8,27 @@ use crate::motion::record::{IncrementRecord, StaticRecord, UpdateRecord};
 use crate::solver::Equilibrium;
 use crate::units::{Joule, Metre, Newton};
 
-/// A static contact at the end of its loading, with the history of it.
+/// A static contact at the end of its loading, with its history.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct LoadedContact {
-    /// The contact at the end of its loading, in numbers.
+    /// The record of the contact at the end of its loading.
     pub record: StaticRecord,
-    /// The increments of the loading; none of a rolling contact.
+    /// The increments of the loading; empty for a rolling contact.
     pub increments: Vec<IncrementRecord>,
     /// The solution at the end of the loading.
     pub solution: Equilibrium,
-    /// Plastic interference that both bodies have taken up together, m.
+    /// Plastic interference of both bodies together, m.
     pub plastic: Field,
-    /// Slip of all increments together along x and y, m; in rolling, while the contact moves on by a cell; none without
-    /// friction.
+    /// Sum of the slip of all increments along x and y, m; in rolling, the slip while the contact moves on by a cell;
+    /// `None` without friction.
     pub slip: Option<[Field; 2]>,
-    /// How far the energy that friction took may be from what the record says, but for what the first increment brings:
-    /// see [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
+    /// Bound on the error of the frictional energy in the record, without the contribution of the first increment: see
+    /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
 }
 
-/// A loading under way: all that its next increment depends on.
+/// State of a loading: everything that its next increment depends on.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct LoadingState {
@@ -36,29 +36,29 @@ pub struct LoadingState {
     pub increments: Vec<IncrementRecord>,
     /// The contact at the end of the last increment.
     pub contact: Equilibrium,
-    /// Load, approach, force and displacement where the stage of the last increment began.
+    /// Load, approach, force and displacement at the beginning of the current stage.
     pub origin: Origin,
-    /// The plastic interference that the cells have taken up.
+    /// The plastic interference of the cells.
     pub flattening: Flattening,
-    /// Slip of all increments together along x and y, m; none without friction.
+    /// Sum of the slip of all increments along x and y, m; `None` without friction.
     pub slip: Option<[Field; 2]>,
     /// Sum over the increments of [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
 }
 
-/// What the cells of a contact have taken up plastically in the course of its loading.
+/// Plastic interference of the cells of a contact over its loading.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Flattening {
-    /// What plastic flow has taken away for good, m: both bodies are lowered by it together. None before plastic
-    /// cells are first unloaded.
+    /// Permanent plastic flattening, m: both bodies are lowered by it together. `None` before plastic cells are first
+    /// unloaded.
     pub kept: Option<Field>,
-    /// Largest plastic interference of each cell, m, on the surfaces so lowered.
+    /// Largest plastic interference of each cell, m, on the surfaces lowered by `kept`.
     pub deepest: Field,
 }
 
 impl Flattening {
-    /// The initial gap of the surfaces as they are lowered for good.
+    /// Returns the initial gap of the permanently lowered surfaces.
     pub(crate) fn open<'a>(&self, gap: &'a Field) -> Cow<'a, Field> {
         match &self.kept {
             None => Cow::Borrowed(gap),
@@ -66,7 +66,7 @@ impl Flattening {
         }
     }
 
-    /// Whether some cell has had a larger interference than `now`, by more than is `allowed`.
+    /// Whether the interference of some cell has been larger than `now` by more than `allowed`.
     pub(super) fn exceeds(&self, now: &Field, allowed: Metre) -> bool {
         self.deepest.iter().zip(now).any(|(deepest, now)| deepest - now > allowed)
     }
@@ -81,12 +81,12 @@ impl Flattening {
         });
     }
 
-    /// Raises the largest interference of each cell to that of the present contact.
+    /// Updates the largest interference of each cell with the present contact.
     pub(super) fn deepen(&mut self, now: &Field) {
         self.deepest.zip_mut_with(now, |deepest, now| *deepest = deepest.max(*now));
     }
 
-    /// All of the plastic interference taken up, that of the present contact being `now`.
+    /// Returns the total plastic interference, with `now` that of the present contact.
     pub(super) fn whole(&self, now: Field) -> Field {
         match &self.kept {
             None => now,
@@ -95,7 +95,7 @@ impl Flattening {
     }
 }
 
-/// The state in which a stage begins, in each quantity that it may prescribe.
+/// State at the beginning of a stage, in each quantity that a stage may prescribe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Origin {
@@ -109,13 +109,13 @@ pub struct Origin {
     pub displacement: [Metre; 2],
 }
 
-/// A contact after its updates so far: all that the next one depends on.
+/// State of a contact after its updates so far: everything that the next one depends on.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct SlidingState {
-    /// The bodies as they are now.
+    /// The bodies in their present state.
     pub pair: Pair,
-    /// The updates so far, the first of which is the contact before it slides.
+    /// The updates so far; the first is the contact before sliding.
     pub updates: Vec<UpdateRecord>,
     /// Pressure of the last update, Pa.
     pub pressure: Field,

@@ -1,4 +1,4 @@
-//! A static contact under one load after another, each on virgin bodies.
+//! A static contact at several loads, each on virgin bodies.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -12,25 +12,25 @@ use crate::motion::watch::{AtRest, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
-/// One point of a sweep, as it is prescribed.
+/// A prescribed point of a load sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// What is prescribed in the normal direction.
+    /// Prescribed load or approach.
     pub control: Control,
-    /// The rolling of the bodies; none of bodies that do not roll.
+    /// Rolling of the bodies, if they roll.
     pub rolling: Option<Rolling>,
 }
 
-/// Presses a pair, whose bodies face each other with all their columns, together as each of the `points` prescribes, and
-/// gives each in numbers and the last as a whole; points `done` are not solved again, but for the last.
+/// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact of the last.
+/// Points that are `done` are not solved again, except the last.
 ///
-/// Each point is a contact of its own, of bodies that nothing has flattened before, and is solved from nothing: it has the
-/// bits of [`crate::motion::press`] or [`crate::motion::roll`], whatever points stand before it. Pressures of another load
-/// would not be a better start than those of coarser grids: from 1.5 times the load up they cost more convolutions.
+/// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
+/// or [`crate::motion::roll`], whatever the other points are. Pressures of another load would not be a better start than
+/// those of coarser grids: from 1.5 times the load up they cost more convolutions.
 ///
 /// # Errors
-/// [`Error::AtPoint`] with what [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`] says;
-/// [`Error::Unsupported`] without points; [`Error::Interrupted`]; those of the outputs.
+/// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],
+/// [`Error::Unsupported`] without points, [`Error::Interrupted`], and the errors of the outputs.
 ///
 /// # Panics
 /// If the bodies have different shapes, or a point rolls without friction.
@@ -71,7 +71,7 @@ pub fn sweep(
     Ok((sweep.records, last))
 }
 
-/// A sweep under way.
+/// A running load sweep.
 struct Sweep<'a> {
     pair: &'a Pair,
     boundary: Boundary,
@@ -80,11 +80,11 @@ struct Sweep<'a> {
     params: &'a Params,
     gap: Field,
     normal: Box<dyn Operator>,
-    /// Of bodies that roll.
+    /// The coupled operator of bodies that roll.
     coupled: Option<Box<dyn CoupledOperator>>,
-    /// The points that are done.
+    /// The records of the finished points.
     records: Vec<SweepRecord>,
-    /// The last of them as a whole.
+    /// The contact of the last finished point.
     last: Option<LoadedContact>,
 }
 
@@ -130,7 +130,7 @@ impl Course for Sweep<'_> {
     }
 }
 
-/// A contact in numbers, with its stiffness.
+/// Creates the record of a contact, with its stiffness.
 fn record(
     boundary: Boundary,
     operator: &mut dyn Operator,

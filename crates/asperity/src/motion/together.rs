@@ -1,4 +1,4 @@
-//! All positions of a pass together, as one problem: the approach is the multiplier of their mean load.
+//! Solution of all positions of a pass as one problem, with the approach as the multiplier of their mean load.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -16,21 +16,21 @@ use crate::solver::Control;
 use crate::solver::{Bounds, Friction, Method, Params, Residual, Site, coarse_site, solve_together};
 use crate::units::Newton;
 
-/// The most cells of all positions together that are held at once.
+/// Largest number of cells of all positions together that are stored at once.
 const MAX_CELLS: usize = 40_000_000;
-/// Memory of a cell while all positions are held at once, bytes.
+/// Memory per cell while all positions are stored at once, bytes.
 const BYTES_PER_CELL: f64 = 60.0;
 
-/// Residual η at which the approach is known well enough, at the most. From there on the positions are solved one by one,
-/// each with the iterations that it needs itself.
+/// Upper bound of the residual η at which the approach is known well enough. From there on the positions are solved one by
+/// one, each with its own number of iterations.
 const MAX_RESIDUAL: f64 = 3e-2;
-/// The residual for a relative accuracy of the mean load: at the approach found with a residual η the load is off by less
-/// than 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
+/// The residual for a relative accuracy of the mean load. At the approach found with a residual η, the error of the load is
+/// below 10⁻³ η (measured: 10⁻⁵ to 7·10⁻⁴ η).
 const RESIDUAL_PER_ACCURACY: f64 = 300.0;
 
-/// Memory, bytes, for the positions of a pass all at once, so many `columns` of so many cells at each: none where they are
-/// not solved together, because they are too many, a method of the user's own is to be used, no mean load is prescribed or
-/// the geometry changes from one to the next.
+/// Returns the memory, bytes, to solve all positions of a pass together, each with `columns` columns. `None` if they are
+/// not solved together: they are too many, the user chose a method, no mean load is prescribed, or the geometry changes
+/// from one position to the next.
 pub(crate) fn memory_together(
     motion: &Motion,
     method: Method,
@@ -45,13 +45,13 @@ pub(crate) fn memory_together(
     (frozen && iterative && searched && cells <= MAX_CELLS).then_some(BYTES_PER_CELL * cells as f64)
 }
 
-/// Share of the first residual that the iteration goes below even from a good start: that is wrong where the geometry has
-/// changed, all in one direction, and so is its approach.
+/// Fraction of the first residual below which the iteration goes even from a good start. After a change of the geometry,
+/// the errors of such a start all have the same sign, and so does that of its approach.
 const MIN_PROGRESS: f64 = 0.1;
 
 impl Solver<'_> {
-    /// Solves all positions under the one approach at which their mean load is `load`, so well that it is met to the
-    /// relative `accuracy`, from the pressures of `earlier` contacts at the same positions, if there are any.
+    /// Solves all positions at the common approach at which their mean load is `load` to the relative `accuracy`. It starts
+    /// from the pressures of `earlier` contacts at the same positions, if there are any.
     ///
     /// # Errors
     /// [`Error::NotConverged`], [`Error::Interrupted`].

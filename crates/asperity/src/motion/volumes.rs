@@ -1,4 +1,4 @@
-//! Passes of bodies that flow below their surfaces.
+//! Passes of elasto-plastic bodies.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -18,24 +18,24 @@ use crate::plasticity::{
 use crate::solver::{Control, Loading, Params, Tangential};
 use crate::units::Joule;
 
-/// Equal steps in which the first position of a pass is loaded; it bears its load at once.
+/// Number of equal loading steps at the first position of a pass, which takes its load from zero.
 const FIRST_STEPS: usize = 8;
-/// Columns at either end of what faces that are its rim.
+/// Width in columns of the rim at either end of the overlap.
 const RIM: usize = 2;
 
-/// The volumes of bodies that flow in a motion.
+/// The volumes of elasto-plastic bodies in a motion.
 pub(super) struct Volumes {
-    /// The contact at a position; what has flowed in it counts within a pass.
+    /// The contact at a position, with the plastic state within a pass.
     contact: Mutex<PlasticContact>,
-    /// What has flowed in the passes that are finished.
+    /// The plastic state after the finished passes.
     states: Vec<PlasticState>,
     boundary: Boundary,
-    /// The position at which it is looked what has flowed.
+    /// The position whose plastic state is reported.
     looked_at: Option<usize>,
 }
 
 impl Volumes {
-    /// The volumes of the given bodies of a `pair`, lower one first. The motion begins at a `position`.
+    /// Creates the volumes of the given `bodies` of a `pair`, lower one first, which begin at a `position`.
     pub(super) fn new(
         bodies: [Option<PlasticBody>; 2],
         pair: &Pair,
@@ -55,32 +55,32 @@ impl Volumes {
         Self { contact: Mutex::new(contact), states, boundary, looked_at: None }
     }
 
-    /// What has flowed in the passes that are finished.
+    /// The plastic state after the finished passes.
     pub(super) fn states(&self) -> &[PlasticState] {
         &self.states
     }
 
-    /// The same, of which it is looked at a position what has flowed.
+    /// Selects a position whose plastic state is reported.
     pub(super) fn looked_at(self, position: usize) -> Self {
         Self { looked_at: Some(position), ..self }
     }
 
-    /// The same with what has flowed.
+    /// Sets the plastic state.
     pub(super) fn with_states(self, states: Vec<PlasticState>) -> Self {
         Self { states, ..self }
     }
 
-    /// Goes on from a pass that is finished.
+    /// Continues from a finished pass.
     pub(super) fn take(&mut self, volumes: Vec<FlowedVolume>) {
         self.states = volumes.into_iter().map(|volume| volume.state).collect();
     }
 
-    /// The volumes as the passes that are finished have left them.
+    /// Returns the volumes after the finished passes.
     pub(super) fn volumes(&self) -> Vec<FlowedVolume> {
         FlowedVolume::unloaded(&mut self.begin())
     }
 
-    /// The contact before a pass.
+    /// Returns the contact before a pass.
     fn begin(&self) -> MutexGuard<'_, PlasticContact> {
         let mut contact = self.contact.lock().unwrap_or_else(PoisonError::into_inner);
         contact.restore(&self.states);
@@ -89,10 +89,10 @@ impl Volumes {
 }
 
 impl Solver<'_> {
-    /// Solves the positions of a pass one after another, in which the bodies of a `pair` flow, and takes the load off.
+    /// Solves the positions of a pass of the elasto-plastic bodies of a `pair`, one after another, and removes the load.
     pub(super) fn solve_flowing(&self, volumes: &Volumes, pair: &Pair, control: Control) -> Result<Pass> {
         let mut contact = volumes.begin();
-        // The bodies without what has flowed, which the contact knows.
+        // The bodies without their plastic displacement, which the contact adds.
         let mut undeformed = pair.clone();
         for (index, side) in contact.sides().to_vec().into_iter().enumerate() {
             displace(&mut undeformed, side, contact.bodies()[index].displacement(), -1.0);
@@ -133,7 +133,7 @@ impl Solver<'_> {
         Ok(Pass { contacts, pair: bodies, lost, has_changed: true, flowed })
     }
 
-    /// How the bodies of a `pair` face each other at a position.
+    /// Returns how the bodies of a `pair` are placed at a position.
     fn facing(&self, pair: &Pair, position: &Position) -> Facing {
         let shape = [position.columns, pair.lower.width()];
         let interface = match self.motion.sliding(position.way) {
@@ -146,7 +146,7 @@ impl Solver<'_> {
         Facing { interface, initial_gap: pair.initial_gap(position), seats: pair.seats(position) }
     }
 
-    /// Loads the bodies at a position: the first of the pass in steps.
+    /// Loads the bodies at a position; the first position of the pass is loaded in steps.
     fn step(&self, contact: &mut PlasticContact, control: Control, index: usize) -> Result<Vec<Increment>> {
         let steps = if index == 0 { FIRST_STEPS } else { 1 };
         let touch = contact.first_touch();
@@ -181,11 +181,11 @@ fn states(contact: &mut PlasticContact) -> Vec<PlasticState> {
     contact.bodies().iter().map(|body| body.state().clone()).collect()
 }
 
-/// A pass under way.
+/// Sums over a running pass.
 struct Course {
     /// Plastic work in the lower and in the upper body.
     work: [Joule; 2],
-    /// The part of it at the rim of what faces.
+    /// The part of it at the rim of the overlap.
     at_rim: Joule,
     steps: Vec<FlowStepRecord>,
     contacts: Vec<Contact>,
@@ -222,7 +222,7 @@ impl Course {
     }
 }
 
-/// The body with which the load moves over the other one: that whose summits bear it.
+/// The body with which the load moves over the other one: the one whose summits carry it.
 struct Carrier {
     body: usize,
     /// The last position, and the pressure there.
@@ -230,7 +230,7 @@ struct Carrier {
 }
 
 impl Carrier {
-    /// By how many cells the load moves over the lower and over the upper body to the next position.
+    /// Returns by how many cells the load moves over the lower and over the upper body to the next position.
     fn shifts(&self, to: &Position, pair: &Pair, boundary: Boundary) -> [[isize; 2]; 2] {
         let Some((from, _)) = &self.last else { return [[0; 2]; 2] };
         let [from, to] = [from.places(), to.places()];
@@ -246,11 +246,11 @@ impl Carrier {
         shifts
     }
 
-    /// Takes the pressure at a position, and learns from it which of the bodies carries the load.
+    /// Stores the pressure at a position, and determines from it which body carries the load.
     fn arrive(&mut self, at: &Position, pressure: &Field) {
         if let Some((from, before)) = &self.last {
             let [from, to] = [from.places(), at.places()];
-            // Where a column of the contact before lies in this one, if the load goes with the body.
+            // Correlation with the last pressure if the load moves with the body.
             let common = |body: usize| {
                 let moved = (from[body] - to[body]).round() as isize;
                 let columns = pressure.nrows() as isize;

@@ -1,7 +1,7 @@
-//! The warm start that a pass leaves to the next besides the bodies.
+//! Warm start that a pass leaves to the next, besides the bodies.
 //!
-//! Wear changes the pressures of a position by about as much in one pass as in the one before. A pass begins with the pressures
-//! to which the change of the last one leads, as far as that one has repeated the change before it.
+//! Wear changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
+//! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
 
 use crate::motion::contact::Contact;
 use crate::motion::jump::Jump;
@@ -10,35 +10,35 @@ use crate::motion::path::Position;
 use crate::solver::Stats;
 use crate::units::{Metre, Pascal};
 
-/// The state in which the next pass begins. The iterations of a pass end within their tolerances, and where in them
-/// depends on where they begin: a motion goes on with the same bits only from the same start.
+/// State in which the next pass begins. Solutions are exact only within their tolerances and depend on the start. A motion
+/// therefore continues with the same bits only from the same start.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct WarmStart {
-    /// The guess with which the search for the approach begins; none where no mean load is prescribed, nor where the next pass has
-    /// other positions or bodies.
+    /// Initial guess of the search for the approach; `None` if no mean load is prescribed, or if the next pass has other
+    /// positions or bodies.
     pub guess: Option<Guess>,
-    /// The bearing cells at each position that was solved of the last pass; nothing before the first, nor where the next pass has
-    /// others.
+    /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next pass has
+    /// other positions.
     pub positions: Vec<Bearing>,
-    /// The last jump; none before the first pass, nor where nothing wears.
+    /// The last extrapolation; `None` before the first pass, or if nothing wears.
     pub jump: Option<Jump>,
-    /// Passes of the motion that are done.
+    /// Finished passes of the motion.
     pub represented: usize,
 }
 
-/// A guess with which the search for the approach of a pass begins.
+/// Initial guess of the search for the approach of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Guess {
     /// The approach δ.
     pub approach: Metre,
-    /// Relative change d ln W/dδ of the mean load with it, 1/m; the load of rough bodies grows about exponentially with the
-    /// approach.
+    /// Relative change d ln W/dδ of the mean load with the approach, 1/m. The load of rough bodies grows about
+    /// exponentially with the approach.
     pub slope: f64,
 }
 
-/// The bearing cells at one position.
+/// The loaded cells at one position.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Bearing {
@@ -46,15 +46,16 @@ pub struct Bearing {
     pub approach: Metre,
     /// Flat cells with p > 0, ascending, and their pressure, Pa.
     pub pressure: Vec<(u32, Pascal)>,
-    /// The change of the pressure of each of these cells since the computed pass before, in Pa per pass of the motion; 0 where it
-    /// bore nothing then, and everywhere after the first.
+    /// Change of the pressure of each of these cells since the computed pass before, in Pa per pass of the motion; 0 for
+    /// cells without pressure before, and for all cells after the first pass.
     pub change: Vec<Pascal>,
-    /// Share of this change that the next pass is expected to repeat, 0 … 1: as much as this one has repeated of the one before.
+    /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change before it that
+    /// this pass has repeated.
     pub persistence: f64,
 }
 
 impl WarmStart {
-    /// The warm start that the contacts of a pass leave.
+    /// Creates the warm start from the contacts of a pass.
     pub(super) fn new(
         guess: Option<Guess>,
         contacts: &[Contact],
@@ -69,12 +70,12 @@ impl WarmStart {
         Self { guess, positions: contacts.iter().enumerate().map(bearing).collect(), jump, represented }
     }
 
-    /// Passes of the motion that the last computed one stands for.
+    /// Number of passes over which the last computed one was extrapolated.
     fn jump_passes(&self) -> f64 {
         self.jump.as_ref().map_or(1.0, |jump| jump.passes as f64)
     }
 
-    /// The contacts from which the positions begin, which have cost nothing yet; none before the first pass.
+    /// Returns the initial contacts of the positions, at no cost so far; `None` before the first pass.
     pub(super) fn contacts(&self, pair: &Pair, positions: &[Position]) -> Option<Vec<Contact>> {
         let contact = |(bearing, position): (&Bearing, &Position)| {
             let pressure = bearing.foreseen(self.jump_passes());
@@ -85,13 +86,13 @@ impl WarmStart {
     }
 }
 
-/// The pressure of a cell is foreseen to be no less than this share of the last one,
+/// The extrapolated pressure of a cell is at least this fraction of the last one,
 const LEAST: f64 = 0.01;
-/// and no more than so many times as high.
+/// and at most this multiple of it.
 const MOST: f64 = 2.0;
 
 impl Bearing {
-    /// The bearing cells and their pressure, so many passes of the motion after those `before`.
+    /// Creates the record of the loaded cells, `passes` passes of the motion after those `before`.
     fn new(approach: Metre, pressure: Vec<(u32, Pascal)>, before: Option<&Self>, passes: f64) -> Self {
         let Some(before) = before else {
             return Self { approach, change: vec![0.0; pressure.len()], pressure, persistence: 0.0 };
@@ -109,7 +110,7 @@ impl Bearing {
         Self { approach, pressure, change, persistence }
     }
 
-    /// The pressures that are foreseen so many passes of the motion later.
+    /// Returns the extrapolated pressures `passes` passes of the motion later.
     fn foreseen(&self, passes: f64) -> Vec<(u32, Pascal)> {
         let cells = self.pressure.iter().zip(&self.change);
         let share = self.persistence * passes;
@@ -121,8 +122,8 @@ impl Bearing {
 mod tests {
     use super::*;
 
-    /// What is foreseen after passes with these pressures, each so many passes of the motion after the one before; the last
-    /// number is those to come.
+    /// Extrapolates after passes with these pressures, each this many passes of the motion after the one before; the last
+    /// number is that of the passes to come.
     fn foreseen(states: &[(&[(u32, f64)], f64)], to_come: f64) -> Vec<(u32, f64)> {
         let mut last = None;
         for (pressure, passes) in states {

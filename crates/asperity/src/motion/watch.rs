@@ -1,4 +1,4 @@
-//! Who looks on while a contact or a motion is computed.
+//! Observers of the computation of a contact or a motion.
 
 use std::sync::OnceLock;
 
@@ -6,50 +6,50 @@ use crate::motion::record::{PassRecord, SweepRecord, UpdateRecord};
 use crate::solver::{self, Control};
 use crate::units::Newton;
 
-/// How far a motion has come.
+/// Progress of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The pass under way, from 1.
+    /// The current pass, from 1.
     pub pass: usize,
-    /// Passes in all.
+    /// Total number of passes.
     pub passes: usize,
-    /// The approach being tried in this pass, from 1.
+    /// The current trial of the approach in this pass, from 1.
     pub trial: usize,
     /// Positions solved in this trial.
     pub solved: usize,
-    /// Positions of a pass.
+    /// Number of positions of a pass.
     pub positions: usize,
     /// Load at the position solved last.
     pub load: Newton,
-    /// Where all positions are solved together, or a contact at rest is being solved: the part of the way, 0 to 1, in the
-    /// logarithm of the residual.
+    /// Progress, 0 to 1, in the logarithm of the residual, if all positions are solved together or if a static contact is
+    /// being solved.
     pub together: Option<f64>,
 }
 
-/// Watches a computation, from the threads that solve, and may stop it.
+/// Observes a computation from the solving threads, and may stop it.
 pub trait Watch: Sync {
-    /// A position has been solved.
+    /// Called after a position has been solved.
     fn at(&self, progress: &Progress);
 
-    /// A contact at rest is being solved: [`Progress::together`] says how far it has come.
+    /// Called while a static contact is being solved; [`Progress::together`] is its progress.
     fn solving(&self, _: &Progress) {}
 
-    /// A pass has been finished: each in its turn, those too from which an interrupted motion goes on.
+    /// Called after each pass in turn, including those before an interruption when a motion resumes.
     fn pass(&self, _: &PassRecord) {}
 
-    /// A point of a sweep has been solved: each in its turn, those too from which an interrupted sweep goes on.
+    /// Called after each point of a sweep in turn, including those before an interruption when a sweep resumes.
     fn point(&self, _: &SweepRecord) {}
 
-    /// An update of a contact that slides in place has been solved: each in its turn, those too from which an interrupted one goes
-    /// on.
+    /// Called after each update of a contact that wears in place in turn, including those before an interruption when it
+    /// resumes.
     fn update(&self, _: &UpdateRecord) {}
 
-    /// Whether to stop: what is computed then ends with [`crate::Error::Interrupted`] at the next convolution.
+    /// Whether to stop. The computation then fails with [`crate::Error::Interrupted`] at the next convolution.
     fn stop(&self) -> bool;
 }
 
-/// The watch of a computation that nobody looks on.
+/// The watch of an unobserved computation.
 impl Watch for () {
     fn at(&self, _: &Progress) {}
 
@@ -58,7 +58,7 @@ impl Watch for () {
     }
 }
 
-/// Looks on at a contact that is one of many: it stops when the whole does.
+/// Observes one contact of many, which stops when the whole computation does.
 pub(super) struct OneOfMany<'a>(pub(super) &'a dyn Watch);
 
 impl solver::Watch for OneOfMany<'_> {
@@ -69,11 +69,11 @@ impl solver::Watch for OneOfMany<'_> {
     }
 }
 
-/// Looks on at a contact at rest, after so many increments or points of all.
+/// Observes a static contact after the finished increments or points.
 pub(super) struct AtRest<'a> {
     watch: &'a dyn Watch,
     progress: Progress,
-    /// The residual at the beginning.
+    /// The initial residual.
     first: OnceLock<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Wear: what sliding takes off a body.
+//! Wear: material removed from a body by sliding.
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{CellValues, Field};
@@ -8,32 +8,32 @@ use crate::motion::law::{Law, Touching};
 use crate::motion::pair::Pair;
 use crate::units::{Dimension, PerPascal};
 
-/// Name of the law of wear, and of the state in which a body keeps the depth that it has lost to it since the beginning, m.
+/// Name of the wear law, and of the body state that stores the depth worn since the beginning, m.
 pub const WEAR: &str = "wear";
 
-/// What wears a body: the depth that a cell loses while it slides by ds.
+/// Wear coefficient of a body: it gives the depth that a cell loses while it slides by ds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct WearCoefficient {
     /// The coefficient of the bare body k₀, > 0.
     pub bare: PerPascal,
-    /// The coefficient where its film is at its thickest k_f, 0 to k₀; the same as that of the bare body without one.
+    /// The coefficient k_f under a film of largest thickness, 0 to k₀; k₀ for a body without film.
     pub under_film: PerPascal,
-    /// What it is multiplied with.
+    /// The quantity to which wear is proportional.
     pub driver: WearDriver,
 }
 
-/// What wears in proportion.
+/// Quantity to which wear is proportional.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WearDriver {
     /// The pressure: k p ds, Archard's law.
     Pressure,
-    /// The shear traction: α |q| ds, wear in proportion to the energy of friction.
+    /// The shear traction: α |q| ds, wear proportional to the frictional energy.
     Shear,
 }
 
 impl WearCoefficient {
-    /// Archard's law with the coefficient k in 1/Pa: volume over load and distance.
+    /// Creates Archard's law with the coefficient k in 1/Pa: volume over load and distance.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -41,7 +41,7 @@ impl WearCoefficient {
         Self { bare, under_film: bare, driver: WearDriver::Pressure }.checked()
     }
 
-    /// Wear per energy of friction α in 1/Pa, which is m³/J.
+    /// Creates wear proportional to the frictional energy, with α in 1/Pa, which is m³/J.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -49,10 +49,10 @@ impl WearCoefficient {
         Self { bare, under_film: bare, driver: WearDriver::Shear }.checked()
     }
 
-    /// The same with another coefficient where the film is at its thickest.
+    /// Sets the coefficient under a film of largest thickness.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for one that is below 0 or above that of the bare body.
+    /// [`Error::OutOfRange`] if it is below 0 or above that of the bare body.
     pub fn with_film(self, under_film: PerPascal) -> Result<Self> {
         Self { under_film, ..self }.checked()
     }
@@ -72,28 +72,28 @@ impl WearCoefficient {
         Ok(self)
     }
 
-    /// The coefficient under a film that fills such a `part` of its largest thickness.
+    /// Coefficient under a film with the fraction `part` of its largest thickness.
     fn under(&self, part: f64) -> PerPascal {
         self.bare - (self.bare - self.under_film) * part.min(1.0)
     }
 }
 
-/// Wear of both bodies, lowered by their films.
+/// Wear of both bodies, reduced by their films.
 ///
-/// A pass at frozen contact takes the depth k Σ p |Δs| off a cell. Over many passes that one stands for, k is its mean while
-/// the film grows or is rubbed off at the rates of that one.
+/// At frozen contact, a pass removes the depth k Σ p |Δs| from a cell. In an extrapolation over many passes, k is its mean
+/// while the film grows or is removed at the rates of the computed pass.
 #[derive(Debug, Clone)]
 pub struct Wear {
     coefficients: [Option<WearCoefficient>; 2],
-    /// The films that lower the coefficients.
+    /// The films that reduce the coefficients.
     films: [Option<Film>; 2],
 }
 
 impl Wear {
-    /// The wear of the lower and of the upper body, with their `films`; none of a body that does not wear.
+    /// Creates the wear of the lower and of the upper body, with their `films`; `None` for a body that does not wear.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a coefficient under a film that there is not.
+    /// [`Error::Unsupported`] for a coefficient under a film on a body without film.
     pub fn new(coefficients: [Option<WearCoefficient>; 2], films: [Option<Film>; 2]) -> Result<Self> {
         let lowered = coefficients.map(|coefficient| coefficient.is_some_and(|k| k.under_film != k.bare));
         if (0..2).any(|body| lowered[body] && films[body].is_none()) {
@@ -103,7 +103,7 @@ impl Wear {
         Ok(Self { coefficients, films: [lower.filter(|_| lowered[0]), upper.filter(|_| lowered[1])] })
     }
 
-    /// The depths that so many `passes` take off, with the coefficients in the mean over them.
+    /// Returns the depths removed in `passes` passes, with the coefficients averaged over them.
     fn depths(&self, pair: &Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
         [0, 1].map(|body| {
             let work = &sums[body][0];
@@ -139,7 +139,7 @@ impl Law for Wear {
     }
 
     fn sums(&self) -> usize {
-        // What films sum is needed where they lower the wear alone.
+        // The sums of films are needed only if films reduce the wear.
         if self.films.iter().any(Option::is_some) { 1 + Growing::SUMS } else { 1 }
     }
 

@@ -1,27 +1,27 @@
-//! Anderson's acceleration of a fixed point.
+//! Anderson acceleration of a fixed-point iteration.
 
 use std::collections::VecDeque;
 
 use crate::math::sum::sums;
 
-/// Differences that are kept.
+/// Number of stored differences.
 const DIFFERENCES: usize = 5;
-/// A difference that is the others' to this share adds nothing.
+/// A difference that depends on the others to this relative accuracy is ignored.
 const NEGLIGIBLE: f64 = 1e-10;
 
-/// What the steps so far have taught of y ↦ y + f(y), whose fixed point is sought.
+/// History of a fixed-point iteration y ↦ y + f(y).
 ///
-/// The next y is y + f − Σ γ (Δy + Δf), where f − Σ γ Δf is the least in the mean square over the entries that count. Anderson,
+/// The next y is y + f − Σ γ (Δy + Δf). The γ minimise the mean square of f − Σ γ Δf over the entries that count. Anderson,
 /// J. ACM 12, 547 (1965).
 #[derive(Debug, Default)]
 pub(super) struct Anderson {
     last: Option<(Vec<f64>, Vec<f64>)>,
-    /// Of the latest first: differences of y, and of f.
+    /// Differences of y and of f, latest first.
     differences: VecDeque<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Anderson {
-    /// The next y after `y`, which is wrong by `f`. The least is sought over the entries in `counts`.
+    /// Returns the next y after `y` with the residual `f`. The mean square is over the entries in `counts`.
     pub(super) fn next(&mut self, y: Vec<f64>, f: Vec<f64>, counts: &[usize]) -> Vec<f64> {
         if let Some((last_y, last_f)) = self.last.take() {
             let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
@@ -36,21 +36,21 @@ impl Anderson {
         next
     }
 
-    /// The y before, and how wrong it was.
+    /// The last y and its residual.
     pub(super) fn last(&self) -> Option<(&[f64], &[f64])> {
         self.last.as_ref().map(|(y, f)| (y.as_slice(), f.as_slice()))
     }
 
-    /// Forgets all but the y before.
+    /// Clears all but the last y.
     pub(super) fn begin_again(&mut self) {
         self.differences.clear();
     }
 
-    /// The shares γ of the differences, by orthogonal ones of theirs.
+    /// Computes the weights γ of the differences through an orthogonal basis.
     fn least(&self, f: &[f64], counts: &[usize]) -> Vec<f64> {
         let of = |values: &[f64]| -> Vec<f64> { counts.iter().map(|&entry| values[entry]).collect() };
         let mut left = of(f);
-        // Orthonormal vectors, each with the combination of differences that it is.
+        // Orthonormal vectors, each with its combination of differences.
         let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
         let mut gamma = vec![0.0; self.differences.len()];
         for (n, (_, df)) in self.differences.iter().enumerate() {
@@ -58,7 +58,7 @@ impl Anderson {
             let mut combination = vec![0.0; self.differences.len()];
             combination[n] = 1.0;
             let whole = dot(&vector, &vector);
-            // Twice, for round-off.
+            // Twice, to remove round-off.
             for _ in 0..2 {
                 for (other, its) in &basis {
                     let share = dot(&vector, other);
@@ -94,7 +94,7 @@ fn take(from: &mut [f64], share: f64, what: &[f64]) {
 mod tests {
     use super::*;
 
-    /// y ↦ y + f(y) with f = b − A y, of a matrix whose plain iteration does not converge.
+    /// y ↦ y + f(y) with f = b − A y, for a matrix whose plain iteration does not converge.
     fn f(y: &[f64]) -> Vec<f64> {
         let a = [[2.5, 0.3, 0.0, 0.1], [0.3, 0.7, -0.2, 0.0], [0.0, -0.2, 1.9, 0.4], [0.1, 0.0, 0.4, 0.2]];
         (0..4).map(|i| 1.0 + i as f64 - (0..4).map(|j| a[i][j] * y[j]).sum::<f64>()).collect()

@@ -1,4 +1,4 @@
-//! The residual stress of plastic strain at any depth.
+//! Residual stress of plastic strain at any depth.
 
 use super::{Layers, MAX_LAYERS, TensorField, Volume};
 use crate::error::Result;
@@ -9,14 +9,15 @@ use crate::stress::Component;
 use crate::subsurface::LayeredStress;
 use crate::units::Metre;
 
-/// The residual stress of a plastic `strain`, `[layer, component, ix, iy]`, in the `layers` of a body on a `grid`, from its surface down to
-/// a depth `to` which may lie below them, under a contact that is seated on the body. A product of as many layers.
+/// Computes the residual stress of a plastic `strain`, `[layer, component, ix, iy]`, in the `layers` of a body on a `grid`.
+/// It is evaluated from the surface down to a depth `to`, which may lie below the layers, under a contact placed on the
+/// body. Cost: one operator application with as many layers.
 ///
 /// # Errors
-/// Returns the errors of [`Volume::new`].
+/// The errors of [`Volume::new`].
 ///
 /// # Panics
-/// If the strain has another shape.
+/// If the shape of the strain differs.
 #[expect(clippy::too_many_arguments, reason = "a body, what has flowed in it, and where it is looked at")]
 pub fn residual_below(
     grid: Grid,
@@ -30,7 +31,7 @@ pub fn residual_below(
 ) -> Result<LayeredStress> {
     let mut faces = layers.faces().to_vec();
     let mut thickness = layers.thickness(layers.count() - 1);
-    // Below the layers that flow the stress varies over the depth.
+    // Below the plastic layers the stress varies over the depth.
     while faces[faces.len() - 1] < to && faces.len() <= MAX_LAYERS {
         faces.push(faces[faces.len() - 1] + thickness);
         thickness *= 1.1;

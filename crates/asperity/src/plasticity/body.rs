@@ -1,4 +1,4 @@
-//! A body that may flow.
+//! An elasto-plastic body.
 
 use std::slice::{ChunksExact, ChunksExactMut};
 use std::sync::Arc;
@@ -13,85 +13,85 @@ use crate::math::parallel;
 use crate::subsurface::Tractions;
 use crate::units::{CubicMetre, Joule, Pascal};
 
-/// θ, the share of 2μ by which the predictor's stress relaxes: above ½, or nothing converges.
+/// θ, the fraction of 2μ by which the stress of the predictor relaxes. The iteration converges only above ½.
 const RELAXATION: f64 = 0.65;
-/// Cells whose equivalent predictor is above this share of the yield stress may flow.
+/// Cells whose equivalent predictor exceeds this fraction of the yield stress may flow.
 const MAY_FLOW: f64 = 0.5;
 
-/// What acts on a body.
+/// Loading of a body.
 #[derive(Debug, Clone)]
 pub enum Action {
     /// Tractions on its surface, in its own frame.
     Tractions(Tractions),
-    /// A stress in its layers, Pa, which is as it would be without plastic strain.
+    /// A stress in its layers without plastic strain, Pa.
     Stress(Arc<TensorField>),
 }
 
-/// What plastic strain displaces a surface by.
+/// Displacement of a surface by plastic strain.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceDisplacement {
-    /// Into the body, m.
+    /// Component into the body, m.
     pub inward: Field,
-    /// Along +x and +y, m; none of a body whose surface is [followed](PlasticBody::followed_along) inward only.
+    /// Components along +x and +y, m; `None` if the surface is not [followed](PlasticBody::followed_along) tangentially.
     pub along: Option<[Field; 2]>,
 }
 
-/// What flow has left in a body: all that its further course depends on.
+/// Plastic state of a body: everything its further response depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlasticState {
     /// Plastic strain ε.
     pub strain: TensorField,
     /// Accumulated plastic strain p̄.
     pub accumulated: VolumeField,
-    /// Back stress X, Pa, of a law that has one.
+    /// Back stress X, Pa, if the law has one.
     pub back_stress: Option<TensorField>,
 }
 
-/// An elasto-plastic half-space: the volume under its surface, its flow law, and what flow has left in it so far.
+/// An elasto-plastic half-space: the volume under its surface, its flow law, and its plastic state.
 pub struct PlasticBody {
     volume: Volume,
     law: Arc<dyn FlowLaw>,
     state: PlasticState,
-    /// What acts on it, and the stress under that.
+    /// Present loading, and the stress under it.
     action: Option<Action>,
     stress: TensorField,
-    /// The displacement of the surface by the strain.
+    /// Displacement of the surface by the plastic strain.
     displacement: SurfaceDisplacement,
-    /// What the last increment added to the strain of the cells that flowed.
+    /// Increase of the strain in the last increment, for the cells that flowed.
     increment: Vec<(usize, Tensor)>,
     trial: Trial,
 }
 
-/// An increment under way.
+/// State within an increment.
 struct Trial {
     /// y.
     predictor: TensorField,
-    /// ε of that predictor.
+    /// ε for this predictor.
     strain: TensorField,
-    /// σ of that strain.
+    /// σ for this strain.
     stress: TensorField,
     /// Whether a cell flows.
     flows: ndarray::Array3<bool>,
 }
 
-/// What an increment has done to a body.
+/// Results of an increment in a body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BodyFlow {
-    /// Cells of all layers that have flowed.
+    /// Number of cells of all layers that have flowed.
     pub flowing_cells: usize,
     /// Plastic work ∫ ½ (σ₀ + σ₁) : Δε, J.
     pub plastic_work: Joule,
-    /// The part of it under each column of the body, J.
+    /// Part of it under each column of the body, J.
     pub work_of_columns: Vec<Joule>,
 }
 
-/// A flat place in the layers: the layer, and the cell in it.
+/// Flat index of a cell in the layers: the layer, and the cell in it.
 type Place = usize;
 
 impl PlasticBody {
-    /// A body without plastic strain that nothing acts on.
+    /// Creates an unloaded body without plastic strain.
     pub fn new(volume: Volume, law: Arc<dyn FlowLaw>) -> Self {
         let zeros = || volume.zeros();
         let shape = [volume.layers().count(), volume.grid().shape[0], volume.grid().shape[1]];
@@ -116,22 +116,23 @@ impl PlasticBody {
         }
     }
 
-    /// The same body, whose surface is followed along itself, too, as friction needs it.
+    /// Follows the tangential displacement of the surface, too, as friction requires.
     pub fn followed_along(mut self) -> Self {
         let zeros = || self.volume.grid().zeros();
         self.displacement.along = Some([zeros(), zeros()]);
         self
     }
 
-    /// What flow has left in it.
+    /// The present plastic state.
     pub fn state(&self) -> &PlasticState {
         &self.state
     }
 
-    /// Brings it, while nothing acts on it, to what flow has left in a `state`: to the same bits however it came there. A product.
+    /// Restores a plastic `state` of the unloaded body. The result has the same bits for any history. Cost: one operator
+    /// application.
     ///
     /// # Panics
-    /// If the state is that of another volume or law.
+    /// If the state belongs to another volume or law.
     pub fn restore(&mut self, state: &PlasticState) {
         assert_eq!(state.strain.dim(), self.state.strain.dim(), "shape of the strain");
         assert_eq!(state.back_stress.is_some(), self.law.is_kinematic(), "back stress of the law");
@@ -147,7 +148,7 @@ impl PlasticBody {
         self.increment.clear();
     }
 
-    /// The displacement of the surface by the strain that the volume has taken up.
+    /// Computes the displacement of the surface by the strain stored in the volume.
     fn surface(&mut self) -> SurfaceDisplacement {
         let inward = self.volume.surface(Traction::Pressure);
         let follows = self.displacement.along.is_some();
@@ -175,33 +176,33 @@ impl PlasticBody {
         &self.state.accumulated
     }
 
-    /// Back stress X, Pa, of a law that has one.
+    /// Back stress X, Pa, if the law has one.
     pub fn back_stress(&self) -> Option<&TensorField> {
         self.state.back_stress.as_ref()
     }
 
-    /// The stress under what acts on the body and its plastic strain, Pa.
+    /// Stress under the present loading and plastic strain, Pa.
     pub fn stress(&self) -> &TensorField {
         &self.stress
     }
 
-    /// The inward displacement r of the surface by the plastic strain, m.
+    /// Inward displacement r of the surface by the plastic strain, m.
     pub fn displacement(&self) -> &Field {
         &self.displacement.inward
     }
 
-    /// The stress that the plastic strain alone leaves, Pa: a product.
+    /// Computes the residual stress of the plastic strain alone, Pa, by one operator application.
     pub fn residual_stress(&mut self) -> TensorField {
         self.volume.residual(&self.state.strain)
     }
 
-    /// Stored energy −½ ∫ ε : K ε ≥ 0 of the residual stress, J: a product.
+    /// Computes the stored energy −½ ∫ ε : K ε ≥ 0 of the residual stress, J, by one operator application.
     pub fn stored_energy(&mut self) -> Joule {
         let residual = self.residual_stress();
         -0.5 * self.volume.inner_product(&residual, &self.state.strain)
     }
 
-    /// Volume of the cells that have ever flowed, m³.
+    /// Volume of the cells that have flowed at any time, m³.
     pub fn yielded_volume(&self) -> CubicMetre {
         let layers = self.state.accumulated.outer_iter().enumerate();
         let cells = |layer: ndarray::ArrayView2<f64>| layer.iter().filter(|p| **p > 0.0).count() as f64;
@@ -209,7 +210,7 @@ impl PlasticBody {
         self.volume.grid().cell_area() * height
     }
 
-    /// κ = 2μθ, of the predictor y = dev σ + κ ε.
+    /// κ = 2μθ, as in the predictor y = dev σ + κ ε.
     fn stiffness(&self) -> Pascal {
         let material = self.volume.material();
         RELAXATION * material.young / (1.0 + material.poisson)
@@ -217,12 +218,12 @@ impl PlasticBody {
 
     // ---- an increment, step by step ----------------------------------------------------------------------
 
-    /// The displacement that the loading meets first.
+    /// Surface displacement before the increment.
     pub(super) fn displacement_before(&self) -> SurfaceDisplacement {
         self.displacement.clone()
     }
 
-    /// The predictor of no further flow under an `action`. Whether that took a product.
+    /// Computes the predictor without further flow under an `action`. Returns whether that took an operator application.
     pub(super) fn predict_elastic(&mut self, action: &Action) -> bool {
         let product = match (self.action.as_ref(), action) {
             (None, Action::Tractions(now)) if self.increment.is_empty() && self.is_virgin() => {
@@ -258,13 +259,13 @@ impl PlasticBody {
         self.state.accumulated.iter().all(|p| *p == 0.0)
     }
 
-    /// Whether the body has flowed in the last increment.
+    /// Whether the body flowed in the last increment.
     pub(super) fn remembers(&self) -> bool {
         !self.increment.is_empty()
     }
 
-    /// Takes the strain of the last increment once more, from where the load has moved it by so many cells. Whether there was
-    /// any.
+    /// Adds the strain of the last increment once more, shifted with the load by this number of cells. Returns whether
+    /// there was any.
     pub(super) fn guess(&mut self, shift: [isize; 2]) -> bool {
         let [nx, ny] = self.volume.grid().shape;
         let wraps = self.volume.boundary().leaves_mean_free();
@@ -290,13 +291,13 @@ impl PlasticBody {
         any
     }
 
-    /// Takes up the trial strain: the displacement of the surface by it.
+    /// Stores the trial strain in the volume, and returns its surface displacement.
     pub(super) fn take_trial(&mut self) -> SurfaceDisplacement {
         self.volume.take(&self.trial.strain);
         self.surface()
     }
 
-    /// The stress of the strain that was taken up under an `action`.
+    /// Computes the stress of the stored strain under an `action`.
     pub(super) fn respond(&mut self, action: &Action) {
         match action {
             Action::Tractions(tractions) => self.volume.stress(Some(tractions), &mut self.trial.stress),
@@ -307,7 +308,7 @@ impl PlasticBody {
         }
     }
 
-    /// The predictor of the trial stress and strain.
+    /// Computes the predictor from the trial stress and strain.
     pub(super) fn predict(&mut self) {
         let stiffness = self.stiffness();
         let Trial { predictor, strain, stress, .. } = &mut self.trial;
@@ -319,7 +320,7 @@ impl PlasticBody {
         });
     }
 
-    /// The strain of the predictor. Returns how far it lies from `start`, as a stress over the yield stress.
+    /// Computes the strain from the predictor. Returns its distance from `start`, as a stress over the yield stress.
     pub(super) fn flow(&mut self, start: Start) -> f64 {
         let stiffness = self.stiffness();
         let cells = self.cells();
@@ -352,7 +353,8 @@ impl PlasticBody {
         stiffness * moved.into_iter().fold(0.0, f64::max) / yields
     }
 
-    /// The largest mismatch of the predictor, of what the trial stress and strain make of it, over the yield stress.
+    /// Return-mapping residual: the largest difference between the predictor and the one from the trial stress and strain,
+    /// over the yield stress.
     pub(super) fn mismatch(&self) -> f64 {
         let stiffness = self.stiffness();
         let Trial { predictor, strain, stress, .. } = &self.trial;
@@ -371,7 +373,7 @@ impl PlasticBody {
         largest / self.law.yield_stress()
     }
 
-    /// The places that may flow in this increment.
+    /// Returns the places that may flow in this increment.
     pub(super) fn candidates(&self) -> Vec<Place> {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let least = MAY_FLOW * self.law.yield_stress();
@@ -388,7 +390,7 @@ impl PlasticBody {
         per_layer.concat()
     }
 
-    /// The predictor at some places, and by how much it is wrong.
+    /// Gathers the predictor at some places, and its residual.
     pub(super) fn gather(&self, places: &[Place]) -> [Vec<f64>; 2] {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let Trial { predictor, strain, stress, .. } = &self.trial;
@@ -404,14 +406,14 @@ impl PlasticBody {
         gathered
     }
 
-    /// Entries of what is gathered at these places that belong to cells which flow.
+    /// Returns the gathered entries that belong to flowing cells.
     pub(super) fn flowing_entries(&self, places: &[Place]) -> impl Iterator<Item = usize> {
         let flows = self.trial.flows.as_slice().expect("standard layout");
         let flowing = places.iter().enumerate().filter(|(_, place)| flows[**place]);
         flowing.flat_map(|(n, _)| COMPONENTS * n..COMPONENTS * (n + 1))
     }
 
-    /// Sets the predictor at some places to these `values`.
+    /// Scatters `values` to the predictor at some places.
     pub(super) fn scatter(&mut self, places: &[Place], values: &[f64]) {
         let cells = self.cells();
         let predictor = self.trial.predictor.as_slice_mut().expect("standard layout");
@@ -421,7 +423,7 @@ impl PlasticBody {
         }
     }
 
-    /// Ends the increment: what the trial has come to is the body's state under an `action`.
+    /// Ends the increment: the trial becomes the state of the body under an `action`.
     pub(super) fn commit(&mut self, action: Action, displacement: SurfaceDisplacement) -> BodyFlow {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let [columns, width] = self.volume.grid().shape;
@@ -461,12 +463,12 @@ impl PlasticBody {
         flow
     }
 
-    /// Cells of a layer.
+    /// Number of cells of a layer.
     fn cells(&self) -> usize {
         self.volume.grid().cells()
     }
 
-    /// The largest plastic strain, and the layer and cell where it is.
+    /// Returns the largest accumulated plastic strain, with its layer and cell.
     pub fn max_accumulated(&self) -> (f64, [usize; 3]) {
         let mut largest = (0.0, [0; 3]);
         for ((layer, ix, iy), value) in self.state.accumulated.indexed_iter() {
@@ -477,7 +479,7 @@ impl PlasticBody {
         largest
     }
 
-    /// Shear of the body's layers: the mean of 2 ε_xz over the cells of each.
+    /// Shear of the layers of the body: the mean of 2 ε_xz over the cells of each.
     pub fn mean_shear(&self) -> Vec<f64> {
         self.state
             .strain
@@ -487,7 +489,7 @@ impl PlasticBody {
     }
 }
 
-/// Where a strain is seen to have moved from.
+/// Reference of a change in strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Start {
     /// The strain before the increment.
@@ -496,7 +498,7 @@ pub(super) enum Start {
     Trial,
 }
 
-/// The states before an increment of the cells of a layer.
+/// States of the cells of a layer before an increment.
 struct Before<'a> {
     strain: &'a [f64],
     accumulated: &'a [f64],
@@ -553,7 +555,7 @@ fn response(stress: &Tensor, strain: &Tensor, stiffness: Pascal) -> Tensor {
     std::array::from_fn(|c| stress[c] - if c < 3 { mean } else { 0.0 } + stiffness * strain[c])
 }
 
-/// Calls `look` with each cell of a layer, the number of its cells, and g.
+/// Calls `look` for each cell of a layer, with its index, the number of cells in the layer, and g.
 fn each_cell(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, usize, Tensor)) {
     let cells = stress.len() / COMPONENTS;
     for cell in 0..cells {

@@ -1,4 +1,4 @@
-//! A contact between bodies of which one or both may flow.
+//! A contact of two bodies, one or both elasto-plastic.
 
 use super::body::{Action, PlasticBody, PlasticState, SurfaceDisplacement};
 use super::increment::{self, FlowParams, Increment, advance};
@@ -12,47 +12,47 @@ use crate::solver::{
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
 
-/// A contact that is loaded and unloaded increment by increment, of two bodies of which one or both may flow, and which may move
-/// over each other in between.
+/// A contact of two bodies, one or both elasto-plastic, that is loaded and unloaded in increments. The bodies may move over
+/// each other between increments.
 ///
-/// The gap is that of the undeformed bodies; their plastic strain opens it by r: g = h − δ + C p + r₁ + r₂, and moves their surfaces
-/// along each other. A contact lies on a part of each body, or on all of it; plastic strain stays with the material.
+/// The gap is that of the undeformed bodies. Plastic strain opens it by r, g = h − δ + C p + r₁ + r₂, and displaces the
+/// surfaces tangentially. A contact covers a part of each body, or all of it. Plastic strain stays with the material.
 pub struct PlasticContact {
     facing: Facing,
     bodies: Vec<PlasticBody>,
-    /// Which of the two each of the bodies is: 0 the lower, 1 the upper one.
+    /// Side of each of the bodies: 0 the lower, 1 the upper one.
     sides: Vec<usize>,
-    /// By how many cells the load has moved over the lower and over the upper body since the last increment.
+    /// Shift of the load over the lower and over the upper body since the last increment, in cells.
     shifts: [[isize; 2]; 2],
     flow: FlowParams,
     contact: Params,
     increments: usize,
-    /// Pressure of the last increment, and what it was found with; nothing before the first, and where the bodies are apart.
+    /// Pressure of the last increment; 0 before the first, and after separation.
     pressure: Field,
     equilibrium: Option<Equilibrium>,
-    /// By how much plastic strain had displaced the surfaces along each other after the last increment, where that is followed.
+    /// Relative tangential displacement of the surfaces by plastic strain after the last increment, if it is followed.
     along: Option<[Field; 2]>,
 }
 
-/// How two bodies face each other.
+/// Relative position of two bodies.
 pub struct Facing {
-    /// What acts between them, on the cells of the contact.
+    /// The interface on the cells of the contact.
     pub interface: Interface,
     /// Gap h of the undeformed bodies, m.
     pub initial_gap: Field,
-    /// How the contact lies on the lower and on the upper body.
+    /// Placement of the contact on the lower and on the upper body.
     pub seats: [Seat; 2],
 }
 
-/// What acts between two bodies.
+/// Interface law between two bodies.
 pub enum Interface {
-    /// Pressure alone.
+    /// Pressure without shear.
     Frictionless(Box<dyn Operator>),
-    /// Pressure, and the shear of bodies that slide, which displaces their surfaces along themselves alone.
+    /// Pressure, and the shear of gross slip, which displaces the surfaces only tangentially.
     Sliding(Box<dyn Operator>, Sliding),
-    /// Pressure, and the shear of bodies that slide, which displaces their surfaces normally, too.
+    /// Pressure, and the shear of gross slip, which also displaces the surfaces normally.
     SlidingCoupled(Box<dyn CoupledOperator>, Sliding),
-    /// Pressure and friction, by which the bodies stick or slip.
+    /// Pressure, and friction with stick and slip.
     Frictional(Box<dyn CoupledOperator>, Friction),
 }
 
@@ -67,10 +67,11 @@ impl Interface {
 }
 
 impl PlasticContact {
-    /// Bodies that do not touch yet; given are those that may flow, the lower and the upper one.
+    /// Creates a contact of bodies that do not touch yet, from the elasto-plastic ones: lower, upper.
     ///
     /// # Panics
-    /// If none of them may, the gap is not on the grid of the interface, or a contact reaches beyond a body.
+    /// If neither body is elasto-plastic, if the grid of the gap differs from that of the interface, or if the contact
+    /// reaches beyond a body.
     pub fn new(facing: Facing, bodies: [Option<PlasticBody>; 2], flow: FlowParams, contact: Params) -> Self {
         let follows = matches!(facing.interface, Interface::Frictional(..));
         let follow = |body: PlasticBody| if follows { body.followed_along() } else { body };
@@ -95,14 +96,13 @@ impl PlasticContact {
         contact
     }
 
-    /// Brings the bodies to another position, which the next increment will meet, and to which the load moves over the lower and over
-    /// the upper body by so many whole cells as `shifts` says. Between the positions the bodies slide freely: a history of
-    /// sticking is that of one position.
+    /// Moves the bodies to another position for the next increment. The load moves over the lower and over the upper body
+    /// by whole cells, `shifts`. Between the positions the bodies slide freely; a history of stick belongs to one position.
     ///
     /// # Panics
-    /// If the gap is not on the grid of the interface, or a contact reaches beyond a body.
+    /// If the grid of the gap differs from that of the interface, or if the contact reaches beyond a body.
     pub fn move_to(&mut self, facing: Facing, shifts: [[isize; 2]; 2]) {
-        // The pressure goes with the load over the first of the bodies.
+        // The pressure moves with the load over the first of the bodies.
         let side = self.sides[0];
         let before = self.facing.seats[side].onto(&self.pressure);
         let ([nx, ny], [dx, dy]) = (facing.seats[side].shape(), shifts[side]);
@@ -132,11 +132,11 @@ impl PlasticContact {
         }
     }
 
-    /// Takes the bodies apart, and brings those that may flow to what flow has left in these `states`: to the same bits however they
-    /// came there. A product for each.
+    /// Separates the bodies, and restores the plastic `states` of the elasto-plastic ones. The result has the same bits for
+    /// any history. Cost: one operator application each.
     ///
     /// # Panics
-    /// If there are not as many states as bodies, or one is that of another body.
+    /// If the number of states differs from that of the bodies, or if a state belongs to another body.
     pub fn restore(&mut self, states: &[PlasticState]) {
         assert_eq!(states.len(), self.bodies.len(), "a state for each body");
         self.bodies.iter_mut().zip(states).for_each(|(body, state)| body.restore(state));
@@ -146,19 +146,18 @@ impl PlasticContact {
         self.increments = 0;
     }
 
-    /// Goes on to a load (0: the bodies are taken apart) or an approach in one increment, while nothing is held in the plane.
+    /// Applies a load (0 separates the bodies) or an approach in one increment, without tangential loading.
     ///
     /// # Errors
-    /// [`Error::AtIncrement`] with what is wrong there: [`Error::FlowNotConverged`], or what [`crate::solver::solve_normal`] finds.
+    /// [`Error::AtIncrement`] with its cause: [`Error::FlowNotConverged`], or an error of [`crate::solver::solve_normal`].
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
         self.load(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, &())
     }
 
-    /// Goes on to what is prescribed in one increment, while somebody looks on. What is prescribed in the plane counts where the bodies
-    /// may stick alone.
+    /// Applies a loading in one increment under a watch. Tangential loading counts only with an interface that can stick.
     ///
     /// # Errors
-    /// Returns the errors of [`PlasticContact::go_to`], and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
+    /// The errors of [`PlasticContact::go_to`] and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
     pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
         let mut pressing = Pressing {
@@ -186,10 +185,10 @@ impl PlasticContact {
         Ok(increment)
     }
 
-    /// Goes on to a load in so many equal increments from the present one.
+    /// Applies a load in `increments` equal increments from the present one.
     ///
     /// # Errors
-    /// Returns the errors of [`PlasticContact::go_to`].
+    /// The errors of [`PlasticContact::go_to`].
     pub fn load_to(&mut self, load: Newton, increments: usize) -> Result<Vec<Increment>> {
         let from = self.normal_force();
         (1..=increments)
@@ -207,13 +206,13 @@ impl PlasticContact {
         self.grid().cell_area() * self.pressure.sum()
     }
 
-    /// The approach δ of the undeformed bodies, m; none before the first contact, and where they have been taken apart.
+    /// Approach δ of the undeformed bodies, m; `None` before the first contact and after separation.
     pub fn approach(&self) -> Option<Metre> {
         self.solution().map(|solution| solution.approach)
     }
 
-    /// The elastic contact of the bodies as they are, with what has flowed; none before the first, and where they have been taken
-    /// apart or moved.
+    /// The elastic contact of the bodies with their plastic displacement; `None` before the first increment, and after
+    /// separation or a move.
     pub fn equilibrium(&self) -> Option<&Equilibrium> {
         self.equilibrium.as_ref()
     }
@@ -228,28 +227,28 @@ impl PlasticContact {
         self.facing.interface.grid()
     }
 
-    /// The approach at which the bodies as they are now first touch, m.
+    /// Approach at which the bodies in their present state first touch, m.
     pub fn first_touch(&self) -> Metre {
         self.with_residual(self.facing.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// The bodies that may flow.
+    /// The elasto-plastic bodies.
     pub fn bodies(&mut self) -> &mut [PlasticBody] {
         &mut self.bodies
     }
 
-    /// Which of the two each of these bodies is: 0 the lower, 1 the upper one.
+    /// Side of each of these bodies: 0 the lower, 1 the upper one.
     pub fn sides(&self) -> &[usize] {
         &self.sides
     }
 
-    /// What the surfaces have moved apart by, C p + r, m; under a periodic boundary the mean of C p is zero.
+    /// Relative normal displacement of the surfaces, C p + r, m. Under a periodic boundary the mean of C p is zero.
     pub fn displacement(&self) -> Field {
         let zeros = || Field::zeros(self.pressure.raw_dim());
         self.with_residual(self.solution().map_or_else(zeros, |solution| solution.displacement.clone()))
     }
 
-    /// A field on the cells of the contact with the displacements of both surfaces by their plastic strain.
+    /// Adds the plastic displacements of both surfaces to a field on the cells of the contact.
     fn with_residual(&self, field: Field) -> Field {
         let columns = self.grid().shape[0];
         let bodies = self.bodies.iter().zip(&self.sides);
@@ -258,23 +257,23 @@ impl PlasticContact {
         })
     }
 
-    /// Elastic energy under the tractions, J: without that of the residual stress.
+    /// Elastic energy under the tractions, J, without that of the residual stress.
     pub fn elastic_energy(&self) -> Joule {
         self.equilibrium.as_ref().map_or(0.0, Equilibrium::elastic_energy)
     }
 }
 
-/// Presses bodies together by what is prescribed.
+/// The elastic part of an increment: presses the bodies together under the prescribed loading.
 struct Pressing<'a> {
     facing: &'a mut Facing,
     sides: &'a [usize],
     loading: Loading,
     params: &'a Params,
     watch: &'a dyn Watch,
-    /// The last increment, and by how much plastic strain had then displaced the surfaces along each other.
+    /// The last increment, with the relative tangential displacement of the surfaces by plastic strain after it.
     before: Option<&'a FrictionalSolution>,
     along_before: Option<[Field; 2]>,
-    /// The last pressure: a start for the next.
+    /// The last pressure, as the start of the next solve.
     pressure: Field,
     equilibrium: Option<Equilibrium>,
     along: Option<[Field; 2]>,
@@ -290,7 +289,7 @@ impl increment::Loading for Pressing<'_> {
         let on_bodies = || residual.iter().zip(self.sides.iter().map(|side| (*side, &seats[*side])));
         let gap =
             on_bodies().fold(initial_gap.clone(), |gap, (r, (_, seat))| gap + seat.under(&r.inward, columns));
-        // Lower minus upper body, as the tangential displacement of tractions.
+        // Lower minus upper body, like the tangential displacement by tractions.
         let along = on_bodies().fold(None, |sum: Option<[Field; 2]>, (r, (side, seat))| {
             let sign = [1.0, -1.0][side];
             let of_body = r.along.as_ref()?.each_ref().map(|along| sign * seat.under(along, columns));
@@ -302,7 +301,7 @@ impl increment::Loading for Pressing<'_> {
                 }
             })
         });
-        // Of bodies that did not touch it is where they are now.
+        // For bodies that did not touch, it is the present displacement.
         if self.along_before.is_none() {
             self.along_before.clone_from(&along);
         }
@@ -323,7 +322,8 @@ impl increment::Loading for Pressing<'_> {
 }
 
 impl Pressing<'_> {
-    /// Presses surfaces over a `gap` together, which plastic strain displaces `along` each other; the shear on the lower one.
+    /// Presses together surfaces with a `gap` and a relative tangential displacement `along` by plastic strain. Returns the
+    /// shear on the lower one.
     fn press(&mut self, gap: &Field, along: Option<&[Field; 2]>) -> Result<Option<[Field; 2]>> {
         let (control, params, watch) = (self.loading.normal, self.params, self.watch);
         if control == Control::Load(0.0) {
@@ -332,7 +332,7 @@ impl Pressing<'_> {
             return Ok(None);
         }
         let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
-        // What this increment has cost so far.
+        // Cost of this increment so far.
         let spent = self.equilibrium.as_ref().map_or(0.0, |last| last.normal().stats.convolutions);
         let bounds = &Bounds::ELASTIC;
         let sheared = |sliding: &Sliding, pressure: &Field| {
@@ -390,8 +390,8 @@ impl Pressing<'_> {
     }
 }
 
-/// What slip is counted from in an increment in which plastic strain moves the surfaces `along` each other from where it had moved them
-/// before: that part of the rigid displacement is no slip.
+/// Returns the reference of the slip for an increment in which plastic strain changes the relative tangential displacement
+/// to `along`. That part of the rigid displacement is no slip.
 fn history(
     before: Option<&FrictionalSolution>,
     along: Option<&[Field; 2]>,

@@ -1,20 +1,20 @@
-//! The yield stress as it grows with plastic strain.
+//! Growth of the yield stress with plastic strain.
 
 use crate::error::{Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
-/// The yield stress in tension against the accumulated plastic strain: straight between points, level beyond the last or of a
+/// Yield stress in tension as a function of the accumulated plastic strain: linear between points, then constant or with a
 /// given slope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hardening {
-    /// Accumulated plastic strain from 0 on, growing; yield stress, not falling.
+    /// Accumulated plastic strain, increasing from 0; yield stress, not decreasing.
     points: Vec<(f64, Pascal)>,
     /// Slope beyond the last point.
     slope: Pascal,
 }
 
 impl Hardening {
-    /// A yield stress that does not change.
+    /// Creates a constant yield stress.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if it is not positive and finite.
@@ -22,7 +22,7 @@ impl Hardening {
         Self::linear(yield_stress, 0.0)
     }
 
-    /// A yield stress that grows by the `modulus` dσY/dp̄ ≥ 0: E·Et/(E − Et) of a tangent modulus Et.
+    /// Creates a yield stress with the slope `modulus` dσY/dp̄ ≥ 0, which is E·Et/(E − Et) for a tangent modulus Et.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the yield stress is not positive, the modulus negative, or one of them not finite.
@@ -33,11 +33,11 @@ impl Hardening {
         Ok(Self { points: vec![(0.0, yield_stress)], slope: modulus })
     }
 
-    /// A measured `curve` of accumulated plastic strain, from 0 on, and stress; level beyond the last point.
+    /// Creates a measured `curve` of accumulated plastic strain, from 0, and stress; constant beyond the last point.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if there is no point, the strain does not begin with 0 and rise, or the stress is not positive
-    /// or falls.
+    /// [`crate::Error::OutOfRange`] if there is no point, if the strain does not begin at 0 and increase, or if the stress
+    /// is not positive or decreases.
     pub fn curve(curve: &[(f64, Pascal)]) -> Result<Self> {
         check("points of the curve", curve.len() as f64, !curve.is_empty(), "at least one point")?;
         check(
@@ -61,18 +61,18 @@ impl Hardening {
         Ok(Self { points: curve.to_vec(), slope: 0.0 })
     }
 
-    /// The yield stress of virgin material.
+    /// Yield stress of virgin material.
     pub fn initial(&self) -> Pascal {
         self.points[0].1
     }
 
-    /// The yield stress at an accumulated plastic strain ≥ 0.
+    /// Yield stress at an accumulated plastic strain ≥ 0.
     pub fn yield_stress(&self, accumulated: f64) -> Pascal {
         let (from, slope, _) = self.piece(accumulated);
         from.1 + slope * (accumulated - from.0)
     }
 
-    /// The point at which the straight piece begins that `accumulated` lies on, its slope, and where it ends.
+    /// Returns the start point, slope and end of the linear piece that contains `accumulated`.
     fn piece(&self, accumulated: f64) -> ((f64, Pascal), Pascal, f64) {
         let next = self.points.partition_point(|(strain, _)| *strain <= accumulated).max(1);
         let from = self.points[next - 1];
@@ -82,8 +82,8 @@ impl Hardening {
         }
     }
 
-    /// The Δp̄ ≥ 0 at which `excess` − `stiffness` Δp̄ is what the yield stress has grown by from the `accumulated` strain:
-    /// excess = ξe − σY(p̄₀) > 0.
+    /// Returns the Δp̄ ≥ 0 for which `excess` − `stiffness` Δp̄ equals the growth of the yield stress from the
+    /// `accumulated` strain: excess = ξe − σY(p̄₀) > 0.
     pub(super) fn flow(&self, accumulated: f64, excess: Pascal, stiffness: Pascal) -> f64 {
         let (mut from, mut left) = (accumulated, excess);
         loop {

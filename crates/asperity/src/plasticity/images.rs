@@ -1,9 +1,9 @@
-//! What the images of a free body would add to its residual stress.
+//! Correction of the residual stress of a free body for its periodic images.
 //!
-//! A free body is computed with a period of twice its size, whose images leave 0.3 to 5 per cent of the largest residual
-//! stress. What they leave is smooth: it is taken from the strain of coarse cells, as the difference of a period of four times
-//! that and of that, and interpolated. What remains of the images is 1/64 and less. A coarse cell takes from the cells around
-//! it as much as these are given back from it, so that the operator stays symmetric.
+//! A free body is computed with a period of twice its size. Its images contribute 0.3 to 5 per cent of the largest residual
+//! stress. This contribution is smooth. It is computed from the strain on coarse cells, as the difference between a period
+//! of four times that and that period, and interpolated. The remaining error is at most 1/64 of it. The gather to coarse
+//! cells is the transpose of the interpolation, so that the operator stays symmetric.
 
 use ndarray::{ArrayView4, s};
 
@@ -13,10 +13,11 @@ use crate::grid::Grid;
 use crate::math::{good_size, parallel};
 use crate::units::Pascal;
 
-/// Coarse cells along an axis, at least, where there are more cells than that.
+/// Smallest number of coarse cells along an axis, if it has more cells than that.
 const COARSE_CELLS: usize = 8;
 
-/// Cells of which one coarse cell is made, coarse cells, and coarse cells of a period, along an axis of so many `cells`.
+/// Number of cells per coarse cell, of coarse cells, and of coarse cells per period, along an axis of this number of
+/// `cells`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coarsening {
     factor: usize,
@@ -34,16 +35,16 @@ impl Coarsening {
         Self { factor, cells: coarse, period: good_size(2 * coarse) }
     }
 
-    /// The period in cells, at least twice their number.
+    /// Period in cells, at least twice their number.
     pub(super) fn period(self) -> usize {
         self.factor * self.period
     }
 }
 
-/// Takes off the images of a free body.
+/// Removes the images of a free body.
 pub(super) struct Images {
     coarsening: [Coarsening; 2],
-    /// With the period of the body, and with four times that.
+    /// With the period of the body, and with four times that period.
     near: Waves,
     far: Waves,
     strain: TensorField,
@@ -63,7 +64,7 @@ impl Images {
         Self { coarsening, near: waves(1), far: waves(4), strain: zeros(), stress: [zeros(), zeros()] }
     }
 
-    /// Takes up a plastic strain.
+    /// Stores a plastic strain.
     pub(super) fn take(&mut self, strain: ArrayView4<f64>) {
         let cells: [usize; 2] = [strain.shape()[2], strain.shape()[3]];
         let [x, y] = self.interpolations(cells);
@@ -89,12 +90,12 @@ impl Images {
         }
     }
 
-    /// Takes the images of the strain that was taken up off a `stress`.
+    /// Removes the images of the stored strain from a `stress`.
     pub(super) fn remove(&mut self, stress: &mut TensorField) {
         for (waves, stress) in [&mut self.near, &mut self.far].into_iter().zip(&mut self.stress) {
             let [nx, ny] = waves.planes.shape();
             let stride = waves.planes.stride();
-            // Smoothed from coarse cell to coarse cell.
+            // Smoothed over coarse cells.
             let smooth = |k: usize, n: usize| (std::f64::consts::PI * k as f64 / n as f64).cos().powi(2);
             let along_x: Vec<f64> = (0..nx).map(|kx| smooth(kx, nx)).collect();
             waves.back(
@@ -131,7 +132,7 @@ impl Images {
     }
 }
 
-/// Between the middles of two coarse cells, and beyond the outermost ones.
+/// Interpolation between the centres of two coarse cells, and beyond the outermost ones.
 struct Interpolation {
     first: usize,
     second: usize,
@@ -139,7 +140,7 @@ struct Interpolation {
 }
 
 impl Interpolation {
-    /// The two coarse cells with their shares.
+    /// The two coarse cells with their weights.
     fn parts(&self) -> [(usize, f64); 2] {
         [(self.first, 1.0 - self.share), (self.second, self.share)]
     }

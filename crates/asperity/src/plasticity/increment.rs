@@ -1,42 +1,42 @@
-//! An increment: plastic strain and contact pressure that go together.
+//! An increment: consistent plastic strain and contact pressure.
 
 use super::anderson::Anderson;
 use super::body::{Action, BodyFlow, PlasticBody, Start, SurfaceDisplacement};
 use crate::error::{Error, Result, check};
 use crate::units::Joule;
 
-/// What the surfaces of the bodies meet, which may move with them.
+/// The counterpart of the surfaces of the bodies, which may depend on their displacement.
 pub trait Loading {
-    /// What acts on each body where plastic strain has displaced their surfaces by `residual`, each on its own grid.
+    /// Returns the action on each body, on its own grid, for surfaces displaced plastically by `residual`.
     ///
     /// # Errors
-    /// What the loading has of its own.
+    /// The errors of the loading.
     fn act(&mut self, residual: &[SurfaceDisplacement]) -> Result<Vec<Action>>;
 }
 
-/// What an increment may cost, and when it is done.
+/// Convergence criteria of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FlowParams {
-    /// Mismatch at which an increment is done, > 0: of the stress, as a share of the yield stress.
+    /// Return-mapping residual at convergence, > 0, relative to the yield stress.
     pub tolerance: f64,
-    /// Products, applications of the residual-stress operator, after which it is given up.
+    /// Number of applications of the residual-stress operator after which the increment fails.
     pub max_products: usize,
 }
 
 impl FlowParams {
-    /// A mismatch of 10⁻⁴, 200 products at the most.
+    /// Return-mapping residual 10⁻⁴, at most 200 operator applications.
     pub const fn new() -> Self {
         Self { tolerance: 1e-4, max_products: 200 }
     }
 
-    /// The same with another mismatch at which an increment is done.
+    /// Sets the return-mapping residual at convergence.
     #[must_use]
     pub const fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with another number of products after which an increment is given up.
+    /// Sets the largest number of operator applications.
     #[must_use]
     pub const fn with_max_products(self, max_products: usize) -> Self {
         Self { max_products, ..self }
@@ -49,20 +49,20 @@ impl Default for FlowParams {
     }
 }
 
-/// What an increment has done.
+/// Results of an increment.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Increment {
-    /// Products: applications of the residual-stress operator to each of the bodies. 0 where nothing flows.
+    /// Number of applications of the residual-stress operator to each body; 0 without flow.
     pub products: usize,
-    /// Mismatch of the stress over the yield stress; 0 where nothing flows.
+    /// Return-mapping residual over the yield stress; 0 without flow.
     pub mismatch: f64,
-    /// What has become of each body.
+    /// Results for each body.
     pub bodies: Vec<BodyFlow>,
 }
 
 impl Increment {
-    /// Cells of all layers of all bodies that have flowed.
+    /// Number of cells of all layers of all bodies that have flowed.
     pub fn flowing_cells(&self) -> usize {
         self.bodies.iter().map(|body| body.flowing_cells).sum()
     }
@@ -73,20 +73,20 @@ impl Increment {
     }
 }
 
-/// Brings bodies that may flow into equilibrium under a `loading`, in one increment from where they are.
+/// Brings elasto-plastic bodies into equilibrium under a `loading`, in one increment from their present state.
 ///
-/// For every plastic strain the loading acts anew, so that there is no alternation of contact and flow. What is iterated is the
-/// predictor y of the flow law: y → ε → the loading → σ → y, by Anderson's acceleration on the cells that may flow. A step that
-/// goes astray is halved, then taken without acceleration. Flow is a step of backward Euler: its error is of
-/// the first order in the increments.
+/// The loading is evaluated anew for every plastic strain, so that contact and flow do not alternate. The iterated quantity
+/// is the predictor y of the flow law: y → ε → the loading → σ → y. It uses Anderson acceleration on the cells that may
+/// flow. A step that fails is halved, then taken without acceleration. Flow is a step of backward Euler, with an error of
+/// first order in the increments.
 ///
-/// It starts where the bodies are; or, where the load has moved over each of them by so many whole cells as `shifts` says since the
-/// last increment (by none where it has grown), with the strain of that increment added once more: whichever is nearer to the
-/// answer.
+/// The iteration starts from the present strain, or from the present strain plus that of the last increment, whichever is
+/// closer to the solution. The added strain is moved with the load over each body by the whole cells of `shifts` since the
+/// last increment (0 if only the load has grown).
 ///
 /// # Errors
-/// [`Error::FlowNotConverged`]; [`Error::OutOfRange`] for a tolerance without meaning; those of the loading. The bodies are
-/// then as before.
+/// [`Error::FlowNotConverged`]; [`Error::OutOfRange`] for an invalid tolerance; the errors of the loading. The bodies are
+/// then unchanged.
 pub fn advance(
     bodies: &mut [&mut PlasticBody],
     loading: &mut dyn Loading,
@@ -113,7 +113,7 @@ pub fn advance(
     Ok(trial.end(mismatch))
 }
 
-/// Iterates from the trial strain on, of whose predictor the flow is known.
+/// Iterates from the trial strain, which is already the flow of its predictor.
 fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) -> Result<f64> {
     let places: Vec<Vec<usize>> = trial.bodies.iter().map(|body| body.candidates()).collect();
     let mut anderson = Anderson::default();
@@ -156,11 +156,11 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
     }
 }
 
-/// A step that leaves so many times the least mismatch so far has gone astray. Steps that leave little more are needed: without them
-/// a fully plastic contact takes half as many products again.
+/// A step has failed if its residual exceeds the smallest so far by this factor. Steps that increase it slightly are
+/// needed: without them a fully plastic contact takes half as many operator applications again.
 const FAR_WORSE: f64 = 10.0;
 
-/// How the present predictor was come to.
+/// Origin of the present predictor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Step {
     Plain,
@@ -188,12 +188,12 @@ impl Trial<'_, '_> {
         Ok(())
     }
 
-    /// Whether a body has flowed in the last increment.
+    /// Whether a body flowed in the last increment.
     fn remembers(&self) -> bool {
         self.bodies.iter().any(|body| body.remembers())
     }
 
-    /// The predictor of the strain that grows once more as it did last. Whether there was any.
+    /// Computes the predictor of a strain that grows once more as in the last increment. Returns whether there was any.
     fn guess(&mut self, shifts: &[[isize; 2]], loading: &mut dyn Loading) -> Result<bool> {
         let any = self.bodies.iter_mut().zip(shifts).fold(false, |any, (body, by)| body.guess(*by) | any);
         if any {
@@ -203,7 +203,7 @@ impl Trial<'_, '_> {
         Ok(any)
     }
 
-    /// The stress of the trial strain, under what then acts.
+    /// Computes the stress of the trial strain under the resulting loading.
     fn respond(&mut self, loading: &mut dyn Loading) -> Result<()> {
         self.residual = self.bodies.iter_mut().map(|body| body.take_trial()).collect();
         self.actions = loading.act(&self.residual)?;
@@ -216,7 +216,7 @@ impl Trial<'_, '_> {
         self.bodies.iter_mut().map(|body| body.flow(start)).fold(0.0, f64::max)
     }
 
-    /// The largest mismatch; NaN if there is one, which `f64::max` would pass over.
+    /// Returns the largest return-mapping residual; NaN if there is one, which `f64::max` would ignore.
     fn mismatch(&self) -> f64 {
         let bodies = self.bodies.iter().map(|body| body.mismatch());
         bodies.fold(0.0, |most, m| if m > most || m.is_nan() { m } else { most })
@@ -241,7 +241,7 @@ impl Trial<'_, '_> {
         entries
     }
 
-    /// The next predictor: `values` where cells may flow, elsewhere what the trial stress makes of it.
+    /// Sets the next predictor: `values` in cells that may flow, elsewhere the one of the trial stress.
     fn predict(&mut self, places: &[Vec<usize>], values: &[f64]) {
         let mut rest = values;
         for (body, places) in self.bodies.iter_mut().zip(places) {

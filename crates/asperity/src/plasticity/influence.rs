@@ -1,4 +1,4 @@
-//! The stress in the layers under tractions on the surface, and its transpose.
+//! Stress in the layers under tractions on the surface, and its transpose.
 
 use asperity_transforms::num_complex::Complex64;
 use ndarray::Zip;
@@ -14,15 +14,15 @@ use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
 
-/// Transforms of the stress under one traction, mean over each layer.
+/// Transforms of the stress under one traction, as the mean over each layer.
 ///
-/// - Free: the closed form of a loaded cell, at two depths a layer by Gauss.
-/// - Periodic: that of each harmonic, its mean over the layer exact.
+/// - Free: the closed form of a loaded cell, at two Gauss depths per layer.
+/// - Periodic: the closed form of each harmonic, with its exact mean over the layer.
 pub(super) struct Influence {
-    /// `[ky, kx]` up to half the period, by layer and component: the real number by which iⁿ is multiplied, n the number of
-    /// axes in which it is odd.
+    /// Indexed `[ky, kx]` up to half the period, by layer and component: the real factor of iⁿ, with n the number of axes
+    /// in which the component is odd.
     spectra: Vec<Field>,
-    /// In which axes a component is odd.
+    /// Axes in which each component is odd.
     odd: [[bool; 2]; COMPONENTS],
     thickness: Vec<Metre>,
 }
@@ -53,7 +53,7 @@ impl Influence {
         Self { spectra, odd: Component::ALL.map(|component| traction.odd(component)), thickness }
     }
 
-    /// Adds the stress under a `traction`, whose column at `ky` this is, to the columns of all components of all layers.
+    /// Adds the stress under a `traction`, given by its column at `ky`, to the columns of all components of all layers.
     pub(super) fn add(&self, planes: &Planes, ky: usize, traction: &[Complex64], columns: &mut [Complex64]) {
         let nx = planes.shape()[0];
         for (plane, column) in columns.chunks_exact_mut(planes.stride()).enumerate() {
@@ -71,8 +71,8 @@ impl Influence {
         }
     }
 
-    /// The transpose: the displacement along the traction, of the surface of the body, by plastic strain, traceless, whose
-    /// columns at `ky` these are.
+    /// Applies the transpose: the displacement of the surface of the body along the traction, by traceless plastic strain,
+    /// given by its columns at `ky`.
     pub(super) fn transpose(
         &self,
         planes: &Planes,
@@ -133,7 +133,7 @@ impl Power {
     }
 }
 
-/// Values at the offsets (i Δx, j Δy): the mean over the layer, by Gauss's two points.
+/// Returns the values at the offsets (i Δx, j Δy): the mean over the layer, by two Gauss points.
 fn free(
     shape: [usize; 2],
     pitch: [Metre; 2],
@@ -150,7 +150,7 @@ fn free(
     table
 }
 
-/// Transform at `[ky, kx]`. A harmonic is (a + b qz) e^−qz, of which the means over the layer are known.
+/// Returns the transform at `[ky, kx]`. A harmonic is (a + b qz) e^−qz, whose means over the layer are known.
 fn periodic(
     grid: &Grid,
     [top, bottom]: [Metre; 2],
@@ -160,11 +160,11 @@ fn periodic(
 ) -> Field {
     let [nx, ny] = grid.shape;
     let odd = traction.odd(component);
-    // Real where it is odd in both axes, and so −1 times i².
+    // If it is odd in both axes, it is real and equals −1 times i².
     let sign = if odd == [true; 2] { -1.0 } else { 1.0 };
     Field::from_shape_fn([ny / 2 + 1, nx / 2 + 1], |(ky, kx)| {
         let wave = [angular_frequency(kx, nx, grid.pitch[0]), angular_frequency(ky, ny, grid.pitch[1])];
-        // Half of what alternates from cell to cell runs either way: what is odd in it cancels.
+        // A wave that alternates from cell to cell runs half in each direction, so that its odd part cancels.
         if odd[0] && 2 * kx == nx || odd[1] && 2 * ky == ny {
             return 0.0;
         }

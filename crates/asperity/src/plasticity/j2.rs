@@ -1,19 +1,19 @@
-//! J2: flow along the deviator of the stress.
+//! J2 plasticity: flow along the deviator of the stress.
 
 use super::flow::{CellState, FlowLaw, Tensor, equivalent};
 use super::hardening::Hardening;
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
-/// Flow where von Mises' equivalent of σ − X reaches the yield stress, along its deviator; X the back stress.
+/// Flow along the deviator of σ − X once its von Mises equivalent reaches the yield stress, with the back stress X.
 ///
-/// | hardening | of |
+/// | hardening | law |
 /// |---|---|
 /// | isotropic | [`Hardening`]: the yield stress grows with the accumulated strain |
 /// | Prager | `kinematic` M: X = ⅔ M ε |
 /// | Armstrong and Frederick | with `recovery` γ: dX = ⅔ M dε − γ X dp̄, at most M/γ |
 ///
-/// An increment is a step of backward Euler: radial return, exact where the direction of flow does not turn.
+/// An increment is a step of backward Euler (radial return). It is exact if the direction of flow does not change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
     hardening: Hardening,
@@ -22,12 +22,12 @@ pub struct J2 {
 }
 
 impl J2 {
-    /// The yield stress alone, hardening or not.
+    /// Creates a law without back stress, with or without isotropic hardening.
     pub fn new(hardening: Hardening) -> Self {
         Self { hardening, kinematic: 0.0, recovery: 0.0 }
     }
 
-    /// The same with a back stress of the `modulus` M ≥ 0 and a `recovery` γ ≥ 0, which is 0 of Prager's.
+    /// Adds a back stress with the `modulus` M ≥ 0 and a `recovery` γ ≥ 0, which is 0 for Prager's law.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if one of them is negative or not finite, [`Error::Unsupported`] for a recovery without a modulus.
@@ -41,27 +41,28 @@ impl J2 {
         Ok(Self { kinematic: modulus, recovery, ..self })
     }
 
-    /// How the yield stress grows.
+    /// Growth of the yield stress.
     pub fn hardening(&self) -> &Hardening {
         &self.hardening
     }
 
-    /// ξ, by which the cell flows: y − 2μθε₀ − X₀/(1 + γ Δp̄).
+    /// The driving stress ξ of the flow: y − 2μθε₀ − X₀/(1 + γ Δp̄).
     #[inline]
     fn driving(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState, flow: f64) -> Tensor {
         let kept = 1.0 / (1.0 + self.recovery * flow);
         std::array::from_fn(|i| predictor[i] - stiffness * state.strain[i] - kept * state.back[i])
     }
 
-    /// The Δp̄ that solves ξe − (3/2 stiffness + M/(1 + γ Δp̄)) Δp̄ = σY(p̄₀ + Δp̄), where recovery makes it other than
-    /// straight: it falls by at least 3/2 stiffness all along, and so Newton's steps stay within what is known.
+    /// Returns the Δp̄ that solves ξe − (3/2 stiffness + M/(1 + γ Δp̄)) Δp̄ = σY(p̄₀ + Δp̄), which is not linear with
+    /// recovery. The difference decreases everywhere by at least 3/2 stiffness, so that Newton's steps stay within the
+    /// known bounds.
     fn recovering(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState, excess: Pascal) -> f64 {
         let excess_at = |flow: f64| {
             let driving = equivalent(&self.driving(predictor, stiffness, state, flow));
             let back = self.kinematic * flow / (1.0 + self.recovery * flow);
             driving - 1.5 * stiffness * flow - back - self.hardening.yield_stress(state.accumulated + flow)
         };
-        // Without the back stress, old and new, it flows further.
+        // The flow is largest without the old and new back stress.
         let (mut low, mut high) = (0.0, (excess + equivalent(&state.back)) / (1.5 * stiffness));
         let (mut flow, mut value) = (0.0, excess);
         for _ in 0..100 {
@@ -123,7 +124,7 @@ mod tests {
     /// 2μ.
     const STIFFNESS: f64 = 160e9;
     const YIELD: f64 = 1.5e9;
-    /// The deviator of a unit tension, and of a unit shear.
+    /// Deviators of a unit tension and of a unit shear.
     const TENSION: Tensor = [2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0, 0.0, 0.0, 0.0];
     const SHEAR: Tensor = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -135,14 +136,15 @@ mod tests {
         std::array::from_fn(|i| a[i] + b[i])
     }
 
-    /// Stretches a cell to a deviatoric total strain: its state and the deviator of its stress.
+    /// Applies a deviatoric total strain to a cell; returns its state and the deviator of its stress.
     fn stretch(law: &J2, strain: &Tensor, state: &CellState) -> (CellState, Tensor) {
         let predictor = times(STIFFNESS, strain);
         let state = law.flow(&predictor, STIFFNESS, state).unwrap_or(*state);
         (state, plus(&predictor, &times(-STIFFNESS, &state.strain)))
     }
 
-    /// Pulled to a plastic strain p along `way`, whose equivalent is 1 as a stress: the total strain is dev σ/2μ + ε.
+    /// Returns the total strain dev σ/2μ + ε of a cell strained plastically to p along `way`, whose equivalent is 1 as a
+    /// stress.
     fn strain_for(way: &Tensor, stress: f64, plastic: f64) -> Tensor {
         times(stress / STIFFNESS + 1.5 * plastic, way)
     }
@@ -200,7 +202,7 @@ mod tests {
         let curve = [(0.0, YIELD), (0.01, 1.7e9), (0.03, 1.8e9)];
         let law = J2::new(Hardening::curve(&curve).unwrap());
         for (plastic, stress) in [(0.005, 1.6e9), (0.01, 1.7e9), (0.02, 1.75e9), (0.5, 1.8e9)] {
-            // In one step from nothing.
+            // In one step from zero.
             let (state, found) = stretch(&law, &strain_for(&TENSION, stress, plastic), &CellState::default());
             assert_relative_eq!(state.accumulated, plastic, max_relative = 1e-12);
             assert_relative_eq!(equivalent(&found), stress, max_relative = 1e-12);
@@ -209,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_cycle_of_plastic_strain_closes_as_its_hardening_has_it() {
-        // To plastic strains of ±a in turn: the branch n ends at σY + (2n − 1) a H ± M a.
+        // Alternating plastic strains ±a: branch n ends at σY + (2n − 1) a H ± M a.
         let a = 0.004;
         for (law, isotropic, kinematic) in laws() {
             let mut state = CellState::default();
@@ -251,7 +253,7 @@ mod tests {
             assert_relative_eq!(equivalent(&found), stress, max_relative = 1e-12);
             assert_relative_eq!(equivalent(&state.back), back, max_relative = 1e-11);
         }
-        // Many: X = M/γ (1 − e^−γp), and back again, −M/γ + (M/γ + X) e^−γ(p − p₁), both to the first order.
+        // Many steps: X = M/γ (1 − e^−γp), and back again, −M/γ + (M/γ + X) e^−γ(p − p₁), both to first order.
         let errors = [50, 100, 200].map(|steps| {
             let law = law(0.0);
             let mut state = CellState::default();
@@ -281,7 +283,8 @@ mod tests {
 
     #[test]
     fn a_small_increment_has_the_tangent_of_the_flow_rule() {
-        // dσ = 2μ (dε − 3/2 m m:dε 2μ/(2μ·3/2 + H + M)·…): along m the stress keeps (H + M)/(3μ + H + M), across all of it.
+        // dσ = 2μ (dε − 3/2 m m:dε 2μ/(2μ·3/2 + H + M)·…): along m the fraction (H + M)/(3μ + H + M) of the stress remains,
+        // across m all of it.
         for (law, isotropic, kinematic) in laws() {
             let size = YIELD + (isotropic + kinematic) * 0.01;
             let start = strain_for(&TENSION, size, 0.01);
@@ -296,7 +299,7 @@ mod tests {
                     epsilon = 1e-12 * size
                 );
             }
-            // Across, the stress turns: second differences fall with the step.
+            // Across m the stress rotates: second differences decrease with the step.
             let errors = [1e-4, 1e-5].map(|step| {
                 let (_, after) = stretch(&law, &plus(&start, &times(step, &SHEAR)), &state);
                 (after[5] / (STIFFNESS * step) - 1.0).abs()
@@ -307,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_softer_predictor_gives_the_same_answer() {
-        // y = dev σ + θ 2μ ε leads to the same state with the stress that goes with it.
+        // y = dev σ + θ 2μ ε leads to the same state, with its stress.
         for (law, ..) in laws() {
             let strain = strain_for(&TENSION, 1.9e9, 0.02);
             let (state, stress) = stretch(&law, &strain, &CellState::default());

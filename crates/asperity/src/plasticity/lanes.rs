@@ -1,11 +1,11 @@
-//! Four numbers that are computed alike.
+//! Four numbers processed in parallel.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 use asperity_transforms::num_complex::Complex64;
 
-/// The amplitudes of the wave vectors (q_x, q_y) and (−q_x, q_y): real part, imaginary part, real part, imaginary part. What
-/// depends on |q| alone acts on all four.
+/// Amplitudes of the wave vectors (q_x, q_y) and (−q_x, q_y): real part, imaginary part, real part, imaginary part.
+/// Functions of |q| alone act on all four.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lanes([f64; 4]);
 
@@ -25,14 +25,14 @@ impl Lanes {
         Complex64::new(self.0[2], self.0[3])
     }
 
-    /// Times i.
+    /// Multiplies by i.
     #[inline(always)]
     pub(super) fn times_i(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([-b, a, -d, c])
     }
 
-    /// Times what changes its sign with q_x.
+    /// Multiplies by a factor that changes its sign with q_x.
     #[inline(always)]
     pub(super) fn times_odd(self, factor: f64) -> Self {
         let [a, b, c, d] = self.0;

@@ -1,24 +1,24 @@
-//! The layers of the volume that may flow.
+//! Layers of the plastic volume.
 
 use crate::error::{Result, check, check_in};
 use crate::units::{Dimension, Metre};
 
-/// Layers parallel to the surface, from it down to a depth; in each the plastic strain of a cell is uniform.
+/// Layers parallel to the surface, from the surface down to a depth. The plastic strain of a cell is uniform in each layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
-    /// Depths of the faces between them, from 0 on: one more than layers.
+    /// Depths of their faces, from 0; one more than layers.
     faces: Vec<Metre>,
 }
 
-/// The most layers.
+/// Largest number of layers.
 pub const MAX_LAYERS: usize = 512;
 
 impl Layers {
-    /// So many layers down to a `depth`, each `growth` times as thick as the one above it.
+    /// Creates `count` layers down to a `depth`, each `growth` times as thick as the one above it.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if the depth is not positive and finite, there is none or more than 512 of them, or the
-    /// growth is not within 1 … 2.
+    /// [`crate::Error::OutOfRange`] if the depth is not positive and finite, if there are none or more than 512 layers, or
+    /// if the growth is not within 1 … 2.
     pub fn new(depth: Metre, count: usize, growth: f64) -> Result<Self> {
         let positive = depth > 0.0 && depth.is_finite();
         check_in(Dimension::Length, "depth", depth, positive, "a finite depth above 0")?;
@@ -41,10 +41,10 @@ impl Layers {
         Ok(Self { faces })
     }
 
-    /// The layers between `faces`, which begin with 0 and grow.
+    /// Creates the layers between `faces`, which begin at 0 and increase.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if they do not, or are more than 512.
+    /// [`crate::Error::OutOfRange`] if they do not, or if there are more than 512 layers.
     pub fn between(faces: &[Metre]) -> Result<Self> {
         let count = faces.len().saturating_sub(1);
         check("layers", count as f64, (1..=MAX_LAYERS).contains(&count), "1 … 512 layers")?;
@@ -66,7 +66,7 @@ impl Layers {
         self.faces.len() - 1
     }
 
-    /// Depths of the faces between them, from 0 on: one more than layers.
+    /// Depths of their faces, from 0; one more than layers.
     pub fn faces(&self) -> &[Metre] {
         &self.faces
     }

@@ -1,7 +1,7 @@
-//! Elasto-plastic bodies: plastic strain in the volume under a contact, and what it leaves there and on the surface.
+//! Elasto-plastic bodies: plastic strain in the volume under a contact, its residual stress and surface displacement.
 //!
-//! A body is a half-space with [`Layers`] under its surface that may take plastic strain ε, uniform in each cell of each layer.
-//! It moves with the material, keeps its volume and is zero outside the grid.
+//! A body is a half-space with [`Layers`] under its surface that may take plastic strain ε, uniform in each cell of each
+//! layer. The strain moves with the material, preserves volume and is zero outside the grid.
 //!
 //! ```text
 //! σ = S p + K ε                        stress in the layers
@@ -9,8 +9,8 @@
 //! g = h − δ + C p + r₁ + r₂ ≥ 0        the gap between two such bodies
 //! ```
 //!
-//! [`Volume`] has these operators, a [`FlowLaw`] says how ε grows. Jacq, Nélias, Lormand and Girodin, J. Tribol. 124, 653 (2002);
-//! for the operators see [`Volume`].
+//! [`Volume`] implements these operators, and a [`FlowLaw`] determines the growth of ε. Jacq, Nélias, Lormand and Girodin,
+//! J. Tribol. 124, 653 (2002); for the operators see [`Volume`].
 //!
 //! ```
 //! use asperity::material::Material;
@@ -62,7 +62,7 @@ pub use volume::Volume;
 /// Components of a symmetric tensor, in the order of [`crate::stress::Component::ALL`].
 const COMPONENTS: usize = 6;
 
-/// A symmetric tensor in each cell of each layer: `[layer, component, ix, iy]`, components in the order of
+/// A symmetric tensor in each cell of each layer: `[layer, component, ix, iy]`, with the components in the order of
 /// [`crate::stress::Component::ALL`].
 pub type TensorField = ndarray::Array4<f64>;
 

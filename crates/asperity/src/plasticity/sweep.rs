@@ -1,14 +1,15 @@
-//! The residual stress of plastic strain in layers, wave by wave, by one sweep up and one down.
+//! Residual stress of plastic strain in layers, wave by wave, by an upward and a downward layer recursion.
 //!
-//! In the frame of a wave vector q (1 along it, 2 across, 3 = z) the stress at z of an eigenstress τ = 2με, traceless, that
-//! is spread over all depths z′ of an endless body is made of the sums
+//! Consider the frame of a wave vector q (1 along it, 2 across, 3 = z) and a traceless eigenstress τ = 2με, distributed
+//! over all depths z′ of an infinite body. Its stress at z consists of the sums
 //!
 //! ```text
 //! e0 = (q/4) ∫ e^−ζ τ dz′     e1 = (q/4) ∫ ζ e^−ζ τ dz′     ζ = q|z − z′|
 //! o0, o1: the same with the sign of z − z′
 //! ```
 //!
-//! With k = ν/(1 − ν), a = 1 + k, the difference d = τ11 − τ33, and i τ13, i τ23 in place of τ13, τ23, whereby all is real:
+//! With k = ν/(1 − ν), a = 1 + k, the difference d = τ11 − τ33, and i τ13, i τ23 in place of τ13, τ23 so that everything is
+//! real:
 //!
 //! ```text
 //! σ11 = (k + 3) e0[11] − (3k + 1) e0[33] − a e1[d] + 4a o0[13] − 2a o1[13] + k τ33 − τ11
@@ -18,11 +19,12 @@
 //! σ12 = 2 e0[12] + 2 o0[23] − τ12       σ23 = −2 o0[12] − 2 e0[23]
 //! ```
 //!
-//! To it are added that of the mirror image (τ13, τ23 reversed, ζ = q(z + z′), no local term), and that under the pressure
-//! which frees the surface. Chiu, J. Appl. Mech. 44, 587 (1977); 45, 302 (1978).
+//! Two terms are added: the stress of the mirror image (τ13, τ23 reversed, ζ = q(z + z′), no local term), and the stress
+//! under the pressure that makes the surface traction-free. Chiu, J. Appl. Mech. 44, 587 (1977); 45, 302 (1978).
 //!
-//! The strain is uniform in each layer, and the stress is its mean over each, so that the operator is symmetric. What a layer
-//! passes on decays by e^−X over one of thickness X/q: cost is linear in the number of layers, and nothing is stored.
+//! The strain is uniform in each layer, and the stress is its mean over each layer, so that the operator is symmetric. Sums
+//! passed through a layer of thickness X/q decay by e^−X. The cost is linear in the number of layers, and nothing is
+//! stored.
 
 use asperity_transforms::num_complex::Complex64;
 
@@ -35,27 +37,27 @@ use crate::units::{Metre, Pascal};
 /// Components of a symmetric tensor.
 const COMPONENTS: usize = 6;
 
-/// What residual stress depends on besides the strain.
+/// Parameters of the residual stress other than the strain.
 pub(super) struct Sweep {
     thickness: Vec<Metre>,
     /// 2μ.
     twice_shear: Pascal,
     poisson: f64,
-    /// Shape and pitch of the period.
+    /// Shape and pitch of one period.
     shape: [usize; 2],
     pitch: [Metre; 2],
 }
 
-/// What the sweeps of a wave leave behind.
+/// Scratch memory for the recursions of a wave.
 pub(super) struct SweepScratch {
     decay: Vec<Decay>,
     tau: Vec<[Lanes; 5]>,
-    /// What comes from below: e0 of 11, 33, 13, 12, 23, e1 of d and 13.
+    /// Sums from below: e0 of 11, 33, 13, 12, 23, e1 of d and 13.
     below: Vec<[Lanes; 7]>,
     stress: Vec<[Lanes; COMPONENTS]>,
 }
 
-/// How a wave decays over a layer of thickness X/q.
+/// Decay of a wave over a layer of thickness X/q.
 #[derive(Clone, Copy, Default)]
 struct Decay {
     /// e^−X.
@@ -64,14 +66,14 @@ struct Decay {
     thickness: f64,
     /// Means over the layer of e^−t and t e^−t, t from 0 to X.
     mean: [f64; 2],
-    /// What the layer gives to the sums: (q/4) ∫ of the same.
+    /// Contribution of the layer to the sums: (q/4) ∫ of the same.
     given: [f64; 2],
-    /// What it gives to its own: (q/4) times the mean of ∫ e^−ζ and ∫ ζ e^−ζ.
+    /// Contribution of the layer to itself: (q/4) times the mean of ∫ e^−ζ and ∫ ζ e^−ζ.
     own: [f64; 2],
 }
 
 impl Decay {
-    /// Absolute errors of some 1e-16: also of what vanishes with X.
+    /// Computes the decay with absolute errors of about 1e-16, also for terms that vanish with X.
     fn over(thickness: f64) -> Self {
         let lost = -(-thickness).exp_m1();
         let whole = 1.0 - lost;
@@ -87,7 +89,7 @@ impl Decay {
 }
 
 impl Sweep {
-    /// A body of these constants, whose surface repeats itself with the period of `shape` cells of `pitch`.
+    /// Creates a body with these constants, whose surface has a period of `shape` cells of `pitch`.
     pub(super) fn new(
         layers: &Layers,
         young: Pascal,
@@ -109,8 +111,8 @@ impl Sweep {
         }
     }
 
-    /// Of all waves at `ky`, puts the residual stress in place of the plastic strain: `columns` of [`Planes`], of each layer
-    /// the six components. Strain is traceless: its zz is not read.
+    /// Replaces plastic strain by residual stress, for all waves at `ky`: `columns` of [`Planes`], six components for each
+    /// layer. The strain is traceless, so that its zz is not read.
     pub(super) fn residual(
         &self,
         planes: &Planes,
@@ -129,7 +131,7 @@ impl Sweep {
                 continue;
             }
             scratch.stress.fill(Default::default());
-            // Half of what alternates from cell to cell runs either way.
+            // A wave that alternates from cell to cell runs half in each direction.
             match 2 * ky == ny {
                 true => {
                     self.wave([qx, qy], columns, stride, [kx, opposite], 0.5, scratch);
@@ -151,7 +153,7 @@ impl Sweep {
         }
     }
 
-    /// The mean strain: the body cannot widen.
+    /// Computes the response to the mean strain: the body cannot expand laterally.
     fn uniform(&self, columns: &mut [Complex64], stride: usize) {
         let plane = self.twice_shear / (1.0 - self.poisson);
         for columns in columns.chunks_exact_mut(COMPONENTS * stride) {
@@ -169,7 +171,7 @@ impl Sweep {
         }
     }
 
-    /// Adds the stress of the waves of (±q_x, q_y) ≠ 0, which stand at the bins `at`, times `share`, to that of the scratch.
+    /// Adds to the stress in the scratch, times `share`, the waves of (±q_x, q_y) ≠ 0 in the bins `at`.
     fn wave(
         &self,
         [qx, qy]: [f64; 2],
@@ -184,7 +186,7 @@ impl Sweep {
         let (cc, ss, cs) = (c * c, s * s, c * s);
         let SweepScratch { decay, tau, below, stress } = scratch;
 
-        // Up from the bottom.
+        // Upwards from the bottom.
         let zero = Lanes::default();
         let (mut b11, mut b33, mut b13, mut b12, mut b23, mut bd, mut b13_1) =
             (zero, zero, zero, zero, zero, zero, zero);
@@ -225,7 +227,7 @@ impl Sweep {
             b23 = whole * b23 + g0 * t23;
         }
 
-        // The mirror image and the pressure that frees the surface, per mean of e^−qz and of qz e^−qz.
+        // The mirror image and the pressure for a traction-free surface, per mean of e^−qz and of qz e^−qz.
         let k = self.poisson / (1.0 - self.poisson);
         let a = 1.0 + k;
         let bd_0 = b11 - b33;
@@ -245,7 +247,7 @@ impl Sweep {
             a * bd_0 - (2.0 * a) * b13 - p,
         ];
 
-        // Down from the surface.
+        // Downwards from the surface.
         let (mut a11, mut a33, mut a13, mut a12, mut a23, mut ad, mut a13_1) =
             (zero, zero, zero, zero, zero, zero, zero);
         let (mut top, mut top_depth) = (1.0, 0.0);

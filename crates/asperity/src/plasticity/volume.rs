@@ -1,4 +1,4 @@
-//! The volume under a surface that may flow, and what acts in it.
+//! The plastic volume under a surface, and its elastic operators.
 
 use std::sync::OnceLock;
 
@@ -18,22 +18,23 @@ use crate::operator::Boundary;
 use crate::subsurface::Tractions;
 use crate::units::Dimension;
 
-/// The elastic half-space under a grid, in layers that may take plastic strain: what stress tractions and plastic strain make
-/// in it, and what plastic strain does to its surface.
+/// The elastic half-space under a grid, in layers with plastic strain. It computes the stress of tractions and of plastic
+/// strain, and the displacement of the surface by plastic strain.
 ///
 /// ```text
 /// σ = S p + K ε      Volume::elastic, Volume::residual
 /// r = Sᵀ ε           Volume::displacement
 /// ```
 ///
-/// Plastic strain ε is traceless (εzz is never read, but taken as −εxx − εyy), uniform in each cell of each layer, tensor
-/// strain, zero outside the grid; stress is the mean over each layer, at the middle of each cell. Both are indexed
-/// `[layer, component, ix, iy]`, components in the order of [`crate::stress::Component::ALL`]. z points into the body. The
-/// upper body has its own frame, the mirror image: the same x and y, its own z, its shear tractions reversed.
+/// Plastic strain ε is traceless (εzz is never read, but computed as −εxx − εyy), uniform in each cell of each layer, a
+/// tensor strain, and zero outside the grid. Stress is the mean over each layer, at the centre of each cell. Both are
+/// indexed `[layer, component, ix, iy]`, with the components in the order of [`crate::stress::Component::ALL`]. z points
+/// into the body. The frame of the upper body is the mirror image: the same x and y, its own z, and its shear tractions
+/// reversed.
 ///
 /// - [`Boundary::PERIODIC`]: exact for the harmonics of the grid.
-/// - [`Boundary::FREE`]: S and Sᵀ from the closed form of the cell, at two depths a layer; K from a period of twice the size,
-///   of which the images are taken off: to less than 10⁻³ of the largest residual stress.
+/// - [`Boundary::FREE`]: S and Sᵀ from the closed form of the cell, at two depths per layer; K from a period of twice the
+///   size, corrected for its images. The error is below 10⁻³ of the largest residual stress.
 pub struct Volume {
     grid: Grid,
     layers: Layers,
@@ -43,18 +44,18 @@ pub struct Volume {
     influence: [OnceLock<Influence>; 3],
     waves: Waves,
     images: Option<Images>,
-    /// Whether the strain that was last taken up is not zero throughout.
+    /// Whether the stored strain is not zero throughout.
     strained: bool,
     /// Columns of a field on the surface.
     surface: Vec<Complex64>,
 }
 
 impl Volume {
-    /// The volume under `grid` of a body of the elastic constants of `material`; its hardness does not count.
+    /// Creates the volume under `grid` of a body with the elastic constants of `material`; its hardness is ignored.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a rigid body, [`Error::Unsupported`] for a coated one, or a boundary that is periodic along
-    /// one axis alone.
+    /// [`Error::Unsupported`] for a coated body, or for a boundary that is periodic along one axis alone,
+    /// [`Error::OutOfRange`] for a rigid body.
     pub fn new(grid: Grid, layers: Layers, boundary: Boundary, material: &Material) -> Result<Self> {
         if boundary.repeats(0) != boundary.repeats(1) {
             return Err(Error::Unsupported(
@@ -102,7 +103,7 @@ impl Volume {
         &self.layers
     }
 
-    /// What lies beyond the edges of the grid.
+    /// Continuation of the surface beyond the edges of the grid.
     pub fn boundary(&self) -> Boundary {
         self.boundary
     }
@@ -112,15 +113,15 @@ impl Volume {
         &self.material
     }
 
-    /// A tensor field of zeros.
+    /// Creates a tensor field of zeros.
     pub fn zeros(&self) -> TensorField {
         TensorField::zeros([self.layers.count(), COMPONENTS, self.grid.shape[0], self.grid.shape[1]])
     }
 
-    /// ∫ a : b over the volume: with stress and strain an energy, J.
+    /// Computes ∫ a : b over the volume; with stress and strain it is an energy, J.
     ///
     /// # Panics
-    /// If a field has another shape.
+    /// If the shape of a field differs.
     pub fn inner_product(&self, a: &TensorField, b: &TensorField) -> f64 {
         assert!(a.dim() == b.dim() && a.dim() == self.zeros_dim(), "shape of the fields");
         let layers = a.outer_iter().zip(b.outer_iter()).enumerate();
@@ -136,10 +137,10 @@ impl Volume {
         self.grid.cell_area() * sum
     }
 
-    /// S: the elastic stress under `tractions`, Pa.
+    /// Applies S: returns the elastic stress under `tractions`, Pa.
     ///
     /// # Panics
-    /// If a traction is not on the grid.
+    /// If the grid of a traction differs.
     pub fn elastic(&mut self, tractions: &Tractions) -> TensorField {
         let mut stress = self.zeros();
         self.strained = false;
@@ -147,20 +148,20 @@ impl Volume {
         stress
     }
 
-    /// Sᵀ: the displacement of the surface along `traction` (inward along the pressure, along +x and +y along the shears) by
-    /// plastic strain, m. With the mean of the period under a periodic boundary.
+    /// Applies Sᵀ: returns the displacement of the surface along `traction` by plastic strain, m, inward for the pressure,
+    /// along +x and +y for the shears. Under a periodic boundary it includes the mean over the period.
     ///
     /// # Panics
-    /// If the strain has another shape than [`Volume::zeros`].
+    /// If the shape of the strain differs from that of [`Volume::zeros`].
     pub fn displacement(&mut self, strain: &TensorField, traction: Traction) -> Field {
         self.take(strain);
         self.surface(traction)
     }
 
-    /// K: the residual stress of plastic strain, Pa.
+    /// Applies K: returns the residual stress of plastic strain, Pa.
     ///
     /// # Panics
-    /// If the strain has another shape than [`Volume::zeros`].
+    /// If the shape of the strain differs from that of [`Volume::zeros`].
     pub fn residual(&mut self, strain: &TensorField) -> TensorField {
         self.take(strain);
         let mut stress = self.zeros();
@@ -168,7 +169,7 @@ impl Volume {
         stress
     }
 
-    /// Takes up a plastic strain, for [`Volume::surface`] and then, once, [`Volume::stress`].
+    /// Stores a plastic strain for [`Volume::surface`] and then, once, [`Volume::stress`].
     pub(super) fn take(&mut self, strain: &TensorField) {
         assert_eq!(strain.dim(), self.zeros_dim(), "shape of the strain");
         self.strained = self.waves.take(strain.as_slice().expect("standard layout"));
@@ -177,12 +178,12 @@ impl Volume {
         }
     }
 
-    /// Forgets the strain: the body is elastic.
+    /// Resets the stored strain to zero: the body is elastic.
     pub(super) fn forget(&mut self) {
         self.strained = false;
     }
 
-    /// The displacement of the surface along `traction` by the strain that was taken up.
+    /// Computes the displacement of the surface along `traction` by the stored strain.
     pub(super) fn surface(&mut self, traction: Traction) -> Field {
         let mut displacement = self.grid.zeros();
         if !self.strained {
@@ -207,7 +208,7 @@ impl Volume {
         displacement
     }
 
-    /// The stress under `tractions` and the strain that was taken up.
+    /// Computes the stress under `tractions` and the stored strain.
     pub(super) fn stress(&mut self, tractions: Option<&Tractions>, stress: &mut TensorField) {
         let present: Vec<(Traction, &Field)> = tractions.map(|t| t.present().collect()).unwrap_or_default();
         present.iter().for_each(|(traction, _)| self.make_influence(*traction));

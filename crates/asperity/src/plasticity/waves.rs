@@ -1,4 +1,4 @@
-//! Plastic strain in Fourier space, and the residual stress that comes back from there.
+//! Plastic strain in Fourier space, and the residual stress transformed back.
 
 use asperity_transforms::num_complex::Complex64;
 
@@ -9,21 +9,21 @@ use crate::math::parallel::{self, Pool};
 use crate::math::{Planes, together};
 use crate::units::Pascal;
 
-/// The components of which plastic strain is known; zz follows, since it keeps its volume.
+/// Independent components of plastic strain; zz follows from volume preservation.
 pub(super) const INDEPENDENT: [usize; 5] = [0, 1, 3, 4, 5];
 
-/// The waves of a volume whose surface repeats itself, and of a smaller one that is continued by zeros.
+/// Waves of a volume with a periodic surface; a smaller volume is padded with zeros.
 pub(super) struct Waves {
     pub(super) planes: Planes,
     sweep: Sweep,
     layers: usize,
     /// Transforms of the rows of the independent components, layer by layer.
     rows: Vec<Complex64>,
-    /// Columns of all components, layer by layer: of the strain, then of the stress.
+    /// Columns of all components, layer by layer: first of the strain, then of the stress.
     pub(super) columns: Vec<Complex64>,
 }
 
-/// Scratch of a thread.
+/// Scratch memory of a thread.
 pub(super) struct WavesScratch {
     pub(super) fft: Vec<Complex64>,
     /// A column.
@@ -32,7 +32,7 @@ pub(super) struct WavesScratch {
 }
 
 impl Waves {
-    /// The waves of a body on `grid`, of a surface that repeats itself after so many cells as `period` says.
+    /// Creates the waves of a body on `grid`, with a surface of the `period` in cells.
     pub(super) fn new(grid: &Grid, period: [usize; 2], layers: &Layers, young: Pascal, poisson: f64) -> Self {
         let planes = Planes::new(period, grid.shape);
         let sweep = Sweep::new(layers, young, poisson, period, grid.pitch);
@@ -42,12 +42,12 @@ impl Waves {
         Self { planes, sweep, layers, rows, columns }
     }
 
-    /// Numbers at one frequency along y.
+    /// Number of values at one frequency along y.
     pub(super) fn at_frequency(&self) -> usize {
         COMPONENTS * self.layers * self.planes.stride()
     }
 
-    /// Takes up a plastic strain, `[layer, component, ix, iy]`. Whether there is any.
+    /// Stores a plastic strain, `[layer, component, ix, iy]`. Returns whether it is nonzero.
     pub(super) fn take(&mut self, strain: &[f64]) -> bool {
         let cells = self.planes.cells();
         let planes: Vec<&[f64]> = strain.chunks_exact(cells[0] * cells[1]).collect();
@@ -82,8 +82,8 @@ impl Waves {
         true
     }
 
-    /// Puts the residual stress in place of the strain that was taken up, if there was `any`, lets `change` add to the columns
-    /// of each frequency along y, and transforms it back into `stress`.
+    /// Replaces the stored strain by its residual stress if `any` is set, lets `change` add to the columns of each
+    /// frequency along y, and transforms the sum back into `stress`.
     pub(super) fn back(
         &mut self,
         any: bool,

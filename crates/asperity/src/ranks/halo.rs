@@ -1,4 +1,4 @@
-//! Rows of the neighbours.
+//! Halo rows: copies of the rows of neighbouring ranks.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -7,29 +7,29 @@ use std::sync::Arc;
 use super::{Ranks, Slab};
 use crate::ranks::Number;
 
-/// The rows of a rank and some more on either side, as far as the grid goes.
+/// The rows of a rank and further rows on either side, within the grid.
 pub(crate) struct Halo {
     ranks: Arc<dyn Ranks>,
-    /// The rows of this rank, counted from the first with those on either side.
+    /// The rows of this rank, relative to the first row of the halo.
     own: Range<usize>,
-    /// Number of rows with those on either side.
+    /// Number of rows, halo included.
     rows: usize,
     columns: usize,
-    /// The own rows that each rank wants, counted as `own` is.
+    /// The own rows that each rank requires, in the numbering of `own`.
     wanted: Vec<Range<usize>>,
     sent_counts: Vec<usize>,
     received_counts: Vec<usize>,
 }
 
 impl Slab {
-    /// The rows of this rank with `reach` more on either side.
+    /// Creates the halo of this rank's rows with `reach` more on either side.
     pub(crate) fn halo(&self, reach: usize) -> Halo {
         Halo::new(self, reach)
     }
 }
 
 impl Halo {
-    /// The rows of a `slab` with `reach` more on either side.
+    /// Creates the halo of the rows of a `slab` with `reach` more on either side.
     fn new(slab: &Slab, reach: usize) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
         let (rank, parts) = (slab.ranks().rank(), slab.parts());
@@ -60,17 +60,17 @@ impl Halo {
         }
     }
 
-    /// Number of rows and columns, with those on either side.
+    /// Number of rows and columns, halo included.
     pub(crate) fn shape(&self) -> [usize; 2] {
         [self.rows, self.columns]
     }
 
-    /// The cells of this rank among those of all these rows.
+    /// The cells of this rank among those of the halo.
     pub(crate) fn own(&self) -> Range<usize> {
         self.own.start * self.columns..self.own.end * self.columns
     }
 
-    /// The `values` of this rank's rows with those of the neighbours on either side.
+    /// Returns the `values` of this rank's rows together with those of the neighbours on either side.
     pub(crate) fn around<'a, T: Number>(&self, values: &'a [T]) -> Cow<'a, [T]> {
         if self.ranks.count() == 1 {
             return Cow::Borrowed(values);
@@ -81,12 +81,12 @@ impl Halo {
         Cow::Owned(all)
     }
 
-    /// The own rows, counted from the first of all these.
+    /// The own rows, relative to the first row of the halo.
     pub(crate) fn own_rows(&self) -> Range<usize> {
         self.own.clone()
     }
 
-    /// Fills the rows on either side with those of the neighbours; `values` has the shape of these rows.
+    /// Fills the rows on either side with those of the neighbours; `values` has the shape of the halo.
     pub(crate) fn fill<T: Number>(&self, values: &mut [T]) {
         if self.ranks.count() == 1 {
             return;

@@ -1,11 +1,11 @@
-//! What is merged over bands of rows, blocks and ranks.
+//! Merging of results over bands of rows, blocks and ranks.
 
-/// What several parts of a grid come to, merged of what each does.
+/// A result for several parts of a grid, merged from those of each part.
 pub(crate) trait Merged: Sized {
-    /// Two parts together.
+    /// Merges two parts.
     fn and(self, other: Self) -> Self;
 
-    /// All parts together, merged in their order.
+    /// Merges all parts in order.
     ///
     /// # Panics
     /// If there is none.
@@ -13,14 +13,14 @@ pub(crate) trait Merged: Sized {
         parts.into_iter().reduce(Self::and).expect("a part")
     }
 
-    /// What it consists of, always as many numbers.
+    /// Returns its numbers; their count is constant.
     fn numbers(&self) -> Vec<f64>;
 
-    /// What consists of these numbers.
+    /// Creates it from its numbers.
     fn of_numbers(numbers: &[f64]) -> Self;
 }
 
-/// Sums.
+/// Sums of the numbers.
 impl<const N: usize> Merged for [f64; N] {
     fn and(self, other: Self) -> Self {
         std::array::from_fn(|n| self[n] + other[n])
@@ -35,7 +35,7 @@ impl<const N: usize> Merged for [f64; N] {
     }
 }
 
-/// Whether it is so in any part.
+/// Logical or: whether it is true in any part.
 impl Merged for bool {
     fn and(self, other: Self) -> Self {
         self || other

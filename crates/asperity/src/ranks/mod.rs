@@ -1,6 +1,6 @@
-//! Ranks: processes that hold one grid together, each a slab of its rows.
+//! Ranks: processes that share one grid, each with a slab of its rows.
 //!
-//! The library knows no way to start them and none to talk between them: who has one gives it as [`Ranks`].
+//! The library neither starts them nor implements communication between them. The caller supplies both as [`Ranks`].
 
 mod halo;
 mod merged;
@@ -14,25 +14,26 @@ pub(crate) use merged::{Largest, Merged};
 pub(crate) use parts::Parts;
 pub use slab::Slab;
 
-/// Processes, numbered from 0, that work on one grid together, as one of them sees them.
+/// Processes, numbered from 0, that work on one grid together, from the view of one of them.
 ///
-/// All of them call the same methods in the same order, and each call returns once it has what it waits for. A rank that fails
-/// must end the others, too: they would wait for it.
+/// All ranks call the same methods in the same order, and each call returns once its data have arrived. If a rank fails,
+/// the caller must end the others, too, because they wait for it.
 pub trait Ranks: Send + Sync {
-    /// The number of this rank.
+    /// Number of this rank.
     fn rank(&self) -> usize;
 
-    /// The number of all ranks, at least 1.
+    /// Number of ranks, at least 1.
     fn count(&self) -> usize;
 
-    /// The numbers that each rank gives, one after another in the order of the ranks, given to all. Rank r gives `counts[r]`.
+    /// Gathers the numbers of all ranks, in rank order, and returns them on every rank. Rank r contributes `counts[r]`
+    /// numbers.
     fn gather(&self, numbers: &[f64], counts: &[usize]) -> Vec<f64>;
 
-    /// Gives each rank its part of `sent`, `sent_counts[r]` numbers for rank r, and takes as many from it as
-    /// `received_counts[r]` says; both lie one after another in the order of the ranks.
+    /// Sends each rank its part of `sent`, `sent_counts[r]` numbers for rank r, and receives `received_counts[r]` numbers
+    /// from it. Both are in rank order.
     fn exchange(&self, sent: &[f64], sent_counts: &[usize], received: &mut [f64], received_counts: &[usize]);
 
-    /// As [`Ranks::exchange`], in single precision.
+    /// [`Ranks::exchange`] in single precision.
     fn exchange_single(
         &self,
         sent: &[f32],
@@ -42,7 +43,7 @@ pub trait Ranks: Send + Sync {
     );
 }
 
-/// A process that works alone.
+/// A single process.
 struct Alone;
 
 impl Ranks for Alone {

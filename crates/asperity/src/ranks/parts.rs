@@ -1,27 +1,27 @@
-//! What each rank holds of some lines.
+//! Distribution of lines over ranks.
 
 use std::ops::Range;
 
-/// Lines of a grid, rows or columns, in consecutive parts: one for each rank.
+/// Lines of a grid, rows or columns, in consecutive parts, one for each rank.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Parts {
-    /// The first line of each part; last, the number of lines.
+    /// First line of each part, and finally the number of lines.
     first: Vec<usize>,
 }
 
 impl Parts {
-    /// So many `lines` in parts of as many for each rank as can be.
+    /// Divides `lines` lines as evenly as possible.
     pub(crate) fn even(lines: usize, ranks: usize) -> Self {
         Self::in_units(lines, 1, ranks)
     }
 
-    /// So many `lines` in parts that begin at multiples of `unit`, of as many for each rank as can be.
+    /// Divides `lines` lines as evenly as possible into parts that begin at multiples of `unit`.
     pub(super) fn in_units(lines: usize, unit: usize, ranks: usize) -> Self {
         let units = lines.div_ceil(unit);
         Self { first: (0..=ranks).map(|rank| (rank * units / ranks * unit).min(lines)).collect() }
     }
 
-    /// The same parts of every second line, where each begins at an even one.
+    /// Returns the same parts for every second line; `None` if a part begins at an odd line.
     pub(super) fn halved(&self) -> Option<Self> {
         let (lines, firsts) = self.first.split_last().expect("one more than ranks");
         let even = firsts.iter().all(|first| first.is_multiple_of(2));
@@ -30,12 +30,12 @@ impl Parts {
         })
     }
 
-    /// The lines of a rank.
+    /// Lines of a rank.
     pub(crate) fn of(&self, rank: usize) -> Range<usize> {
         self.first[rank]..self.first[rank + 1]
     }
 
-    /// The lines of each rank.
+    /// Iterates over the lines of each rank.
     pub(crate) fn all(&self) -> impl ExactSizeIterator<Item = Range<usize>> {
         self.first.windows(2).map(|ends| ends[0]..ends[1])
     }

@@ -1,4 +1,4 @@
-//! The rows of a grid that a rank holds.
+//! The rows of a grid on one rank.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,10 +8,10 @@ use super::{Alone, Merged, Parts, Ranks};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 
-/// The most cells of a coarse grid that each rank holds as a whole.
+/// Largest number of cells of a coarse grid that each rank stores in full.
 const MAX_WHOLE: usize = 1 << 16;
 
-/// A grid that is divided among ranks: each holds a slab of consecutive rows, those of one x.
+/// A grid distributed over ranks: each has a slab of consecutive rows, those of equal x.
 #[derive(Clone)]
 pub struct Slab {
     ranks: Arc<dyn Ranks>,
@@ -20,8 +20,8 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// The slab that this of the `ranks` holds of a `grid`: about as many rows as any other. Where there are enough, it begins at a
-    /// row that is one of the coarser grids, too.
+    /// Creates the slab of this one of the `ranks` on a `grid`, with nearly equal numbers of rows. If there are enough
+    /// rows, it begins at a row of the coarser grids, too.
     ///
     /// # Errors
     /// [`Error::TooManyRanks`].
@@ -40,7 +40,7 @@ impl Slab {
         Ok(Self { ranks, whole: grid, rows })
     }
 
-    /// A grid that one process holds alone.
+    /// Creates the slab of a single process with the whole grid.
     pub fn whole(grid: Grid) -> Self {
         Self { ranks: Arc::new(Alone), whole: grid, rows: Parts::even(grid.shape[0], 1) }
     }
@@ -71,13 +71,13 @@ impl Slab {
         &self.rows
     }
 
-    /// Whether one process holds all rows.
+    /// Whether one process has all rows.
     pub(crate) fn is_whole(&self) -> bool {
         self.ranks.count() == 1
     }
 
-    /// The slab of a `grid` of half as many rows that stand for those of this one: the whole grid where it is small, or the
-    /// rows of a rank are not those of its coarse ones.
+    /// Returns the slab of a coarse `grid` with half as many rows. It is the whole grid if that is small, or if the rows of
+    /// a rank do not match its coarse ones.
     pub(crate) fn coarse(&self, grid: Grid) -> Self {
         match self.rows.halved() {
             Some(rows) if !self.is_whole() && grid.cells() > MAX_WHOLE => {
@@ -87,7 +87,7 @@ impl Slab {
         }
     }
 
-    /// What the parts of all ranks come to, merged in the order of the ranks: the same on each of them.
+    /// Merges the parts of all ranks in rank order; the result is the same on each of them.
     pub(crate) fn merged<M: Merged>(&self, part: M) -> M {
         if self.is_whole() {
             return part;
@@ -97,10 +97,10 @@ impl Slab {
         M::of_parts(gathered.chunks_exact(numbers.len()).map(M::of_numbers))
     }
 
-    /// The whole of a field of which each rank has its rows.
+    /// Collects the whole field from the rows of all ranks.
     ///
     /// # Panics
-    /// If the field has another shape than the grid of this rank.
+    /// If the shape of the field differs from that of the grid of this rank.
     pub fn collected(&self, field: &Field) -> Field {
         let [rows, columns] = self.whole.shape;
         assert_eq!(field.dim(), (self.rows().len(), columns), "shape of the field");

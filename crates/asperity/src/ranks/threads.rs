@@ -1,11 +1,11 @@
-//! Ranks that are threads of one process.
+//! Ranks as threads of one process.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 
 use super::{Number, Ranks};
 
-/// What a `task` returns on each of so many ranks, in their order.
+/// Runs a `task` on each of `count` ranks; returns its results in rank order.
 pub(crate) fn on_ranks<R: Send>(count: usize, task: impl Fn(Arc<dyn Ranks>) -> R + Sync) -> Vec<R> {
     let mut ends: Vec<Vec<_>> = (0..count).map(|_| (0..count).map(|_| None).collect()).collect();
     let mut senders: Vec<Vec<_>> = (0..count).map(|_| Vec::new()).collect();
@@ -28,7 +28,7 @@ pub(crate) fn on_ranks<R: Send>(count: usize, task: impl Fn(Arc<dyn Ranks>) -> R
     })
 }
 
-/// One of the ranks: an end of a channel to each, and from each. Single precision travels as double, which loses nothing.
+/// One of the ranks: a channel to and from each rank. Single-precision numbers are sent as double, without loss.
 struct Thread {
     rank: usize,
     to: Vec<Mutex<Sender<Vec<f64>>>>,

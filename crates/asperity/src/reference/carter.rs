@@ -3,18 +3,18 @@
 use crate::reference::HertzLine;
 use crate::units::{Metre, Pascal};
 
-/// Tractive rolling, in the steady state, of elastically identical parallel cylinders in plane strain.
+/// Steady tractive rolling of elastically identical parallel cylinders in plane strain.
 ///
-/// The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. With P′ and Q′
-/// the normal and the tangential load per length:
+/// The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. With the normal and
+/// the tangential load per length, P′ and Q′:
 ///
 /// ```text
 /// c = a √(1 − Q′/μP′),  d = a − c                                half width and centre of the stick
 /// q = μ p₀ [√(1 − x²/a²) − (c/a) √(1 − (x − d)²/c²)₊]            shear traction, along Q′
 /// ξ = μ d/R                                                      creepage
 /// ```
-/// Against the other body, the one on which Q′ acts along x moves along −x, at ξ times the speed of rolling.
-/// Carter, Proc. R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
+/// Relative to the other body, the one on which Q′ acts along x moves along −x, at ξ times the rolling speed. Carter, Proc.
+/// R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carter {
     /// The normal contact.
@@ -26,25 +26,25 @@ pub struct Carter {
 }
 
 impl Carter {
-    /// The contact at creepage ξ ≥ 0: Q′ = μP′ [1 − (1 − ξR/μa)₊²]. All slips from ξ = μa/R on.
+    /// Creates the contact at creepage ξ ≥ 0: Q′ = μP′ [1 − (1 − ξR/μa)₊²]. The whole contact slips from ξ = μa/R on.
     pub fn from_creepage(normal: HertzLine, friction: f64, creepage: f64) -> Self {
         let stick = (1.0 - creepage * normal.radius / (friction * normal.half_width())).max(0.0);
         let load = friction * normal.load_per_length * (1.0 - stick) * (1.0 + stick);
         Self { normal, friction, tangential_load_per_length: load }
     }
 
-    /// Half width c of the stick.
+    /// Half width c of the stick zone.
     pub fn stick_half_width(&self) -> Metre {
         let reserve = 1.0 - self.tangential_load_per_length / (self.friction * self.normal.load_per_length);
         self.normal.half_width() * reserve.sqrt()
     }
 
-    /// Centre d = a − c of the stick, which reaches from a − 2c to the leading edge a.
+    /// Centre d = a − c of the stick zone, which extends from a − 2c to the leading edge a.
     pub fn stick_centre(&self) -> Metre {
         self.normal.half_width() - self.stick_half_width()
     }
 
-    /// Creepage ξ: difference of the circumferential speeds over the speed of rolling, at most μa/R.
+    /// Creepage ξ: difference of the circumferential speeds over the rolling speed, at most μa/R.
     pub fn creepage(&self) -> f64 {
         self.friction * self.stick_centre() / self.normal.radius
     }
@@ -52,7 +52,7 @@ impl Carter {
     /// Shear traction q at `x`, in the direction of Q′; 0 outside the contact.
     pub fn shear(&self, x: Metre) -> Pascal {
         let (a, c) = (self.normal.half_width(), self.stick_half_width());
-        // A cylinder's pressure of half width c is (c/a) √(1 − x²/c²) p₀.
+        // The pressure of a cylinder with half width c is (c/a) √(1 − x²/c²) p₀.
         let stick =
             HertzLine { load_per_length: self.normal.load_per_length * (c / a).powi(2), ..self.normal };
         self.friction * (self.normal.pressure(x) - stick.pressure(x - self.stick_centre()))
@@ -72,7 +72,7 @@ mod tests {
         Carter { normal: LINE, friction: 0.3, tangential_load_per_length: share * 0.3 * LINE.load_per_length }
     }
 
-    /// ∫ f over the contact, whose square roots lie at the edges of the contact and of the stick.
+    /// ∫ f over the contact, with square roots at the edges of the contact and of the stick zone.
     fn over_contact(contact: &Carter, f: impl Fn(f64) -> f64) -> f64 {
         let a = contact.normal.half_width();
         let edge = a - 2.0 * contact.stick_half_width();
@@ -83,7 +83,7 @@ mod tests {
         piece(-a, edge) + piece(edge, a)
     }
 
-    /// du/dx = −(2/πE*) ∫ q(s)/(x − s) ds, made regular by q(x), which is Flamant's for a half-plane.
+    /// du/dx = −(2/πE*) ∫ q(s)/(x − s) ds, regularised with q(x): Flamant's solution for a half-plane.
     fn strain(contact: &Carter, x: f64) -> f64 {
         let (a, here) = (contact.normal.half_width(), contact.shear(x));
         let regular = over_contact(contact, |s| (contact.shear(s) - here) / (x - s));
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn what_slips_moves_against_the_shear() {
-        // Rolling along x at speed V carries the surface along −x: slip/V = −ξ − du/dx.
+        // Rolling along x at speed V transports the surface along −x: slip/V = −ξ − du/dx.
         let contact = driven(0.6);
         let (a, c) = (contact.normal.half_width(), contact.stick_half_width());
         let mut last = 0.0;
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_small_creepage_meets_the_stiffness_of_full_stick() {
-        // Q′ = (π/2) a E* ξ: Johnson (1985), section 8.3, does not know μ.
+        // Q′ = (π/2) a E* ξ, Johnson (1985), section 8.3, without μ.
         for creepage in [1e-3, 1e-5] {
             let contact = Carter::from_creepage(LINE, 0.3, creepage);
             let stiffness = contact.tangential_load_per_length / creepage;

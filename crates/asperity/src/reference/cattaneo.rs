@@ -1,18 +1,18 @@
-//! Cattaneo and Mindlin: a Hertzian contact that is pushed sideways.
+//! Cattaneo and Mindlin: a Hertzian contact under a tangential load.
 
 use crate::material::Material;
 use crate::reference::HertzSphere;
 use crate::units::{Joule, Metre, Newton, Pascal};
 
-/// Partial slip of a sphere under a constant normal load and a tangential one that has grown from 0.
+/// Partial slip of a sphere under a constant normal load and a tangential load that has increased from 0.
 ///
 /// ```text
 /// c = a (1 − Q/μW)^{1/3}                                      stick radius
 /// q = μ p₀ [√(1 − r²/a²) − (c/a) √(1 − r²/c²)₊]               shear traction, along Q
 /// δₜ = (3μW/4aGₜ) [1 − (1 − Q/μW)^{2/3}]                      tangential displacement of the bodies
 /// ```
-/// Exact for identical materials but for the slip's direction, which it takes along Q.
-/// Cattaneo (1938); Mindlin, J. Appl. Mech. 16, 259 (1949); Johnson (1985), eqs. 7.39–7.42.
+/// Exact for identical materials, except for the direction of slip, which is assumed along Q. Cattaneo (1938); Mindlin, J.
+/// Appl. Mech. 16, 259 (1949); Johnson (1985), eqs. 7.39–7.42.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CattaneoMindlin {
     /// The normal contact.
@@ -26,12 +26,12 @@ pub struct CattaneoMindlin {
 }
 
 impl CattaneoMindlin {
-    /// 1 − Q/μW, from 1 (all sticks) to 0 (all slips).
+    /// 1 − Q/μW, from 1 (full stick) to 0 (full slip).
     fn reserve(&self) -> f64 {
         1.0 - self.tangential_load / (self.friction * self.normal.load)
     }
 
-    /// Radius c of the circle that sticks.
+    /// Radius c of the stick circle.
     pub fn stick_radius(&self) -> Metre {
         self.normal.contact_radius() * self.reserve().cbrt()
     }
@@ -42,14 +42,14 @@ impl CattaneoMindlin {
         self.friction * (self.normal.pressure(r) - stick.pressure(r))
     }
 
-    /// Tangential displacement δₜ of the bodies against each other.
+    /// Relative tangential displacement δₜ of the bodies.
     pub fn displacement(&self) -> Metre {
         let full_slip = 0.75 * self.friction * self.normal.load
             / (self.normal.contact_radius() * self.tangential_modulus);
         full_slip * (1.0 - self.reserve().cbrt().powi(2))
     }
 
-    /// Energy that friction takes in a closed cycle of the tangential load between Q and −Q.
+    /// Frictional energy of a closed cycle of the tangential load between Q and −Q.
     ///
     /// (18μ²W²/5aGₜ) {1 − s⁵ − ⅚ (Q/μW)(1 + s²)},  s = c/a;  Q³/9aGₜμW for small Q, where about 3 log₁₀(μW/Q)
     /// digits are lost. Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4.
@@ -61,34 +61,34 @@ impl CattaneoMindlin {
     }
 }
 
-/// The push is taken back: partial slip under a tangential load that has grown to Q* and come down to Q.
+/// Unloading in partial slip: the tangential load has increased to Q* and decreased to Q.
 ///
-/// Twice the answer to half the change is taken off the answer at Q*, since slip has to start anew, backwards, against
-/// twice the friction:
+/// Twice the solution for half the change is subtracted from the solution at Q*, because slip starts anew in the opposite
+/// direction, against twice the friction:
 ///
 /// ```text
 /// c = a (1 − (Q* − Q)/2μW)^{1/3}                              radius of what has not slipped back
 /// q = q*(r) − 2 q(r; (Q* − Q)/2)                              shear traction: −μp for r > c
 /// δₜ = (3μW/4aGₜ) [2 (1 − (Q* − Q)/2μW)^{2/3} − (1 − Q*/μW)^{2/3} − 1]
 /// ```
-/// At Q = −Q* all is as after a first push to −Q*. The way up from there is this one with the signs of Q, q and δₜ
+/// At Q = −Q* the state is that after a first load to −Q*. Reloading is the same solution with the signs of Q, q and δₜ
 /// changed. Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MindlinDeresiewicz {
-    /// The contact where the tangential load turned, at Q*.
+    /// The contact at the reversal of the tangential load, at Q*.
     pub turn: CattaneoMindlin,
     /// Tangential load Q, −Q* ≤ Q ≤ Q*.
     pub tangential_load: Newton,
 }
 
 impl MindlinDeresiewicz {
-    /// The contact under half of what has been taken back.
+    /// The contact under half of the decrease of the load.
     fn half_back(&self) -> CattaneoMindlin {
         let tangential_load = 0.5 * (self.turn.tangential_load - self.tangential_load);
         CattaneoMindlin { tangential_load, ..self.turn }
     }
 
-    /// Radius c of the circle that has not slipped back.
+    /// Radius c of the circle without reverse slip.
     pub fn stick_radius(&self) -> Metre {
         self.half_back().stick_radius()
     }
@@ -98,14 +98,14 @@ impl MindlinDeresiewicz {
         self.turn.shear(r) - 2.0 * self.half_back().shear(r)
     }
 
-    /// Tangential displacement δₜ of the bodies against each other, positive along Q*.
+    /// Relative tangential displacement δₜ of the bodies, positive along Q*.
     pub fn displacement(&self) -> Metre {
         self.turn.displacement() - 2.0 * self.half_back().displacement()
     }
 }
 
-/// Composite tangential modulus: 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, so that the stiffness of a
-/// circle that sticks is 2aGₜ. Infinite if both bodies are rigid. Mindlin (1949).
+/// Composite tangential modulus: 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, so that the stiffness of a sticking
+/// circle is 2aGₜ. Infinite if both bodies are rigid. Mindlin (1949).
 pub fn tangential_modulus(lower: &Material, upper: &Material) -> Pascal {
     let compliance = |m: &Material| (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young);
     1.0 / (compliance(lower) + compliance(upper))
@@ -181,7 +181,7 @@ mod tests {
             let (a, c, inner) =
                 (back.turn.normal.contact_radius(), back.stick_radius(), back.turn.stick_radius());
             let slip = |r| back.turn.friction * back.turn.normal.pressure(r);
-            // Taken apart at the two radii where the shear has a kink: −μp, 2μp, −μp from the outside.
+            // Decomposed at the two radii where the shear has a kink: −μp, 2μp, −μp from the outside.
             let whole = axisymmetric_load(a, slip);
             let ring = axisymmetric_load(c, |r| back.half_back().shear(r) - slip(r));
             let core = axisymmetric_load(inner, |r| back.turn.shear(r) - slip(r));
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn the_cycle_costs_the_area_of_its_loop() {
         for share in [0.1, 0.8, 1.0] {
-            // Up is down with the signs changed, so the loop is ∫ [δ(Q) + δ(−Q)] dQ over −Q* … Q*.
+            // Reloading is unloading with the signs changed, so the loop is ∫ [δ(Q) + δ(−Q)] dQ over −Q* … Q*.
             let width =
                 |to: f64| taken_back(share, to).displacement() + taken_back(share, -to).displacement();
             let area = pushed(share).tangential_load * 2.0 * integrate(0.0, 1.0, width);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::units::{Metre, Pascal};
 
-/// Displacement at a corner of a rectangle of sides `pitch` under uniform `pressure`.
+/// Displacement at a corner of a rectangle with sides `pitch` under uniform `pressure`.
 ///
 /// πE* u = p [Δx asinh(Δy/Δx) + Δy asinh(Δx/Δy)]; 4a ln(1 + √2) p/πE* for a square of side 2a.
 /// Love, Phil. Trans. R. Soc. A 228, 377 (1929); Johnson (1985), eq. 3.25.
@@ -13,7 +13,7 @@ pub fn corner_displacement(pressure: Pascal, pitch: [Metre; 2], modulus: Pascal)
     pressure / (PI * modulus) * (dx * (dy / dx).asinh() + dy * (dx / dy).asinh())
 }
 
-/// Displacement at the centre of that rectangle: twice the corner's, by four quarters of half the size.
+/// Displacement at the centre of that rectangle: twice that at the corner, as four quarters of half the size.
 pub fn centre_displacement(pressure: Pascal, pitch: [Metre; 2], modulus: Pascal) -> Metre {
     2.0 * corner_displacement(pressure, pitch, modulus)
 }

@@ -7,7 +7,7 @@ use crate::units::{Joule, Metre, Newton, Pascal};
 /// Frictionless indentation by a blunt cone, h = r tan θ, θ the angle between its flank and the plane (90° less the
 /// semi-apical angle).
 ///
-/// δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The half-space theory wants tan θ ≪ 1.
+/// δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The half-space theory requires tan θ ≪ 1.
 /// Love (1939); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
@@ -20,7 +20,7 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// The cone at approach δ ≥ 0: W = 2E*δ²/(π tan θ).
+    /// Creates the cone at approach δ ≥ 0: W = 2E*δ²/(π tan θ).
     pub fn from_approach(slope: f64, modulus: Pascal, approach: Metre) -> Self {
         Self { slope, modulus, load: 2.0 * modulus * approach * approach / (PI * slope) }
     }

@@ -1,4 +1,4 @@
-//! Hamilton and Goodman: the stress under a sphere that slides.
+//! Hamilton and Goodman: stress under a sliding sphere.
 
 use asperity_transforms::num_complex::Complex64;
 
@@ -6,31 +6,31 @@ use crate::reference::HertzSphere;
 use crate::stress::Stress;
 use crate::units::Metre;
 
-/// A Hertzian contact in full slip: pressure p and shear traction q = μp, on a body whose depth z points into it.
+/// A Hertzian contact in full slip: pressure p and shear traction q = μp, with z pointing into the body.
 ///
-/// The pressure is that of point loads on an imaginary line: the transform of a² − s² over −a … a is
-/// 4 (sin ka − ka cos ka)/k³, so that a harmonic function f of the point load becomes
+/// The pressure is that of point loads on an imaginary line, because the transform of a² − s² over −a … a is 4 (sin ka − ka
+/// cos ka)/k³. A harmonic function f of the point load therefore becomes
 ///
 /// ```text
 /// (πp₀/2a) ∫ (a² − s²) f(x, y, z + is) ds = (2πp₀/a) [Im g(x, y, z + ia) − a Re g_z(x, y, z + ia)],   g_zzz = f
 /// ```
 ///
-/// and the potentials of a point load, 1/R, ln(R + z) and z ln(R + z) − R, have elementary g. The explicit equations
-/// of Hamilton, Proc. Inst. Mech. Eng. 197C, 53 (1983), in complex form; exact for identical materials, or where
-/// the shear does not change the pressure. Far away, where the two terms cancel, about 3 log₁₀(r/a) digits are lost.
-/// Hamilton & Goodman, J. Appl. Mech. 33, 371 (1966); Johnson (1985), section 7.1.
+/// and the potentials of a point load, 1/R, ln(R + z) and z ln(R + z) − R, have elementary g. These are the explicit
+/// equations of Hamilton, Proc. Inst. Mech. Eng. 197C, 53 (1983), in complex form. They are exact for identical materials,
+/// or if the shear does not change the pressure. At large distances, where the two terms cancel, about 3 log₁₀(r/a) digits
+/// are lost. Hamilton & Goodman, J. Appl. Mech. 33, 371 (1966); Johnson (1985), section 7.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingSphere {
     /// The normal contact.
     pub normal: HertzSphere,
-    /// q/p, positive where the traction acts along +x.
+    /// q/p, positive if the traction acts along +x.
     pub friction: f64,
     /// Poisson's ratio of the body.
     pub poisson: f64,
 }
 
 impl SlidingSphere {
-    /// Stress at `(x, y)` from the axis and at `depth` ≥ 0.
+    /// Stress at `(x, y)` relative to the axis and at `depth` ≥ 0.
     pub fn stress(&self, [x, y]: [Metre; 2], depth: Metre) -> Stress {
         let a = self.normal.contact_radius();
         let [x, y, z] = [x, y, depth].map(|length| length / a);
@@ -41,8 +41,8 @@ impl SlidingSphere {
     }
 }
 
-/// Derivatives of the potentials V, ψ and F of the pressure √(1 − r²) on r < 1, over 2π, by D = (1/r) d/dr: as
-/// V_x = x DV, V_xx = DV + x² D²V. Those with a pole at the rim only ever appear times z.
+/// Derivatives of the potentials V, ψ and F of the pressure √(1 − r²) on r < 1, over 2π, by D = (1/r) d/dr: V_x = x DV,
+/// V_xx = DV + x² D²V, and so on. Those with a pole at the edge only occur multiplied by z.
 struct Potentials {
     v_z: f64,
     d_v: f64,
@@ -62,7 +62,7 @@ impl Potentials {
         let w = r + zeta;
         let of = |g: Complex64, g_z: Complex64| g.im - g_z.re;
         let v_z = of(zeta * w.ln() - r, w.ln());
-        // D and D² of the integrals of ln(R + z) over z: one, two and three times.
+        // D and D² of the single, double and triple integrals of ln(R + z) over z.
         let d2_log = [
             -0.5 / (w * w),
             0.25 * (1.0 / w + r2 / (3.0 * w.powi(3))),
@@ -130,7 +130,7 @@ mod tests {
         SlidingSphere { normal, friction, poisson: 0.3 }
     }
 
-    /// Quadrature of the stresses of Boussinesq's and Cerruti's point loads by an independent program.
+    /// Quadrature of Boussinesq's and Cerruti's stresses of point loads by an independent program.
     #[test]
     fn it_is_the_sum_of_its_point_loads() {
         #[rustfmt::skip]

@@ -1,17 +1,17 @@
-//! Temperature of half-spaces whose surface is heated.
+//! Temperature of half-spaces with a heated surface.
 //!
-//! Temperatures are rises above that far away, fluxes positive into the body.
+//! Temperatures are relative to that far away. Fluxes are positive into the body.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
 use crate::units::{Kelvin, Metre, MetrePerSecond, Second, WattPerSquareMetre};
 
-/// A square of uniform flux under which a half-space passes along x, parallel to a side, in the steady state.
+/// A square of uniform flux on a half-space that moves along x, parallel to a side, in the steady state.
 ///
 /// ```text
 /// T = (q √D/λ) ∫ [erf((X + l)/s) − erf((X − l)/s)] [erf((y + l)/s) − erf((y − l)/s)]/4√(πt) dt,  X = x − Vt,  s = 2√(Dt)
 /// ```
-/// by the trapezoidal rule in ln t, whose error is round-off. Carslaw and Jaeger, *Conduction of Heat in Solids*, chapter X.
+/// by the trapezoidal rule in ln t, accurate to round-off. Carslaw and Jaeger, *Conduction of Heat in Solids*, chapter X.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquareSource {
     /// Half side l > 0.
@@ -32,11 +32,11 @@ impl SquareSource {
         0.5 * self.speed * self.half_side / self.diffusivity
     }
 
-    /// Temperature at a point of the surface, from the centre of the square.
+    /// Temperature at a point of the surface, relative to the centre of the square.
     pub fn temperature(&self, x: Metre, y: Metre) -> Kelvin {
         let [x, y] = [x, y].map(|at| at / self.half_side);
         let peclet = self.peclet();
-        // In lengths of l and times of l²/D, s = 2√t, X = x − 2 Pe t: what is added under d(ln √t).
+        // In units l of length and l²/D of time, s = 2√t, X = x − 2 Pe t: the contribution of d(ln √t).
         let added = |root: f64| {
             let between =
                 |at: f64| libm::erf((at + 1.0) / (2.0 * root)) - libm::erf((at - 1.0) / (2.0 * root));
@@ -47,10 +47,10 @@ impl SquareSource {
         self.flux * self.half_side / self.conductivity * 0.25 * FRAC_2_SQRT_PI * step * sum
     }
 
-    /// The largest temperature, on the line y = 0: in the middle at rest, behind it the faster the body is.
+    /// The largest temperature, on the line y = 0. It is in the middle at rest, and moves backwards with increasing speed.
     pub fn max_temperature(&self) -> Kelvin {
         let at = |x: f64| self.temperature(x * self.half_side, 0.0);
-        // The golden section of 0 … l, in which it has one maximum.
+        // Golden-section search over 0 … l, where there is one maximum.
         let ratio = 0.5 * (5f64.sqrt() - 1.0);
         let (mut lo, mut hi) = (0.0, 1.0);
         let inner = |lo: f64, hi: f64| [hi - ratio * (hi - lo), lo + ratio * (hi - lo)];
@@ -70,14 +70,14 @@ impl SquareSource {
         values[0].max(values[1]).max(at(0.0))
     }
 
-    /// The largest temperature by Tian and Kennedy's fit, 2ql/λ√(π(1.011 + Pe)), which is between 0.7 % above and 2.6 % below it.
-    /// J. Tribol. 116, 167 (1994).
+    /// The largest temperature by the fit of Tian and Kennedy, 2ql/λ√(π(1.011 + Pe)), between 0.7 % above and 2.6 % below
+    /// the exact one. J. Tribol. 116, 167 (1994).
     pub fn max_temperature_fit(&self) -> Kelvin {
         2.0 * self.flux * self.half_side / (self.conductivity * (PI * (1.011 + self.peclet())).sqrt())
     }
 }
 
-/// An endless band of uniform flux under which a half-space passes across, along x, in the steady state.
+/// An infinite band of uniform flux on a half-space that moves across it, along x, in the steady state.
 ///
 /// ```text
 /// T λ/qb = [F(Pe(ξ + 1)) − F(Pe(ξ − 1))]/π Pe,  F(u) = u e^u (K₀(|u|) + sgn(u) K₁(|u|)),  ξ = x/b
@@ -93,7 +93,7 @@ pub struct BandSource {
     pub conductivity: f64,
     /// Diffusivity D > 0, m²/s.
     pub diffusivity: f64,
-    /// Speed V > 0 of the body along x; at rest there is no steady state.
+    /// Speed V > 0 of the body along x; there is no steady state at rest.
     pub speed: MetrePerSecond,
 }
 
@@ -103,7 +103,7 @@ impl BandSource {
         0.5 * self.speed * self.half_width / self.diffusivity
     }
 
-    /// Temperature of the surface at `x` from the middle of the band.
+    /// Temperature of the surface at `x` relative to the middle of the band.
     pub fn temperature(&self, x: Metre) -> Kelvin {
         let (peclet, at) = (self.peclet(), x / self.half_width);
         let term = |u: f64| {
@@ -119,7 +119,7 @@ impl BandSource {
     }
 }
 
-/// Uniform flux over a disc on a half-space at rest, from a moment on.
+/// Uniform flux over a disc on a half-space at rest, starting at time 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeatedDisc {
     /// Radius a > 0.
@@ -133,7 +133,7 @@ pub struct HeatedDisc {
 }
 
 impl HeatedDisc {
-    /// Temperature of the centre after a `time` ≥ 0: 2q√(Dt)/λ [1/√π − ierfc(a/2√(Dt))], qa/λ in the end. Carslaw and Jaeger,
+    /// Temperature of the centre after a `time` ≥ 0: 2q√(Dt)/λ [1/√π − ierfc(a/2√(Dt))], finally qa/λ. Carslaw and Jaeger,
     /// *Conduction of Heat in Solids*, chapter X.
     pub fn centre(&self, time: Second) -> Kelvin {
         let length = 2.0 * (self.diffusivity * time).sqrt();
@@ -145,7 +145,7 @@ impl HeatedDisc {
     }
 }
 
-/// A flux as Hertz' pressure, q = (3q̄/2) √(1 − r²/a²), on a half-space at rest, in the steady state.
+/// A flux distributed like Hertz' pressure, q = (3q̄/2) √(1 − r²/a²), on a half-space at rest, in the steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzianFlux {
     /// Radius a > 0.
@@ -169,7 +169,7 @@ impl HertzianFlux {
     }
 }
 
-/// e^u K₀(u) and e^u K₁(u) for u > 0: ∫ e^(−u(cosh t − 1)) (1, cosh t) dt by the trapezoidal rule, whose error is round-off.
+/// e^u K₀(u) and e^u K₁(u) for u > 0: ∫ e^(−u(cosh t − 1)) (1, cosh t) dt by the trapezoidal rule, accurate to round-off.
 fn scaled_bessel(u: f64) -> [f64; 2] {
     let step = 0.2 / (1.0 + 0.1 * u).sqrt();
     let last = ((1.0 + 50.0 / u).acosh() / step).ceil() as usize;
@@ -218,7 +218,7 @@ mod tests {
             speed: 2.0 * peclet,
         };
         for (peclet, x) in [(1.0, 0.3), (3.0, -0.5), (0.2, 0.9)] {
-            // In s = x ± v³, for the logarithm at x.
+            // With s = x ± v³, because of the logarithm at x.
             let line = |u: f64| u.exp() * (-u.abs()).exp() * scaled_bessel(u.abs())[0];
             let part = |side: f64, length: f64| {
                 integrate(0.0, length.cbrt(), |v| 3.0 * v * v * line(-side * peclet * v.powi(3)))

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::units::{Joule, Metre, Newton, Pascal};
 
-/// Frictionless contact of two elastic spheres, or of a sphere and a plane, taken as paraboloids.
+/// Frictionless contact of two elastic spheres, or of a sphere and a plane, approximated by paraboloids.
 ///
 /// h = r²/2R,  a = (3WR/4E*)^{1/3},  δ = a²/R,  p = p₀ √(1 − r²/a²),  p₀ = 3W/2πa². Exact for the paraboloid;
 /// a sphere differs by O(a²/R²). Hertz (1882); Johnson (1985), eqs. 4.22–4.24.
@@ -19,7 +19,7 @@ pub struct HertzSphere {
 }
 
 impl HertzSphere {
-    /// The contact at approach δ ≥ 0: W = (4/3) E* R^{1/2} δ^{3/2}.
+    /// Creates the contact at approach δ ≥ 0: W = (4/3) E* R^{1/2} δ^{3/2}.
     pub fn from_approach(radius: Metre, modulus: Pascal, approach: Metre) -> Self {
         Self { radius, modulus, load: 4.0 / 3.0 * modulus * (radius * approach).sqrt() * approach }
     }
@@ -63,7 +63,7 @@ impl HertzSphere {
         0.4 * self.load * self.approach()
     }
 
-    /// Stresses σ_r = σ_θ and σ_z, positive in tension, on the axis at `depth` ≥ 0 in a body of Poisson's ratio
+    /// Stresses σ_r = σ_θ and σ_z, positive in tension, on the axis at `depth` ≥ 0 in a body with Poisson's ratio
     /// `poisson`.
     ///
     /// σ_z = −p₀/(1 + ζ²),  σ_r = −p₀ (1 + ν)(1 − ζ atan 1/ζ) + ½p₀/(1 + ζ²),  ζ = z/a. Johnson (1985), eq. 3.45.

@@ -1,11 +1,11 @@
-//! A cuboid of plastic strain in an endless body.
+//! A cuboid of plastic strain in an infinite body.
 
 use std::f64::consts::PI;
 
 use crate::stress::Stress;
 use crate::units::{Metre, Pascal};
 
-/// Stress of a uniform plastic strain in a cuboid, in an endless elastic body.
+/// Stress of a uniform plastic strain in a cuboid, in an infinite elastic body.
 ///
 /// The total strain follows from the fourth derivatives of ∫ R over the cuboid, which are sums over its corners. Chiu, J. Appl.
 /// Mech. 44, 587 (1977).
@@ -22,7 +22,7 @@ pub struct Inclusion {
 }
 
 impl Inclusion {
-    /// Stress at a place as seen from the middle of the cuboid; not on its faces nor in line with its edges.
+    /// Stress at a place relative to the middle of the cuboid; not on its faces nor in line with its edges.
     pub fn stress(&self, at: [Metre; 3]) -> Stress {
         let nu = self.poisson;
         let mu = 0.5 * self.young / (1.0 + nu);
@@ -61,7 +61,7 @@ impl Inclusion {
         }
     }
 
-    /// ∂⁴ ∫ R dV along four axes.
+    /// ∂⁴ ∫ R dV along four axes, as a sum over corners.
     fn corners(&self, at: [Metre; 3], axes: [usize; 4]) -> f64 {
         (0..8)
             .map(|corner| {
@@ -73,7 +73,7 @@ impl Inclusion {
     }
 }
 
-/// D of which the difference over the corners is ∂⁴ ∫ R dV.
+/// The function D whose difference over the corners is ∂⁴ ∫ R dV.
 fn corner_function(at: [f64; 3], axes: [usize; 4]) -> f64 {
     let r = at.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut order: Vec<(usize, f64)> =

@@ -1,12 +1,12 @@
-//! Hertz: a cylinder along its line of contact.
+//! Hertz: a line contact of cylinders.
 
 use std::f64::consts::PI;
 
 use crate::units::{Metre, Pascal};
 
-/// Frictionless contact of two parallel elastic cylinders in plane strain, taken as parabolas.
+/// Frictionless contact of two parallel elastic cylinders in plane strain, approximated by parabolas.
 ///
-/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: it depends on
+/// h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded and depends on
 /// where it is measured. Johnson (1985), eqs. 4.43–4.45.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzLine {
@@ -35,8 +35,8 @@ impl HertzLine {
         if x.abs() < a { self.peak_pressure() * ((1.0 - x / a) * (1.0 + x / a)).sqrt() } else { 0.0 }
     }
 
-    /// Approach of the bodies against the distance r₀ = `datum` ≥ a, where −(2/πE*) ln(r/r₀), the displacement under a unit
-    /// line of force, is 0:
+    /// Approach of the bodies relative to the distance r₀ = `datum` ≥ a, where the displacement under a unit line force,
+    /// −(2/πE*) ln(r/r₀), is 0:
     ///
     /// ```text
     /// δ = (2P′/πE*) [ln(2r₀/a) + ½]
@@ -101,7 +101,7 @@ mod tests {
         let datum = 7.0;
         let force = integrate_to_edge(LINE.half_width(), |s| -LINE.pressure(s) * (s / datum).ln());
         let displacement = 2.0 * 2.0 / (PI * LINE.modulus) * force;
-        // The quadrature does not know of the logarithm in the middle.
+        // The quadrature does not treat the logarithm in the middle.
         assert_relative_eq!(LINE.approach(datum), displacement, max_relative = 1e-8);
     }
 

@@ -18,7 +18,7 @@ pub struct FlatPunch {
 }
 
 impl FlatPunch {
-    /// The punch at approach δ ≥ 0.
+    /// Creates the punch at approach δ ≥ 0.
     pub fn from_approach(radius: Metre, modulus: Pascal, approach: Metre) -> Self {
         Self { radius, modulus, load: 2.0 * radius * modulus * approach }
     }

@@ -6,7 +6,7 @@ use crate::math::elliptic::CompleteElliptic;
 pub(super) use crate::math::integrate;
 use crate::units::{Metre, Newton, Pascal};
 
-/// ∫ f(s) over `0 … a`, where f may have a logarithm at 0 and a square root, even an inverse one, at a.
+/// ∫ f(s) over `0 … a`, where f may have a logarithm at 0 and a square root, possibly inverse, at a.
 pub(super) fn integrate_to_edge(a: Metre, f: impl Fn(f64) -> f64) -> f64 {
     integrate(0.0, 1.0, |t| {
         let (sin, cos) = (FRAC_PI_2 * t.powi(3)).sin_cos();
@@ -19,7 +19,7 @@ pub(super) fn axisymmetric_load(a: Metre, pressure: impl Fn(Metre) -> Pascal) ->
     integrate_to_edge(a, |s| 2.0 * PI * s * pressure(s))
 }
 
-/// Boussinesq's displacement at `r > a` of an axisymmetric pressure on `s < a`.
+/// Boussinesq's displacement at `r > a` under an axisymmetric pressure on `s < a`.
 pub(super) fn axisymmetric_displacement(
     a: Metre,
     modulus: Pascal,

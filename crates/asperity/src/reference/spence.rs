@@ -1,13 +1,14 @@
-//! Spence: how much of an indentation sticks.
+//! Spence: the stick area in an indentation.
 //!
-//! Pressed together under a growing load, dissimilar bodies stick in the middle and slip in a ring at the edge. The
-//! stick ratio s = c/a depends on the friction μ and Dundurs' β = E*/G* alone, the same for a flat punch and for any
-//! power-law indenter. With 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂, a lower body of β > 0 is drawn inward
-//! in the ring, and the shear on it acts outward; β < 0 turns both round.
+//! Dissimilar bodies pressed together under a growing load stick in the middle and slip in an annulus at the edge. The
+//! stick ratio s = c/a depends on the friction μ and Dundurs' β = E*/G* alone. It is the same for a flat punch and for any
+//! power-law indenter. With 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂, a lower body with β > 0 moves inward in
+//! the annulus, and the shear on it acts outward. β < 0 reverses both.
 //!
-//! The formulas are Goodman's: the shear does not act back on the pressure. They take too much to stick, by at most
-//! 0.44 β² for small β and 0.49 β² at β = ½: the friction that a given s needs is too low by 0.5–0.7 β² of it for
-//! s ≤ 0.5, 0.8–1.2 β² at s = 0.9. [`COUPLED`] holds full answers, whose program these bounds are from.
+//! The formulas are Goodman's, without the effect of the shear on the pressure. They overestimate the stick ratio by at
+//! most 0.44 β² for small β and 0.49 β² at β = ½. The friction required for a given s is underestimated by 0.5–0.7 β² of it
+//! for s ≤ 0.5, and by 0.8–1.2 β² at s = 0.9. [`COUPLED`] contains fully coupled solutions; the program that computed them
+//! also gave these bounds.
 //!
 //! Goodman, J. Appl. Mech. 29, 515 (1962); Spence, Proc. R. Soc. A 305, 55 (1968); J. Elasticity 5, 297 (1975).
 
@@ -21,7 +22,7 @@ pub fn stick_ratio(friction: f64, dundurs: f64) -> f64 {
     solve(friction, dundurs, |s, rest| libm::asinh(s / rest) / (s * CompleteElliptic::of_complement(s).first))
 }
 
-/// Stick ratio s of a long contact in plane strain, as [`stick_ratio`].
+/// Stick ratio s of a long contact in plane strain, like [`stick_ratio`].
 ///
 /// K(s)/K(√(1 − s²)) = μ/|β|.  s → 4 exp(−π|β|/2μ) for small μ/|β|, 1 − s → 8 exp(−πμ/|β|) for large.
 pub fn stick_ratio_plane(friction: f64, dundurs: f64) -> f64 {
@@ -30,7 +31,7 @@ pub fn stick_ratio_plane(friction: f64, dundurs: f64) -> f64 {
     })
 }
 
-/// A flat circular punch with slip at its edge, the shear acting back on the pressure.
+/// A flat circular punch with slip at its edge, including the effect of the shear on the pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledPunch {
     /// Dundurs' β.
@@ -43,10 +44,10 @@ pub struct CoupledPunch {
     pub stiffening: f64,
 }
 
-/// Stick ratio and load of the flat punch when coupled in full, computed by an independent axisymmetric program.
+/// Stick ratio and load of the flat punch with full coupling, computed by an independent axisymmetric program.
 ///
-/// It takes p and q from densities φ and ψ on 0 … a, Abel's transforms of them, and solves their pair of singular
-/// equations on graded meshes of 200 to 800 elements; 400 rings of constant pressure agree to a ring.
+/// The program expresses p and q by densities φ and ψ on 0 … a, their Abel transforms, and solves the pair of singular
+/// equations on graded meshes of 200 to 800 elements. 400 rings of constant pressure agree to one ring.
 pub const COUPLED: [CoupledPunch; 16] = [
     CoupledPunch { dundurs: 0.1, friction: 0.05, stick_ratio: 0.480_825, stiffening: 1.001_786 },
     CoupledPunch { dundurs: 0.1, friction: 0.1, stick_ratio: 0.901_006, stiffening: 1.002_874 },
@@ -66,7 +67,8 @@ pub const COUPLED: [CoupledPunch; 16] = [
     CoupledPunch { dundurs: 0.5, friction: 0.4, stick_ratio: 0.698_178, stiffening: 1.065_465 },
 ];
 
-/// The s at which `ratio(s, √(1 − s²))`, which grows with s from 0 to infinity, is μ/|β|: by bisection of ln s/√(1 − s²).
+/// Returns the s at which `ratio(s, √(1 − s²))`, which increases with s from 0 to infinity, is μ/|β|, by bisection of ln
+/// s/√(1 − s²).
 fn solve(friction: f64, dundurs: f64, ratio: impl Fn(f64, f64) -> f64) -> f64 {
     let wanted = friction / dundurs.abs();
     if dundurs == 0.0 || friction == 0.0 {
@@ -94,8 +96,8 @@ mod tests {
 
     const PAIRS: [(f64, f64); 3] = [(0.1, 0.3), (0.2, 0.3), (0.3, 0.2)];
 
-    /// Shear under a punch of a = 1, p = 1/√(1 − r²), that slips from `s` on: μp, less what makes up for the slip in
-    /// the stick, −(2/πr) ∫ (μD(√(1 − t²)) − β/(1 − t²)) t dt/√(t² − r²) over r … s.
+    /// Shear under a punch with a = 1, p = 1/√(1 − r²), that slips from `s` on. It is μp, minus the part that compensates
+    /// the slip in the stick zone, −(2/πr) ∫ (μD(√(1 − t²)) − β/(1 − t²)) t dt/√(t² − r²) over r … s.
     fn shear(friction: f64, dundurs: f64, s: f64, r: f64) -> f64 {
         let slope = |square: f64| {
             let difference = CompleteElliptic::of_complement(square.sqrt()).difference;
@@ -155,7 +157,7 @@ mod tests {
 
     #[test]
     fn the_strip_meets_carlemans_condition() {
-        // Bounded at the edge of the stick: ∫ [β − (2μ/π) acosh(1/x)]/√((1 − x²)(s² − x²)) dx = 0 over 0 … s.
+        // Bounded at the edge of the stick zone: ∫ [β − (2μ/π) acosh(1/x)]/√((1 − x²)(s² − x²)) dx = 0 over 0 … s.
         for (friction, dundurs) in PAIRS {
             let s = stick_ratio_plane(friction, dundurs);
             let sum = integrate_to_edge(s, |x| {

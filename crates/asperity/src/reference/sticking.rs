@@ -1,16 +1,16 @@
-//! Indentation without slip, where friction never gives way.
+//! Indentation without slip, for infinite friction.
 //!
-//! Dissimilar bodies pressed together would slide over each other; here they stick as they come into touch. All
-//! depends on Dundurs' β = E*/G*, |β| ≤ ½, with 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂; its sign, which
-//! is that of the shear, does not matter to the load. β = 0 is the frictionless contact.
+//! Without friction, dissimilar bodies pressed together would slide over each other; here they stick as soon as they touch.
+//! The solution depends on Dundurs' β = E*/G*, |β| ≤ ½, with 1/G* = (1 + ν₁)(1 − 2ν₁)/2E₁ − (1 + ν₂)(1 − 2ν₂)/2E₂. Its
+//! sign, which is that of the shear, does not affect the load. β = 0 is the frictionless contact.
 
 use std::f64::consts::{LN_2, PI};
 
 use crate::units::{Metre, Newton, Pascal};
 
-/// A rigid flat-ended cylinder, or a circle that sticks as a whole.
+/// A rigid flat-ended cylinder, or a circle in full stick.
 ///
-/// W = 2aE*δ (atanh β)/β;  on a body of Poisson's ratio ν the factor is (1 − ν) ln(3 − 4ν)/(1 − 2ν).
+/// W = 2aE*δ (atanh β)/β;  on a body with Poisson's ratio ν the factor is (1 − ν) ln(3 − 4ν)/(1 − 2ν).
 /// Mossakovskii (1954); Spence, Proc. R. Soc. A 305, 55 (1968).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StickingPunch {
@@ -25,7 +25,7 @@ pub struct StickingPunch {
 }
 
 impl StickingPunch {
-    /// The punch at approach δ ≥ 0.
+    /// Creates the punch at approach δ ≥ 0.
     pub fn from_approach(radius: Metre, modulus: Pascal, dundurs: f64, approach: Metre) -> Self {
         Self { radius, modulus, dundurs, load: 2.0 * radius * modulus * stiffening(dundurs) * approach }
     }
@@ -36,14 +36,15 @@ impl StickingPunch {
     }
 }
 
-/// A sphere on a plane, or two spheres, under a load that has grown from 0.
+/// A sphere on a plane, or two spheres, under a load that has increased from 0.
 ///
 /// ```text
 /// W = (4E*a³/3R) (atanh β)/βJ        δ = a²/RJ
 /// J = 2 ∫₀¹ t cos(ε ln((1 + t)/(1 − t))) dt,  ε = (atanh β)/π
 /// ```
-/// against J = 1 without friction. The load at a given a grows more than that at a given δ: at β = ½ by 1.196 and
-/// 1.053. Exact for the paraboloid. Mossakovskii (1963); Spence (1968); Borodich & Keer, Proc. R. Soc. A 460, 507 (2004).
+/// compared with J = 1 without friction. The load at a given a increases more than that at a given δ: at β = ½ by factors
+/// of 1.196 and 1.053. Exact for the paraboloid. Mossakovskii (1963); Spence (1968); Borodich & Keer, Proc. R. Soc. A 460,
+/// 507 (2004).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StickingSphere {
     /// Relative radius R: 1/R = 1/R₁ + 1/R₂.
@@ -57,7 +58,7 @@ pub struct StickingSphere {
 }
 
 impl StickingSphere {
-    /// The contact at approach δ ≥ 0.
+    /// Creates the contact at approach δ ≥ 0.
     pub fn from_approach(radius: Metre, modulus: Pascal, dundurs: f64, approach: Metre) -> Self {
         let frictionless = 4.0 / 3.0 * modulus * (radius * approach).sqrt() * approach;
         Self { radius, modulus, dundurs, load: frictionless * stiffening(dundurs) * integral(dundurs).sqrt() }
@@ -75,12 +76,12 @@ impl StickingSphere {
     }
 }
 
-/// (atanh β)/β: how much stiffer a circle becomes that does not slip.
+/// (atanh β)/β: the relative stiffness of a circle without slip.
 fn stiffening(dundurs: f64) -> f64 {
     if dundurs == 0.0 { 1.0 } else { dundurs.atanh() / dundurs }
 }
 
-/// J = 1 − 4ε² Σ (−1)ᵏ η(2k + 1) ε²ᵏ, η Dirichlet's; to 1e-13 for |β| ≤ ½.
+/// J = 1 − 4ε² Σ (−1)ᵏ η(2k + 1) ε²ᵏ, with Dirichlet's η; to 1e-13 for |β| ≤ ½.
 fn integral(dundurs: f64) -> f64 {
     /// Values η(1), η(3), … of Dirichlet's function.
     const ETA: [f64; 8] = [
@@ -149,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_sphere_grows_as_a_punch_that_widens() {
-        // dW/dδ = 2aE* (atanh β)/β: each increment is that of a circle that sticks.
+        // dW/dδ = 2aE* (atanh β)/β: each increment is that of a sticking circle.
         let grown = |approach| StickingSphere::from_approach(4.0, 5.0, 0.4, approach);
         let end = SPHERE.approach();
         let load = integrate(0.0, 1.0, |t| {

@@ -1,4 +1,4 @@
-//! Westergaard: sinusoidal surfaces, from the first touch to full contact.
+//! Westergaard: sinusoidal surfaces, from first touch to full contact.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -6,8 +6,8 @@ use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of a one-dimensional sinusoid with a plane, in plane strain.
 ///
-/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, a crest lies at x = 0. With ψ = πx/λ and
-/// s = p̄/p* = sin²(πa/λ), a the half width of one strip of contact:
+/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, and a crest lies at x = 0. With ψ = πx/λ, s = p̄/p* =
+/// sin²(πa/λ) and the half width a of one contact strip:
 ///
 /// ```text
 /// p* = π E* A/λ                        the mean pressure from which contact is full
@@ -33,9 +33,9 @@ impl Westergaard {
         PI * self.modulus * self.amplitude / self.wavelength
     }
 
-    /// s = p̄/p*, no more than 1.
+    /// s = p̄/p*, at most 1.
     fn closure(&self) -> f64 {
-        (self.mean_pressure / self.full_contact_pressure()).clamp(f64::NEG_INFINITY, 1.0) // keeps a NaN
+        (self.mean_pressure / self.full_contact_pressure()).clamp(f64::NEG_INFINITY, 1.0) // preserves NaN
     }
 
     /// Half width a of each strip of contact; λ/2 in full contact.
@@ -72,7 +72,7 @@ impl Westergaard {
         2.0 * self.amplitude * (t * (t * t - s).sqrt() - bend)
     }
 
-    /// Mean deformed gap A (1 − s + s ln s): from A at the first touch to 0 in full contact.
+    /// Mean deformed gap A (1 − s + s ln s): from A at first touch to 0 in full contact.
     pub fn mean_gap(&self) -> Metre {
         let s = self.closure();
         let log = if s > 0.0 { s * s.ln() } else { 0.0 };
@@ -87,16 +87,16 @@ impl Westergaard {
     }
 }
 
-/// Mean pressure p* = √2 π E*A/λ at which the two-dimensional sinusoid h = A (1 − cos 2πx/λ cos 2πy/λ) comes into
-/// full contact; the pressure is then p̄ + p* cos 2πx/λ cos 2πy/λ.
+/// Mean pressure p* = √2 π E*A/λ at which the two-dimensional sinusoid h = A (1 − cos 2πx/λ cos 2πy/λ) reaches full
+/// contact; the pressure is then p̄ + p* cos 2πx/λ cos 2πy/λ.
 ///
 /// Johnson, Greenwood & Higginson, Int. J. Mech. Sci. 27, 383 (1985).
 pub fn full_contact_pressure_2d(amplitude: Metre, wavelength: Metre, modulus: Pascal) -> Pascal {
     SQRT_2 * PI * modulus * amplitude / wavelength
 }
 
-/// Fraction π (3p̄/8πp*)^{2/3} of the plane in contact with that two-dimensional sinusoid while p̄ ≪ p*: Hertz on
-/// two crests per λ², of radius λ²/4π²A. The same source.
+/// Fraction π (3p̄/8πp*)^{2/3} of the plane in contact with that two-dimensional sinusoid for p̄ ≪ p*: Hertz on two crests
+/// per λ² with the radius λ²/4π²A. Same source.
 pub fn light_contact_fraction_2d(mean_pressure: Pascal, full_contact_pressure: Pascal) -> f64 {
     PI * (3.0 / (8.0 * PI) * mean_pressure / full_contact_pressure).cbrt().powi(2)
 }
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A sinusoid of p* = 0.05 π at `closure` = p̄/p*.
+    /// A sinusoid with p* = 0.05 π at `closure` = p̄/p*.
     fn sinusoid(closure: f64) -> Westergaard {
         let (amplitude, wavelength, modulus) = (0.02, 2.0, 5.0);
         let mean_pressure = closure * PI * modulus * amplitude / wavelength;
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn the_energy_is_the_work_of_the_load() {
-        // ∫ p̄ d(−ḡ) by the slope of the mean gap, dḡ/ds = A ln s.
+        // ∫ p̄ d(−ḡ) from the slope of the mean gap, dḡ/ds = A ln s.
         let work = |closure: f64| {
             let full = sinusoid(1.0).full_contact_pressure();
             integrate(0.0, closure.cbrt(), |t| -full * 0.02 * t.powi(3) * t.powi(3).ln() * 3.0 * t * t)

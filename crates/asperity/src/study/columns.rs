@@ -9,10 +9,10 @@ use crate::motion::{
 };
 use crate::units::Dimension;
 
-/// The records of the results by name, each with its own columns.
+/// The records of the results by name, each with its columns.
 ///
-/// `Converged` is what `static` in `summary.json` has besides; `Table` is what the table of a study has besides its axes and the numbers
-/// of the records.
+/// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
+/// study other than its axes and the numbers of the records.
 pub const RECORDS: [(&str, &[Column]); 17] = [
     ("StaticRecord", StaticRecord::OWN_COLUMNS),
     ("Converged", &[CONVERGED]),
@@ -33,29 +33,29 @@ pub const RECORDS: [(&str, &[Column]); 17] = [
     ("Table", &OF_A_STUDY),
 ];
 
-/// Number of a case.
+/// Number of the case.
 pub(super) const CASE: Column = Column::new("case", "1", "Number of the case, from 1.");
-/// Whether a case is done.
+/// Whether the case is done.
 pub(super) const DONE: Column = Column::new("done", "1", "1 of a case that is done, 0 of one that failed.");
-/// How many warnings a case has.
+/// Number of warnings of the case.
 pub(super) const WARNINGS: Column = Column::new("warnings", "1", "Number of warnings.");
-/// What became of a case.
+/// State of the case.
 pub(super) const STATE: Column = Column::new("state", "", "`done` or `failed`.");
-/// Why a case failed.
+/// Reason why the case failed.
 pub(super) const MESSAGE: Column = Column::new("message", "", "Why the case failed.");
-/// The columns of the table of a study besides its axes and the numbers of the summaries.
+/// Columns of the table of a study other than its axes and the numbers of the summaries.
 const OF_A_STUDY: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
 
-/// What a study's table puts before the names of the columns of a record.
+/// Prefixes that the table of a study adds to the column names of a record.
 const PREFIXES: [(&str, &[Column]); 2] =
     [("sliding_", UpdateRecord::OWN_COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
-/// What a study's table puts behind the names of vectors, for their components.
+/// Suffixes that the table of a study adds to the names of vectors, for their components.
 const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 
-/// Returns the declaration of a column of a table, or of a number of `summary.json`; none where no such column is written.
+/// Returns the declaration of a column of a table, or of a number of `summary.json`; `None` if no such column is written.
 ///
-/// The volumes that a law takes, `wear_volume_lower` and so on, are declared as those of the law `plastic`. In a study's table the
-/// components of a vector, and columns with a prefix, are declared without their ending and their prefix.
+/// The volumes removed by any law, such as `wear_volume_lower`, are declared as those of the law `plastic`. In the table of
+/// a study, vector components and prefixed columns are declared without suffix and prefix.
 pub fn column(name: &str) -> Option<Column> {
     let all = || RECORDS.iter().flat_map(|(_, columns)| *columns);
     find(all(), name).or_else(|| {
@@ -66,20 +66,20 @@ pub fn column(name: &str) -> Option<Column> {
     })
 }
 
-/// The declaration of a name among some columns.
+/// Returns the declaration of a name among some columns.
 fn find<'a>(columns: impl Iterator<Item = &'a Column> + Clone, name: &str) -> Option<Column> {
     let named = |name: &str| columns.clone().find(|column| column.name == name).copied();
     named(name)
         .or_else(|| named(&format!("plastic{}", ENDINGS.iter().find(|ending| name.ends_with(**ending))?)))
         .or_else(|| {
             let vector = COMPONENTS.iter().find_map(|component| name.strip_suffix(component))?;
-            // The volumes of each law, of the lower and of the upper body.
+            // Volumes removed from the lower and the upper body by each law.
             let vector = if vector.starts_with("lost_") { "lost" } else { vector };
             named(vector).filter(|vector| vector.components > 1)
         })
 }
 
-/// Returns every column by the name under which it is declared, each once.
+/// Returns every column under its declared name, each once.
 pub fn columns() -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
     for column in RECORDS.iter().flat_map(|(_, columns)| *columns) {
@@ -90,28 +90,30 @@ pub fn columns() -> Vec<Column> {
     columns
 }
 
-/// Returns the SI unit of a [`column()`]: `"1"` for a pure number or a count, nothing for a text; none where no such column is written.
+/// Returns the SI unit of a [`column()`]: `"1"` for a pure number or a count, an empty text for a text; `None` if no such
+/// column is written.
 pub fn unit_of_column(name: &str) -> Option<&'static str> {
     column(name).map(|column| column.unit)
 }
 
-/// Returns what a [`column()`] measures; none for pure numbers, for texts, and for a moment or a spin, which no case file asks for.
+/// Returns the dimension of a [`column()`]; `None` for pure numbers, for texts, and for moments and spins, which no case
+/// file contains.
 pub fn dimension_of_column(name: &str) -> Option<Dimension> {
     let unit = unit_of_column(name)?;
     Dimension::ALL.into_iter().find(|dimension| dimension.si() == unit)
 }
 
-/// Columns of `steps.csv`, which it always has.
+/// Columns always present in `steps.csv`.
 pub const STEP_COLUMNS: [&str; count(StepRecord::OWN_COLUMNS)] = names(StepRecord::OWN_COLUMNS);
-/// Columns of `passes.csv`, which it always has.
+/// Columns always present in `passes.csv`.
 pub const PASS_COLUMNS: [&str; count(PassRecord::OWN_COLUMNS)] = names(PassRecord::OWN_COLUMNS);
-/// Columns of `increments.csv`, which it always has.
+/// Columns always present in `increments.csv`.
 pub const INCREMENT_COLUMNS: [&str; count(IncrementRecord::OWN_COLUMNS)] =
     names(IncrementRecord::OWN_COLUMNS);
 /// Columns of `sweep.csv`.
 pub const SWEEP_COLUMNS: [&str; count(SweepRecord::OWN_COLUMNS)] = names(SweepRecord::OWN_COLUMNS);
 
-/// Counts the columns that are never left out.
+/// Counts the columns that are always present.
 const fn count(columns: &[Column]) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < columns.len() {
@@ -123,7 +125,7 @@ const fn count(columns: &[Column]) -> usize {
     count
 }
 
-/// The names of the `N` columns that are never left out.
+/// Returns the names of the `N` columns that are always present.
 const fn names<const N: usize>(columns: &'static [Column]) -> [&'static str; N] {
     let mut names = [""; N];
     let (mut count, mut k) = (0, 0);
@@ -148,7 +150,7 @@ mod tests {
     use super::*;
     use crate::study::tables::Row;
 
-    /// A record of zeros that lacks none of these columns has them in their order, and no others.
+    /// Checks that a serialised record of zeros has exactly these columns, in their order.
     fn has<T: Serialize + DeserializeOwned + Debug>(columns: &[Column]) {
         let value = |column: &Column| match (column.name, column.components) {
             ("regime", _) => json!("elastic"),
@@ -194,7 +196,7 @@ mod tests {
         for column in RECORDS.iter().flat_map(|(_, columns)| *columns) {
             assert_eq!(unit_of_column(column.name), Some(column.unit), "{}", column.name);
             assert!(column.text.ends_with('.') && !column.text.contains('|'), "{column:?}");
-            // A unit is that of a dimension, or one that no case file asks for.
+            // A unit belongs to a dimension, or is one that no case file contains.
             let known = ["1", "", "N m", "1/m"].contains(&column.unit);
             assert!(known || dimension_of_column(column.name).is_some(), "{column:?}");
         }

@@ -1,4 +1,4 @@
-//! What a case will take, and what to be wary of, told before anything is solved.
+//! Estimate of a case before anything is solved: its key figures and its warnings.
 
 mod contact;
 mod demand;
@@ -21,25 +21,25 @@ use crate::study::subsurface::Plan;
 use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
-/// What is known of a computation before it starts.
+/// Properties of a computation known before it starts.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Composite modulus E* of the pair without its coatings, infinite where both bodies are rigid.
+    /// Composite modulus E* of the pair without its coatings; infinite if both bodies are rigid.
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
-    /// How a static contact is computed; none of a motion, nor of one that slides in place.
+    /// Loading path of a static contact; `None` for a motion and for wear in place.
     pub loading_path: Option<LoadingPath>,
-    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; of maps the least.
+    /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; the smallest value of hardness maps.
     pub hardness: Pascal,
-    /// Largest cap on the pressure of any two cells, which is the same where no hardness is a map.
+    /// Largest cap on the pressure of any two cells; equal to `hardness` if no hardness is a map.
     pub max_hardness: Pascal,
-    /// The lower body's share of the plastic deformation, 0 to 1; none where it differs from cell to cell.
+    /// Share of the lower body in the plastic deformation, 0 to 1; `None` if it differs from cell to cell.
     pub lower_share: Option<f64>,
-    /// What is prescribed in the normal direction.
+    /// Prescribed load or approach.
     pub control: Control,
-    /// Where a load holds; that of a static contact at its one position.
+    /// Where a load holds; for a static contact, at its one position.
     pub load_control: LoadControl,
     /// Number of positions in a pass; 1 for a static contact.
     pub positions: usize,
@@ -49,20 +49,20 @@ pub struct Estimate {
     pub apparent_area: SquareMetre,
     /// Mean apparent area over the positions.
     pub mean_facing_area: SquareMetre,
-    /// Largest load that the control could ask for, every facing cell at the hardness, or at what the shear of bodies that
-    /// slide leaves of it; infinite for an elastic pair.
+    /// Upper limit of the load, with every cell of the overlap at the hardness, reduced by the shear of sliding bodies;
+    /// infinite for an elastic pair.
     pub plastic_limit: Newton,
-    /// Rms slope of the initial gap, as if the surfaces were independent.
+    /// Rms slope of the initial gap, for independent surfaces.
     pub gap_slope: f64,
-    /// What is looked at under the surface.
+    /// Requested output of the stress under the surface.
     pub subsurface: Option<Plan>,
-    /// What the user should know before trusting the result.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What to expect by Hertz' estimate; a result shows it by itself.
+    /// Warnings from Hertz' estimate, which a result shows by itself.
     pub foreseen: Vec<String>,
 }
 
-/// What `case` will take on its `bodies`.
+/// Estimates `case` on its `bodies`.
 ///
 /// # Errors
 /// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load, [`Error::BeyondFriction`] if no
@@ -83,7 +83,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let hardness = lower_hardness.min().min(upper_hardness.min());
     let loading_path = case.loading_path(apparent_area);
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    // Of the cells that face each other at a position, the softer's.
+    // Hardness of opposing cells at a position: that of the softer one.
     let facing_hardness = |position: &Position| {
         let shapes = [lower_grid.shape, upper_grid.shape];
         facing_values([lower_hardness, upper_hardness], shapes, position, f64::min)
@@ -144,7 +144,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     Ok(estimate)
 }
 
-/// The lower body's share of the plastic deformation, where it is the same for all cells.
+/// Returns the share of the lower body in the plastic deformation, if it is the same for all cells.
 fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
     let one_each = |values: &CellValues| values.min() == values.max();
     match (one_each(lower) && one_each(upper), lower.max() < upper.min(), lower.min() > upper.max()) {
@@ -155,17 +155,17 @@ fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
     }
 }
 
-/// The positions of the first pass; of a static contact, the only one.
+/// Returns the positions of the first pass, or the only one of a static contact.
 fn positions(case: &Case, [lower, upper]: [Grid; 2]) -> Vec<Position> {
     let columns = [lower.shape[0], upper.shape[0]];
-    // For where the bodies meet the load does not matter.
+    // The load does not affect the positions.
     match case.motion(1.0) {
         None => vec![Position::flush(columns[0].min(columns[1]))],
         Some(motion) => motion.positions(columns, lower.shape[1], 1),
     }
 }
 
-/// The most pressure that cells of the `hardness` bear at the end of a stage, whatever force acts in the plane.
+/// Largest pressure on cells of the `hardness` at the end of a stage, whatever its tangential force.
 fn stage_cap(friction: Option<&Friction>, stage: &Stage, hardness: Pascal) -> Pascal {
     match (friction, stage.loading.tangential) {
         (Some(friction), Tangential::Sliding(_)) => friction.sliding_cap(hardness),
@@ -173,9 +173,9 @@ fn stage_cap(friction: Option<&Friction>, stage: &Stage, hardness: Pascal) -> Pa
     }
 }
 
-/// An error if a stage asks for more load than its cells bear beside the shear that it asks for: the sums of p and of
-/// √α q are at most H on all cells together, as they are on each. What slides does so from the first increment of its
-/// stage, when it still bears most of the load before.
+/// Returns an error if a stage prescribes more load than its cells can carry together with its shear. The sums of p and of
+/// √α q over all cells are at most H, as on each cell. In gross slip this holds from the first increment of the stage, when
+/// most of the load of the stage before is still present.
 fn bears(
     friction: Option<&Friction>,
     stages: &[Stage],
@@ -209,7 +209,8 @@ fn bears(
     Ok(())
 }
 
-/// An error if the force of a stage is more than friction bears under its load: no cell more than μp, nor more than τ.
+/// Returns an error if the tangential force of a stage exceeds the friction limit under its load: at most μp and at most τ
+/// on each cell.
 fn holds(
     friction: &Friction,
     loading_path: &LoadingPath,
@@ -237,7 +238,7 @@ fn holds(
     Ok(())
 }
 
-/// What is prescribed of what rolls under a force.
+/// Returns the prescribed values of a contact that rolls under a tangential force.
 fn pushed(control: Control, rolling: Rolling) -> Option<(Control, Tangential)> {
     match rolling.creep {
         Creep::Force(force) => Some((control, Tangential::Force(force))),
@@ -263,7 +264,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         torn(name, body, wraps, &mut warnings);
     }
     warnings.extend(fast(case, bodies.lower.topography.grid().pitch[0]));
-    /// Up to here tan and sin of a slope agree to some 5 %.
+    /// Up to here tan and sin of a slope agree within about 5 %.
     const STEEP: f64 = 0.3;
     if estimate.gap_slope > STEEP {
         warnings.push(format!(
@@ -272,8 +273,8 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
             estimate.gap_slope
         ));
     }
-    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). Real contact is near it at any load.
-    // A form's slope is that of its rim, far from the contact.
+    // Rms pressure of a rough contact pressed flat, E* h'/2; Persson (2001). The real contact has about this pressure at
+    // any load. The slope of a form is largest at its rim, far from the contact.
     let pressure = 0.5 * estimate.modulus * estimate.gap_slope;
     let is_form = |body: &Body| {
         let TopographySpec { source, plus, .. } = &body.topography;
@@ -317,7 +318,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     warnings
 }
 
-/// An error if the volume that may flow is shallower than a cell, or deeper than the grid is wide.
+/// Returns an error if the plastic volume is shallower than a cell, or deeper than the grid is wide.
 fn deep_enough(case: &Case, grid: &Grid) -> Result<()> {
     let Some(plasticity) = case.plasticity else { return Ok(()) };
     let [dx, dy] = grid.pitch;
@@ -335,12 +336,12 @@ fn deep_enough(case: &Case, grid: &Grid) -> Result<()> {
     Err(case.error_at("plasticity.depth", message, None))
 }
 
-/// Heat that does not leave its cell while the bodies slide over one.
+/// Warns if heat stays in its cell while the bodies slide over one cell.
 fn fast(case: &Case, pitch: Metre) -> Option<String> {
     if case.temperature.is_none_or(|temperature| temperature.every == 0) {
         return None;
     }
-    // Of nothing but its time and its distance the load does not matter.
+    // Only the time and distance of the motion are used, which do not depend on the load.
     let motion = case.motion(1.0)?;
     let speed = motion.sliding_distance(pitch) / motion.step_time(pitch);
     let peclet = |body: &Body| body.thermal.map(|thermal| 0.5 * speed * pitch / thermal.diffusivity());
@@ -355,7 +356,7 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
     })
 }
 
-/// A coating that the cells do not resolve.
+/// Warns of a coating that the cells do not resolve.
 fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     let body = if name == "lower" { &case.lower } else { &case.upper };
     let thickness = body.material.coating?.thickness;
@@ -371,8 +372,7 @@ fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     })
 }
 
-/// What can be told of the contacts: that there is none, that the rim of the grid cuts them off, that they have too few
-/// cells.
+/// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too few cells.
 fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) {
     let surfaces = [bodies.lower.topography.heights(), bodies.upper.topography.heights()];
     if let Control::Approach(approach) = estimate.control
@@ -393,18 +393,18 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
     let gap = initial_gap(surfaces, position);
     let pitch = bodies.lower.topography.grid().pitch;
     if case.is_coated() {
-        // Hertz knows no layers.
+        // Hertz' theory does not cover layers.
         return;
     }
     let foreseen = contact::foreseen(&gap, pitch, estimate.modulus, case.contact.boundary, control);
-    // Of a motion and of a sweep only tables are left, which do not tell where in a contact the pressure is.
+    // A motion and a load sweep leave only tables, which do not show where in a contact the pressure is.
     let tabled = case.motion.is_some() || case.is_swept();
     let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.foreseen };
     warnings.extend(foreseen.rim);
     estimate.foreseen.extend(foreseen.coarse);
 }
 
-/// Friction whose answer is not the one that is looked for.
+/// Warns if friction is modelled more simply than the user may expect.
 fn frictional(
     case: &Case,
     bodies: &Bodies,
@@ -412,9 +412,9 @@ fn frictional(
     estimate: &Estimate,
     warnings: &mut Vec<String>,
 ) {
-    /// Shear under pressure alone is some β p: below this it is not seen.
+    /// Shear under pressure alone is about β p, which is negligible below this.
     const ALIKE: f64 = 0.01;
-    /// Dundurs' β from which on the coupling changes pressures and stick by more than some per cent.
+    /// Dundurs' β from which the coupling changes pressures and stick by more than a few per cent.
     const UNLIKE: f64 = 0.1;
     let beta = estimate.dundurs;
     if friction.coupling != Coupling::Full && beta.abs() > UNLIKE && !case.is_coated() {
@@ -470,7 +470,7 @@ fn frictional(
     }
 }
 
-/// Steady rolling over what yields.
+/// Warns of steady rolling of bodies that yield.
 fn rolls_plastically(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Option<String> {
     estimate.loading_path.as_ref()?.rolling().next()?;
     let pressure =
@@ -481,12 +481,12 @@ fn rolls_plastically(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Optio
     ))
 }
 
-/// What is wrong with steady rolling over what yields.
+/// The limitation of steady rolling of bodies that yield.
 pub(super) const NOT_FLATTENED: &str = "in steady rolling, over a track that was not flattened before: what has been \
                                         rolled over meets a lower surface; a [motion] with `passes` flattens it";
 
-/// About the largest pressure of a contact without a hardness, where it is known beforehand: Hertz' of a ball, or E* h'/2
-/// of what is rough.
+/// Estimate of the largest pressure of a contact without a hardness, if there is one: Hertz' pressure of a ball, or E* h'/2
+/// for a rough surface.
 fn rolling_pressure(case: &Case, prepared: &Bodies, estimate: &Estimate) -> Option<Pascal> {
     let bodies = [&case.lower, &case.upper];
     if !roll_alike(case, prepared) {
@@ -507,15 +507,15 @@ fn rolling_pressure(case: &Case, prepared: &Bodies, estimate: &Estimate) -> Opti
     (plain && radius.is_finite()).then(|| hertz.peak_pressure())
 }
 
-/// Whether both bodies are the same wherever they are rolled over, but for what their form changes slowly.
+/// Whether both bodies are uniform along the rolling direction, apart from a slowly varying form.
 fn roll_alike(case: &Case, bodies: &Bodies) -> bool {
     let both = [(&case.lower, &bodies.lower), (&case.upper, &bodies.upper)];
     both.into_iter().all(|(body, prepared)| has_smooth_form(body) || is_smooth(prepared))
 }
 
-/// Whether the heights of a body are those of a ball or of a cylinder, but for a fiftieth: a surface from a file may be one.
+/// Whether the heights of a body are those of a ball or a cylinder within a fiftieth. A surface from a file may be one.
 fn is_smooth(body: &Prepared) -> bool {
-    /// Share of the rms height about a plane.
+    /// Rms height of the roughness relative to the rms height about a plane.
     const ROUGH: f64 = 0.02;
     let rms = |level| body.topography.clone().level(level).map(|left| left.heights().std(0.0));
     match (rms(Level::Plane), rms(Level::Quadratic)) {
@@ -525,7 +525,7 @@ fn is_smooth(body: &Prepared) -> bool {
     }
 }
 
-/// Whether a body is made of forms that change slowly.
+/// Whether a body consists of slowly varying forms.
 fn has_smooth_form(body: &Body) -> bool {
     let smooth = |form: &Form| {
         matches!(
@@ -542,7 +542,7 @@ fn has_smooth_form(body: &Body) -> bool {
         && plus.iter().all(|layer| matches!(layer, Layer::Form { form, .. } if smooth(form)))
 }
 
-/// Whether one increment brings most of the load, or, of an approach, all of it.
+/// Whether one increment applies most of the load, or all of an approach.
 fn loads_at_once(stages: &[Stage]) -> bool {
     let load = |stage: &Stage| match stage.loading.normal {
         Control::Load(load) => Some(load),
@@ -562,11 +562,11 @@ fn loads_at_once(stages: &[Stage]) -> bool {
     }
 }
 
-/// A mesh on which the waves that make the slope have too few cells.
+/// Warns of a grid on which the waves that determine the slope have too few cells.
 ///
-/// A wave of n cells has a slope by differences over one cell greater by 1/cos(π/n) than over two.
+/// The slope of a wave of n cells by differences over one cell is larger by 1/cos(π/n) than over two.
 fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
-    /// Cells of a wave below which the pitch is coarse for it.
+    /// Cells per wave below which the pitch is too coarse.
     const CELLS_PER_WAVE: f64 = 8.0;
     for axis in 0..2 {
         let [one, two] = [1, 2].map(|cells| difference(body.topography.heights(), axis, cells));
@@ -585,7 +585,7 @@ fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
     }
 }
 
-/// Rms difference of heights `cells` apart, per cell of the distance.
+/// Rms difference of heights `cells` apart, per cell of distance.
 fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
     let n = heights.len_of(ndarray::Axis(axis));
     if n <= cells {
@@ -597,7 +597,7 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
     (sum / far.len() as f64).sqrt() / cells as f64
 }
 
-/// A measured surface that stands askew.
+/// Warns of a tilted measured surface.
 fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
     let without_plane = body.topography.clone().level(Level::Plane).expect("a plane has an order");
     let (as_is, levelled) = (body.topography.sq(), without_plane.sq());
@@ -610,7 +610,7 @@ fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
     }
 }
 
-/// A surface that does not continue over its edge along an axis along which it `wraps`.
+/// Warns of a surface that is discontinuous across its edges along an axis on which it `wraps`.
 fn torn(name: &str, body: &Prepared, wraps: [bool; 2], warnings: &mut Vec<String>) {
     let heights = body.topography.heights();
     for axis in (0..2).filter(|axis| wraps[*axis]) {
@@ -666,7 +666,7 @@ mod tests {
             let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
             super::estimate(&case, &bodies(&case, crate::study::Given::default()).unwrap())
         };
-        // A column of 4 mm² bears 4 kN; seven positions share 15 columns.
+        // A column of 4 mm² carries 4 kN; seven positions share 15 columns.
         let limit = estimate("pass-load", "load = 1").unwrap().plastic_limit;
         assert!((limit / (4e3 * 15.0 / 7.0) - 1.0).abs() < 1e-12, "{limit}");
         assert!(estimate("pass-load", "load = 8e3").is_ok());

@@ -1,4 +1,4 @@
-//! The fields of a static contact, by the names that they have in files.
+//! Fields of a static contact, by their names in files.
 
 use crate::grid::{Field, Grid};
 use crate::subsurface::Tractions;
@@ -8,17 +8,17 @@ use crate::units::{Metre, Pascal};
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct RestFields {
-    /// The grid that all of them stand on.
+    /// The grid of all fields.
     pub grid: Grid,
     /// Rigid-body approach δ.
     pub approach: Metre,
-    /// The hardness of the pair, the least where it is a map.
+    /// Hardness of the pair; its smallest value if it is a map.
     pub hardness: Pascal,
-    /// The fields, in the order in which files have them.
+    /// The fields, in the order in which they are written to files.
     pub fields: Vec<NamedField>,
 }
 
-/// A field by the name that it has in files.
+/// A field with its name in files.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct NamedField {
@@ -31,13 +31,13 @@ pub struct NamedField {
 }
 
 impl RestFields {
-    /// The field of that name, which is taken out.
+    /// Removes and returns the field with this name.
     pub fn take(&mut self, name: &str) -> Option<Field> {
         let at = self.fields.iter().position(|field| field.name == name)?;
         Some(self.fields.swap_remove(at).values)
     }
 
-    /// What acts on the lower body.
+    /// Returns the tractions on the lower body.
     pub(super) fn tractions(&self) -> Tractions {
         let of = |name| self.fields.iter().find(|field| field.name == name).map(|field| field.values.clone());
         let shear = ["traction_x", "traction_y"].map(of);

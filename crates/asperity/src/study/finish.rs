@@ -1,4 +1,4 @@
-//! What every run begins with and ends with.
+//! Shared beginning and end of every run.
 
 use serde_json::Value;
 use web_time::Instant;
@@ -12,17 +12,17 @@ use crate::study::results::Writer;
 use crate::study::subsurface::SubsurfaceRecord;
 use crate::study::summary::{Outcome, RunningIn, Summary};
 
-/// What a run has computed, in numbers.
+/// Results of a run for its summary.
 pub(super) struct Computed {
     pub(super) outcome: Outcome,
     pub(super) subsurface: Vec<SubsurfaceRecord>,
-    /// The last update of a contact that has slid in place.
+    /// The last update of a contact that wears in place.
     pub(super) sliding: Option<UpdateRecord>,
-    /// What the passes of bodies that flow come to.
+    /// The plastic flow of a motion of elasto-plastic bodies.
     pub(super) flow: Option<FlowRecord>,
 }
 
-/// Writes what comes at the end of every run.
+/// Writes the results at the end of every run.
 pub(super) fn conclude(
     case: &Case,
     writer: &Writer,
@@ -55,14 +55,14 @@ pub(super) fn conclude(
     Ok(summary)
 }
 
-/// The `bodies` of `case`, face to face.
+/// Creates the pair of the `bodies` of `case`.
 pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let Bodies { lower, upper } = bodies;
     let materials = [&case.lower.material, &case.upper.material];
     Pair::new(lower.topography, upper.topography, materials)?.with_hardness([lower.hardness, upper.hardness])
 }
 
-/// The solver that `case` asks for.
+/// Returns the solver parameters of `case`.
 pub(super) fn params(case: &Case) -> Params {
     Params { method: case.contact.method, tolerance: case.contact.tolerance, ..Params::default() }
 }

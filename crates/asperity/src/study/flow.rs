@@ -1,4 +1,4 @@
-//! What a case says of bodies that flow below their surfaces, as a contact takes it.
+//! Elasto-plastic bodies of a case, as arguments of a contact.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::motion::{FlowPath, Pair, Stage};
 use crate::plasticity::{PlasticBody, Volume};
 use crate::study::case::{Case, PlasticitySpec};
 
-/// The bodies of `case` that flow, lower one first, under the surfaces of the `pair`.
+/// Creates the elasto-plastic bodies of `case`, lower one first, under the surfaces of the `pair`.
 pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<[Option<PlasticBody>; 2]> {
     let grids = [pair.lower_grid(), pair.upper_grid()];
     let of_body = |index: usize| {
@@ -19,7 +19,8 @@ pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<
     Ok([of_body(0)?, of_body(1)?])
 }
 
-/// How bodies that flow are pressed together by these `stages`; the load is taken off in as many steps as the first has.
+/// Creates the loading path of elasto-plastic bodies through these `stages`. Unloading takes as many steps as the first
+/// stage.
 pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> FlowPath {
     let steps = stages.first().map_or(1, |stage| stage.increments);
     let unloading = spec.unload.unwrap_or(true).then_some(steps);

@@ -1,4 +1,4 @@
-//! What a run is known by: its case, the digests of its surface files, and an identity that its files share.
+//! Identity of a run: its case, the digests of its surface files, and one digest shared by its files.
 
 use std::path::Path;
 
@@ -10,12 +10,12 @@ use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::sha256;
 
-/// What may name a file in a case, the surfaces first.
+/// Keys that may name a file in a case, surfaces first.
 pub(super) const FILES: [&str; 4] =
     ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
 
-/// What `case.json` holds: the case resolved to SI, a shape or pitch taken from the other body filled in, the SHA-256 of each file beside its name, and under
-/// `identity` the digest of all that decides the numbers.
+/// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body is filled in,
+/// and the SHA-256 of each file stands beside its name. `identity` is the digest of everything that determines the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     resolved_of(
         case,
@@ -27,14 +27,14 @@ pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     )
 }
 
-/// What is known of a body besides its case.
+/// Data of a body that its case does not contain.
 pub(super) struct Known<'a> {
     pub(super) grid: Grid,
     pub(super) origin: Option<&'a Origin>,
     pub(super) hardness_sha256: Option<&'a String>,
 }
 
-/// As [`resolved`], of bodies of which no more than this is known.
+/// [`resolved`] for bodies given only by these data.
 pub(super) fn resolved_of(case: &Case, bodies: [Known<'_>; 2]) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let specs = [&case.lower.topography, &case.upper.topography];
@@ -57,13 +57,13 @@ pub(super) fn resolved_of(case: &Case, bodies: [Known<'_>; 2]) -> Value {
     resolved
 }
 
-/// The digest that all files of a run carry: the same for all runs that come to the same numbers, so that their files
-/// may stand in for each other.
+/// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their files are
+/// interchangeable.
 pub(super) fn of(case: &Value) -> String {
     sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
 }
 
-/// An error unless the results in `directory`, those of the case `before`, are those of `now` too.
+/// Returns an error unless the results in `directory`, whose case is `before`, are also those of the case `now`.
 pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
     for key in FILES {
         let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
@@ -98,7 +98,7 @@ pub(super) fn without_digests(resolved: &Value) -> Value {
     case
 }
 
-/// The case without what leaves a finished pass as it is: its title, the number of passes, the folder of its files.
+/// Returns the case without the keys that do not affect a finished pass: title, number of passes, folder of the files.
 fn deciding(case: &Value) -> Value {
     let mut case = case.clone();
     if let Some(keys) = case.as_object_mut() {
@@ -109,7 +109,7 @@ fn deciding(case: &Value) -> Value {
         motion.remove("passes");
     }
     for key in FILES {
-        // Its folder is seen from wherever the program was called.
+        // Its folder depends on the working directory of the program.
         if let Some(file) = case.pointer_mut(key).and_then(|topography| topography.get_mut("file")) {
             let name = Path::new(file.as_str().unwrap_or_default()).file_name();
             *file = name.map_or(Value::Null, |name| name.to_string_lossy().into());
@@ -118,7 +118,7 @@ fn deciding(case: &Value) -> Value {
     case
 }
 
-/// The first key at which two cases differ, dotted, and what each has there.
+/// Returns the first key at which two cases differ, dotted, and both values.
 fn difference(path: &str, before: &Value, now: &Value) -> Option<(String, [String; 2])> {
     if before == now {
         return None;
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn the_identity_of_a_case_stays_what_it_was() {
-        // Frozen: whoever changes one makes results that were begun before impossible to resume.
+        // Frozen: a change makes it impossible to resume earlier results.
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/good");
         let mut files: Vec<_> =
             std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();

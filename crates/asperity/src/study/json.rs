@@ -1,4 +1,4 @@
-//! JSON of what was computed: as `serde_json` writes it, with 0 for −0.
+//! JSON of results: as `serde_json` writes it, with 0 for −0.
 
 use std::io;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
 
-/// A record in one line.
+/// Writes a record on one line.
 pub(super) fn to_string(record: &impl Serialize) -> String {
     let mut text = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut text, Unsigned(CompactFormatter));
@@ -14,10 +14,10 @@ pub(super) fn to_string(record: &impl Serialize) -> String {
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// Writes a record, a value in a line.
+/// Writes a record with one value per line.
 ///
 /// # Errors
-/// What kept it from being written.
+/// The reason why it could not be written.
 pub(super) fn write_pretty(writer: impl io::Write, record: &impl Serialize) -> serde_json::Result<()> {
     record.serialize(&mut Serializer::with_formatter(writer, Unsigned(PrettyFormatter::new())))
 }

@@ -1,26 +1,27 @@
 //! A study of a case: from a case file to its results.
 //!
-//! [`Case::load`] reads the case file, [`bodies`] reads or makes and prepares its surfaces, [`demand`] and [`estimate`] tell
-//! what is to be expected, [`run()`] does all of it and leaves a [`Results`] directory with a [`Summary`].
+//! [`Case::load`] reads the case file. [`bodies`] reads or generates its surfaces and prepares them. [`demand`] and
+//! [`estimate`] return cost and warnings in advance. [`run()`] does all of this and writes a [`Results`] directory with a
+//! [`Summary`].
 
-pub mod case; // case.toml, checked to the key
-mod estimate; // what a case will take, and what to be wary of
+pub mod case; // the case file, checked key by key
+mod estimate; // cost and warnings of a case in advance
 mod fields; // the fields of a static contact
-mod finish; // what every run begins with and ends with
-mod flow; // bodies that flow below their surfaces, as a case has them
+mod finish; // beginning and end of every run
+mod flow; // elasto-plastic bodies of a case
 mod given; // surfaces in memory that a case names
-mod identity; // what a run is known by, to resume it
+mod identity; // identity of a run, to resume it
 mod json; // records as JSON
 mod columns; // the dictionary of columns and numbers
-pub mod many; // many cases made of one, in folders of their own
+pub mod many; // many cases made from one, each in its folder
 mod passes; // a motion, pass after pass
-mod prepare; // from a case to the two surfaces that meet
+mod prepare; // from a case to its two surfaces
 mod rest; // a static contact
 mod results; // the results directory
-mod review; // what to be wary of in a result
+mod review; // warnings about a result
 mod run; // from a case to its results
-mod slabs; // a contact at rest on ranks, each with a slab of it
-mod subsurface; // the stress under the surface: where it is wanted, its file
+mod slabs; // a static contact distributed over ranks
+mod subsurface; // the stress under the surface: plan and file
 mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 

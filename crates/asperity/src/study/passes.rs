@@ -1,4 +1,4 @@
-//! A motion of a case, pass after pass, each of which is kept in a results directory.
+//! A motion of a case, with each pass written to a results directory.
 
 use std::path::Path;
 
@@ -20,13 +20,13 @@ use crate::study::review;
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::{NEVER, Stop};
 
-/// A motion under way. [`Passes::solve`] and [`Passes::finish`] take turns until there is no pass left, and
-/// [`Passes::end`] writes the summary; between the two calls the pass can be looked at, and changed.
+/// A running motion. [`Passes::solve`] and [`Passes::finish`] alternate until no pass is left, and [`Passes::end`] writes
+/// the summary. Between the two calls the pass can be read and changed.
 pub struct Passes {
     case: Case,
     simulation: Simulation,
     motion: Motion,
-    /// Passes that are finished, and passes of the motion that they stand for.
+    /// Number of finished passes, and of passes of the motion including extrapolated ones.
     done: usize,
     represented: usize,
     writer: Writer,
@@ -37,19 +37,19 @@ pub struct Passes {
 }
 
 impl Passes {
-    /// Prepares the bodies of `case` with the surfaces `given`, and enters `directory`; to be resumed, it goes on after the
-    /// passes that are there.
+    /// Prepares the bodies of `case` with the surfaces `given`, and opens `directory`. A resumed motion continues after the
+    /// passes found there.
     ///
     /// # Errors
-    /// Everything that can be wrong with a case, its surfaces or the directory; [`Error::Unsupported`] for a contact at rest.
+    /// Every error of a case, its surfaces or the directory; [`Error::Unsupported`] for a static contact.
     pub fn enter(case: &Case, given: Given, directory: &Path, existing: Existing) -> Result<Self> {
         Self::enter_until(case, given, directory, existing, NEVER)
     }
 
-    /// As [`enter`](Self::enter), unless `stop` says so before the bodies are prepared.
+    /// [`enter`](Self::enter) that can be stopped by `stop` before the bodies are prepared.
     ///
     /// # Errors
-    /// As [`enter`](Self::enter); [`Error::Interrupted`].
+    /// The errors of [`enter`](Self::enter); [`Error::Interrupted`].
     pub fn enter_until(
         case: &Case,
         given: Given,
@@ -60,7 +60,7 @@ impl Passes {
         Self::enter_with(case, given, directory, (existing, None), stop)
     }
 
-    /// As [`enter_until`](Self::enter_until), where the lock of the directory may be held already.
+    /// [`enter_until`](Self::enter_until) with a lock of the directory that may be held already.
     pub(super) fn enter_with(
         case: &Case,
         given: Given,
@@ -86,7 +86,7 @@ impl Passes {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
                 simulation
             }
-            // Where nothing is left to do the bodies are not missed, but for what has flowed in them.
+            // With no pass left, the present bodies are not needed, except their plastic state.
             _ if represented >= motion.passes && case.plasticity.is_none() => simulation,
             done => {
                 let mut pair = simulation.pair().clone();
@@ -109,12 +109,12 @@ impl Passes {
         Ok(Self { case, simulation, motion, done, represented, writer, output, resolved, warnings, began })
     }
 
-    /// Number of passes that are finished.
+    /// Number of finished passes.
     pub fn computed(&self) -> usize {
         self.done
     }
 
-    /// The passes that are finished.
+    /// Returns the records of the finished passes.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -122,15 +122,15 @@ impl Passes {
         self.writer.results().passes()
     }
 
-    /// The motion, with the bodies as they are now.
+    /// The motion with its present bodies.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }
 
-    /// Solves the next pass; none after the last.
+    /// Solves the next pass; returns `None` after the last.
     ///
     /// # Errors
-    /// Returns the errors of [`Simulation::solve`].
+    /// The errors of [`Simulation::solve`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
         match self.represented < self.motion.passes {
             true => self.simulation.solve(watch).map(Some),
@@ -138,7 +138,7 @@ impl Passes {
         }
     }
 
-    /// Finishes a pass: its bodies are those of the next one, and it is written.
+    /// Finishes a pass: writes it, and uses its bodies for the next one.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -149,7 +149,7 @@ impl Passes {
         Ok(())
     }
 
-    /// Writes the summary of the passes that are finished.
+    /// Writes the summary of the finished passes.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -173,8 +173,8 @@ impl Passes {
     }
 }
 
-/// The motion of a case. Its upper body is `virgin` before a pass that has one of its own; that of the pair unless it is told. Stress under
-/// the surface is wanted at the position `look`.
+/// Creates the motion of a case. `virgin` is its upper body for passes that need a new one; by default that of the pair.
+/// Stress under the surface is requested at the position `look`.
 fn simulation(
     case: &Case,
     pair: Pair,

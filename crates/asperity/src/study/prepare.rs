@@ -1,4 +1,4 @@
-//! From a case to the two surfaces that meet: read or made, prepared, the upper one turned over.
+//! From a case to its two surfaces: reads or generates them, prepares them, and turns the upper one over.
 
 mod slab;
 
@@ -20,38 +20,38 @@ use crate::surface::{
 use crate::units::{self, Dimension, Metre};
 pub(super) use slab::{SlabBodies, made_by_slabs, slab_bodies};
 
-/// Relative difference up to which two pitches are one.
+/// Largest relative difference of two equal pitches.
 const SAME_PITCH: f64 = 1e-9;
 
-/// The two surfaces of a case, on one pitch, which is the same to the last bit, and one width.
+/// The two surfaces of a case, with one width and with the same pitch to the last bit.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Bodies {
-    /// The lower body: its heights are those of the lower body's surface.
+    /// The lower body, with the heights of its surface.
     pub lower: Prepared,
-    /// The upper body: its heights are those of the upper body's underside.
+    /// The upper body, with the heights of its underside.
     pub upper: Prepared,
 }
 
-/// A surface as it goes into the contact, every height defined.
+/// A surface as used in the contact, with every height defined.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Prepared {
-    /// The heights; an approach counts from them as they are here.
+    /// The heights. An approach is relative to these heights.
     pub topography: Topography,
-    /// The file that the heights were read from; none if they were made.
+    /// The file that the heights were read from; `None` if they were generated.
     pub origin: Option<Origin>,
-    /// What its cells bear; a map is turned over with the heights.
+    /// Hardness of the cells. A map is turned over with the heights.
     pub hardness: CellValues,
     /// Digest of the file of a map of the hardness, hexadecimal.
     pub hardness_sha256: Option<String>,
-    /// How they face.
+    /// How the heights were mounted.
     pub mount: Mount,
-    /// What was missing and is filled, what was removed.
+    /// Missing samples that were filled, and samples that were removed.
     pub findings: Findings,
 }
 
-/// What was read.
+/// Data about a source file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Origin {
@@ -59,7 +59,7 @@ pub struct Origin {
     pub format: &'static str,
     /// The channel.
     pub channel: String,
-    /// Whether the heights are those of an underside, see [`Scan::is_underside`].
+    /// Whether the heights describe an underside, see [`Scan::is_underside`].
     pub is_underside: bool,
     /// Number of samples along x and y in the file.
     pub shape: [usize; 2],
@@ -68,7 +68,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of heights that the caller gives under a name.
+    /// Creates the origin of heights that the caller supplies under a name.
     fn of_given(name: &str, topography: &Topography) -> Self {
         let Grid { shape, pitch } = *topography.grid();
         let numbers = pitch.into_iter().chain(topography.heights().iter().copied());
@@ -77,31 +77,31 @@ impl Origin {
     }
 }
 
-/// A topography that stands alone, prepared; heights that nothing fills are undefined.
+/// A single prepared topography. Missing heights that no step fills are undefined.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Made {
     /// The heights.
     pub topography: Topography,
-    /// What they were read from; none if they were made.
+    /// The file they were read from; `None` if they were generated.
     pub origin: Option<Origin>,
-    /// What was missing, what was removed.
+    /// Missing samples, and samples that were removed.
     pub findings: Findings,
 }
 
-/// Reads or makes the topography that a table `[topography]` in `text` describes, which has the keys of
-/// `[lower.topography]` in a case file. The files it names are looked for in `folder`.
+/// Reads or generates the topography described by a table `[topography]` in `text`, with the keys of `[lower.topography]`
+/// in a case file. Paths of files are relative to `folder`.
 ///
 /// # Errors
-/// [`Error::Case`] at the key that is to blame, as of [`bodies`].
+/// [`Error::Case`] at the key with the mistake, as for [`bodies`].
 pub fn topography(text: &str, folder: &Path, given: Given) -> Result<Made> {
     topography_until(text, folder, given, NEVER)
 }
 
-/// As [`topography()`], unless `stop` says so first.
+/// [`topography()`] that can be stopped by `stop`.
 ///
 /// # Errors
-/// As [`topography()`]; [`Error::Interrupted`].
+/// The errors of [`topography()`]; [`Error::Interrupted`].
 pub fn topography_until(text: &str, folder: &Path, mut given: Given, stop: Stop<'_>) -> Result<Made> {
     let (spec, document) = topography_alone(text, folder)?;
     if let Some(key) = spec.lacks().next() {
@@ -111,7 +111,7 @@ pub fn topography_until(text: &str, folder: &Path, mut given: Given, stop: Stop<
     made(Place { document: &document, table: "topography", spec: &spec }, None, &mut given, stop)
 }
 
-/// The topography that a table `[topography]` in `text` describes, checked as far as the text alone can tell.
+/// Reads the table `[topography]` in `text`, and checks it as far as possible without its files.
 ///
 /// # Errors
 /// [`Error::Case`].
@@ -119,20 +119,21 @@ pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
     topography_alone(text, folder).map(|(spec, _)| spec)
 }
 
-/// Reads or makes both topographies of `case`, or takes those that are `given`, and prepares them as [`TopographySpec`] says.
+/// Reads or generates both topographies of `case`, or uses the `given` ones, and prepares them according to
+/// [`TopographySpec`].
 ///
 /// # Errors
-/// [`Error::Case`] at the key that is to blame: a file that cannot be read, a parameter without meaning on this grid,
-/// missing heights that nothing fills, and surfaces that do not fit together. They must have one pitch and one number
-/// of cells along y; where nothing moves, and where both are shifted, also along x.
+/// [`Error::Case`] at the key with the mistake: a file that cannot be read, a parameter that is invalid on this grid,
+/// missing heights that no step fills, or surfaces that do not fit together. Both need the same pitch and the same number
+/// of cells along y. Without motion, or if both are shifted, they also need the same number along x.
 pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
     bodies_until(case, given, NEVER)
 }
 
-/// As [`bodies`], unless `stop` says so first.
+/// [`bodies`] that can be stopped by `stop`.
 ///
 /// # Errors
-/// As [`bodies`]; [`Error::Interrupted`].
+/// The errors of [`bodies`]; [`Error::Interrupted`].
 pub fn bodies_until(case: &Case, mut given: Given, stop: Stop<'_>) -> Result<Bodies> {
     let grid_of = |body: &Prepared| *body.topography.grid();
     let [lower, mut upper] =
@@ -147,11 +148,11 @@ pub fn bodies_until(case: &Case, mut given: Given, stop: Stop<'_>) -> Result<Bod
     Ok(Bodies { lower, upper })
 }
 
-/// The heights of the upper body of a `pass` after the first, made as that of the first is but from a seed of its own, on the
-/// `grid` of the lower body.
+/// Generates the heights of the upper body of a `pass` after the first, like those of the first but from another seed, on
+/// the `grid` of the lower body.
 ///
 /// # Errors
-/// [`Error::Case`] as of [`bodies`].
+/// [`Error::Case`] as for [`bodies`].
 pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Field> {
     let mut body = case.upper.clone();
     if let Source::Generate { seed, .. } = &mut body.topography.source {
@@ -162,22 +163,22 @@ pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Fie
     Ok(topography.into_heights())
 }
 
-/// The seed of a `pass` after the first: the first number of the pass's stream of random numbers.
+/// Seed of a `pass` after the first: the first number in the random stream of the pass.
 fn seed_of_pass(seed: u64, pass: usize) -> u64 {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(pass as u64);
     random.next_u64()
 }
 
-/// The grids on which [`bodies`] will be, from the case and the sizes in its files alone.
+/// Returns the grids of [`bodies`], from the case and from the sizes in its files alone.
 ///
 /// # Errors
-/// [`Error::Case`] as of [`bodies`], for files and for steps of the preparation that have no meaning on their grid.
+/// [`Error::Case`] as for [`bodies`], for files and for preparation steps that are invalid on their grid.
 pub fn grids(case: &Case, given: &Given) -> Result<[Grid; 2]> {
     in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other, given))
 }
 
-/// What is made of both bodies, in the second place of the one that takes its shape or pitch from the other.
+/// Processes both bodies; the one that takes its shape or pitch from the other comes second.
 fn in_turn<T>(
     case: &Case,
     grid_of: impl Fn(&T) -> Grid,
@@ -215,7 +216,7 @@ fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>, given: &Given
     preparation.grid(grid).map_err(|error| at.preparing(error))
 }
 
-/// The table of the topography of a body.
+/// Name of the table of a body's topography.
 fn topography_of(body: &str) -> String {
     format!("{body}.topography")
 }
@@ -233,7 +234,7 @@ fn prepared(
     Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
 }
 
-/// The surface of a body as it faces the other one, every height defined.
+/// Returns the surface of a body, mounted and with every height defined.
 fn turned(
     case: &Case,
     name: &str,
@@ -262,7 +263,7 @@ fn turned(
     Ok((Made { topography, origin, findings }, mount))
 }
 
-/// What is described at a place, after all its steps, on what it lacks from the `other` body.
+/// Makes the topography described at a place, with all its steps, and completes it from the `other` body.
 fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -> Result<Made> {
     let spec = at.spec;
     let grid = || spec.made_on(other);
@@ -295,7 +296,7 @@ fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -
     Ok(Made { topography, origin, findings })
 }
 
-/// What the cells of a body on `grid` bear, and the digest of the file that tells.
+/// Returns the hardness of a body on `grid`, and the digest of its file.
 fn hardness(
     case: &Case,
     name: &str,
@@ -359,7 +360,7 @@ fn hardness(
     Ok((CellValues::Field(values), Some(sha256)))
 }
 
-/// What the file holds, and its digest.
+/// Reads a file; also returns its digest.
 fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<(Scan, String)> {
     let bytes = surface::contents(path)?;
     let mut options = ReadOptions::default();
@@ -367,7 +368,7 @@ fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<(Scan
     Ok((options.scan_bytes(path, &bytes)?, sha256(&bytes)))
 }
 
-/// What is to be done with what the file holds.
+/// Returns the preparation of heights from a file.
 fn measured(
     at: Place<'_>,
     path: &Path,
@@ -394,7 +395,7 @@ fn measured(
     Ok((topography, Origin { format, channel, is_underside, shape, sha256 }, preparation))
 }
 
-/// The steps for heights that have a pitch of their own, `carried`: to another one they are resampled.
+/// Returns the preparation of heights with their own pitch, `carried`. For another pitch they are resampled.
 fn with_pitch(at: Place<'_>, carried: [Metre; 2]) -> Result<Preparation> {
     let spec = at.spec;
     let Some(pitch) = spec.pitch else { return Ok(spec.preparation) };
@@ -411,11 +412,11 @@ fn with_pitch(at: Place<'_>, carried: [Metre; 2]) -> Result<Preparation> {
     Ok(Preparation { resample: Some(Resample::Pitch(pitch)), ..spec.preparation })
 }
 
-/// Where the mistakes of one topography are shown.
+/// The place of a topography in the case, for error messages.
 #[derive(Clone, Copy)]
 struct Place<'a> {
     document: &'a Document,
-    /// The topography's table, dotted.
+    /// The dotted name of the topography's table.
     table: &'a str,
     spec: &'a TopographySpec,
 }
@@ -425,12 +426,12 @@ impl Place<'_> {
         self.document.error_at(&format!("{}.{key}", self.table), message, hint)
     }
 
-    /// A name under which nothing is given.
+    /// Error for a name under which nothing is supplied.
     fn giving(&self, error: Error) -> Error {
         self.error("given", error.to_string(), error.hint())
     }
 
-    /// A file that could not be read: what its reader said, at the key that names the file or its channel.
+    /// Error for a file that could not be read: the message of its reader, at the key of the file or of its channel.
     fn reading(&self, error: Error) -> Error {
         match &error {
             Error::NoChannel { available, .. } => {
@@ -447,7 +448,7 @@ impl Place<'_> {
         }
     }
 
-    /// Heights that nothing fills.
+    /// Error for missing heights that no step fills.
     fn missing(&self, findings: &Findings, shape: [usize; 2]) -> Error {
         let [_, _, nx, ny] = self.spec.preparation.window.unwrap_or([0, 0, shape[0], shape[1]]);
         let samples = nx.saturating_mul(ny);
@@ -463,7 +464,7 @@ impl Place<'_> {
         )
     }
 
-    /// An error if there are heights that are no lengths of any body.
+    /// Returns an error for heights outside the accepted lengths.
     fn measurable(&self, topography: &Topography) -> Result<()> {
         let range = Dimension::Length.range();
         let highest = topography.heights().iter().fold(0.0, |highest: f64, z| highest.max(z.abs()));
@@ -475,12 +476,12 @@ impl Place<'_> {
         Err(self.error(self.source(), message, Some("check the units".to_owned())))
     }
 
-    /// The key that names the source.
+    /// The key of the source.
     fn source(&self) -> &'static str {
         if let Source::Given { .. } = self.spec.source { "given" } else { "file" }
     }
 
-    /// The file as the case has it, or what is given; nothing for what is made.
+    /// The file as named in the case, or the supplied name; empty for a generated surface.
     fn file(&self) -> String {
         match &self.spec.source {
             Source::File { path, .. } => path.display().to_string(),
@@ -489,7 +490,7 @@ impl Place<'_> {
         }
     }
 
-    /// A step of the preparation that failed, at its key.
+    /// Error of a preparation step, at its key.
     fn preparing(&self, error: Error) -> Error {
         match error {
             Error::Interrupted => error,
@@ -501,12 +502,13 @@ impl Place<'_> {
         }
     }
 
-    /// A parameter that turned out to have no meaning on this grid, at its key.
+    /// Error for a parameter that is invalid on this grid, at its key.
     fn parameter(&self, error: Error) -> Error {
         self.parameter_of("", error)
     }
 
-    /// A parameter without meaning on this grid, at its key in a `table` within the topography's, `"plus.0."`.
+    /// Error for a parameter that is invalid on this grid, at its key in a `table` within that of the topography,
+    /// `"plus.0."`.
     fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
             Error::OutOfRange { quantity, value, dimension, expected } => {
@@ -520,11 +522,11 @@ impl Place<'_> {
     }
 }
 
-/// Two surfaces that must fit together, and what would make them.
+/// Two surfaces that must fit together, and advice on how to make them fit.
 struct Fit<'a> {
     case: &'a Case,
     grids: [Grid; 2],
-    /// What was read.
+    /// The source files.
     origins: [Option<&'a Origin>; 2],
 }
 
@@ -532,7 +534,7 @@ struct Fit<'a> {
 const NAMES: [&str; 2] = ["lower", "upper"];
 
 impl Fit<'_> {
-    /// Refuses surfaces of different pitches, or of different numbers of cells along one of these axes.
+    /// Returns an error if the surfaces differ in pitch, or in the number of cells along one of these axes.
     fn check(&self, axes: &[usize]) -> Result<()> {
         self.check_pitches()?;
         axes.iter().try_for_each(|&axis| self.check_shapes(axis))
@@ -547,7 +549,7 @@ impl Fit<'_> {
         if (0..2).all(|axis| same(lower.pitch[axis], upper.pitch[axis])) {
             return Ok(());
         }
-        // What was made can be made on any grid; of two measured surfaces the finer one loses the least.
+        // A generated surface can be made on any grid. Of two measured surfaces the finer one loses the least.
         let changed = match self.origins.map(|origin| origin.is_some()) {
             [false, true] => 0,
             [true, false] => 1,
@@ -599,7 +601,7 @@ impl Fit<'_> {
         };
         let [x0, y0, nx, ny] = preparation.window.unwrap_or([0, 0, source[0], source[1]]);
         let mut samples = [nx, ny];
-        // In samples of the source, where those are not the cells.
+        // In samples of the source, if those are not the cells.
         samples[axis] = (samples[axis] * kept).div_ceil(shape[axis]);
         shape[axis] = kept;
         let is_made = self.origins[changed].is_none();
@@ -626,7 +628,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_PITCH * a.abs().max(b.abs())
 }
 
-/// A length as a case file has it.
+/// Writes a length as in a case file.
 fn quoted(length: Metre) -> String {
     format!("\"{}\"", exact_pitch(length).replace('µ', "u"))
 }
@@ -635,7 +637,7 @@ fn lengths([x, y]: [Metre; 2]) -> String {
     format!("{} × {}", exact_pitch(x), exact_pitch(y))
 }
 
-/// A pitch with as many digits as it takes for a body that is given it to fit this one.
+/// Writes a pitch with enough digits for a body with that pitch to fit this one.
 pub fn exact_pitch(pitch: Metre) -> String {
     units::format_within(pitch, Dimension::Length, 0.1 * SAME_PITCH)
 }
@@ -661,13 +663,13 @@ mod tests {
         let of = |pass| fresh_heights(&case(text), lower, pass).unwrap();
         let (second, third) = (of(2), of(3));
         assert!(second != third && second != *first.heights() && second == of(2));
-        // Frozen: whoever changes it changes what a resumed motion goes on with.
+        // Frozen: a change of these numbers changes how a resumed motion continues.
         let seeds = [seed_of_pass(5, 2), seed_of_pass(5, 3), seed_of_pass(6, 2)];
         assert_eq!(
             seeds,
             [18_227_308_612_529_490_622, 14_334_089_863_870_952_822, 5_263_930_057_923_644_503]
         );
-        // It is what a case file would make with that seed.
+        // It is the surface that a case file would generate with that seed.
         let other = text.replace("seed = 6", &format!("seed = {}", seeds[2]));
         assert_eq!(made(&other).heights(), &second);
         let sq = |heights: &Field| heights.std(0.0);
@@ -705,7 +707,7 @@ mod tests {
         assert!(by_default.upper.origin.unwrap().is_underside);
         let turned = mounted("upper", "mount = \"turned-over\"").upper;
         assert_eq!(turned.topography.heights()[[0, 0]], -upper[[3, 0]]);
-        // The surface of a lower body is turned over, as any is that was measured.
+        // The surface of a lower body is turned over, like any measured surface.
         let lower_as_upper = mounted("lower", "").upper;
         assert_eq!(lower_as_upper.topography.heights()[[0, 0]], -lower[[3, 0]]);
         assert_eq!(lower_as_upper.mount, Mount::TurnedOver);

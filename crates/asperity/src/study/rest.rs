@@ -1,4 +1,5 @@
-//! A static contact of a case: solved in memory, or kept increment by increment and point by point in a results directory.
+//! A static contact of a case: solved in memory, or written to a results directory increment by increment and point by
+//! point.
 
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, check_finite};
@@ -22,30 +23,30 @@ use crate::study::summary::Outcome;
 use crate::study::tables;
 use crate::units::SquareMetre;
 
-/// A static contact as it was computed.
+/// Result of a static contact.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Rest {
-    /// The contact in numbers, or the points of a sweep.
+    /// The record of the contact, or the points of a sweep.
     pub outcome: Outcome,
-    /// The increments of a loading in stages; none of other contacts.
+    /// The increments of a loading in stages; empty for other contacts.
     pub increments: Vec<IncrementRecord>,
-    /// The updates of a contact that slides in place, the first before it slides; none of other contacts.
+    /// The updates of a contact that wears in place, beginning before it slides; empty for other contacts.
     pub updates: Vec<UpdateRecord>,
-    /// The fields of the contact, at the last point of a sweep.
+    /// The fields of the contact; for a sweep, at its last point.
     pub fields: RestFields,
-    /// What has flowed below the surfaces; none of bodies that do not.
+    /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
     pub flowed: Option<Flowed>,
-    /// What the user should know about the result.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
-/// Computes the static contact of `case` and leaves nothing on the disk: the answer has the bits of that of
+/// Computes the static contact of `case` without writing any file. The result has the bits of
 /// [`run()`](crate::study::run()).
 ///
 /// # Errors
-/// Everything that can be wrong with a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the
-/// surface, which goes to a file, is not computed.
+/// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the surface is not
+/// computed, because it is written to a file.
 pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     if case.motion.is_some() {
         return Err(Error::Unsupported("what moves is no contact at rest"));
@@ -59,7 +60,7 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
 }
 
 impl Rest {
-    /// An outcome with its fields, and nothing else.
+    /// Creates an outcome with its fields, and nothing else.
     fn of(outcome: impl Into<Outcome>, fields: RestFields) -> Self {
         let outcome = outcome.into();
         Self {
@@ -72,7 +73,7 @@ impl Rest {
         }
     }
 
-    /// The same contact, if each number of it is one, as the files of a run must be.
+    /// Returns the contact after checking that all its numbers are finite, as for the files of a run.
     fn checked(self) -> Result<Self> {
         self.outcome.check()?;
         tables::checked(&self.increments)?;
@@ -91,8 +92,8 @@ impl Rest {
     }
 }
 
-/// Solves the static contact of `case`, whose bodies are a `pair`, and tells what to be wary of in the answer. What is kept on
-/// the way is kept by the `writer`, which begins as soon as something is.
+/// Solves the static contact of `case`, whose bodies are a `pair`, and adds warnings about the result. Intermediate results
+/// are written by the `writer`, which begins with the first of them.
 pub(super) fn solve(
     case: &Case,
     pair: Pair,
@@ -117,7 +118,7 @@ pub(super) fn solve(
     }
 }
 
-/// A static contact that is to be solved.
+/// A static contact to be solved.
 struct AtRest<'a> {
     case: &'a Case,
     pair: Pair,
@@ -129,7 +130,7 @@ struct AtRest<'a> {
 }
 
 impl AtRest<'_> {
-    /// In one step without friction.
+    /// Solves in one step without friction.
     fn press(self) -> Result<Rest> {
         let StaticContact { record, solution } =
             press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
@@ -138,7 +139,7 @@ impl AtRest<'_> {
         Ok(Rest { warnings, ..Rest::of(record, pressed(self.pair, solution)) })
     }
 
-    /// In steady rolling.
+    /// Solves steady rolling.
     fn roll(self, friction: &Friction, rolling: Rolling) -> Result<Rest> {
         let (boundary, control) = (self.boundary(), self.control);
         let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
@@ -146,7 +147,7 @@ impl AtRest<'_> {
         Ok(self.loaded(contact))
     }
 
-    /// Stage after stage.
+    /// Solves stage after stage.
     fn load_in_stages(self, stages: &[Stage]) -> Result<Rest> {
         self.begin()?;
         let increments = stages.iter().map(|stage| stage.increments).sum();
@@ -160,7 +161,7 @@ impl AtRest<'_> {
         Ok(self.loaded(contact))
     }
 
-    /// Under one load, or at one creepage, after another.
+    /// Solves one load, or one creepage, after another.
     fn sweep(self, points: &[Point]) -> Result<Rest> {
         self.begin()?;
         let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
@@ -176,7 +177,7 @@ impl AtRest<'_> {
         Ok(Rest { warnings, ..Rest::of(Outcome::Sweep(points), fields) })
     }
 
-    /// Slid in place.
+    /// Solves wear in place.
     fn slide(self, slide: Slide) -> Result<Rest> {
         let friction = slide.friction;
         self.begin()?;
@@ -193,7 +194,7 @@ impl AtRest<'_> {
         Ok(Rest { updates, warnings, ..Rest::of(record, worn_fields(worn, friction)) })
     }
 
-    /// In stages, with bodies that flow below their surfaces.
+    /// Solves the stages of elasto-plastic bodies.
     fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<Rest> {
         let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
         self.begin()?;
@@ -210,7 +211,7 @@ impl AtRest<'_> {
         Ok(Rest { increments, flowed: Some(flowed), warnings, ..Rest::of(record, fields) })
     }
 
-    /// At the end of a loading, or rolling.
+    /// Creates the result from the end of a loading, or of rolling.
     fn loaded(self, contact: LoadedContact) -> Rest {
         let warnings = [review::loaded(&contact), self.review(contact.solution.normal())].concat();
         let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
@@ -222,7 +223,7 @@ impl AtRest<'_> {
         self.case.contact.boundary
     }
 
-    /// Clears what the results replace, where there are any.
+    /// Clears the results that will be replaced, if any.
     fn begin(&self) -> Result<()> {
         self.writer.map_or(Ok(()), Writer::begin)
     }
@@ -232,7 +233,7 @@ impl AtRest<'_> {
     }
 }
 
-/// What keeps a course, as its outputs.
+/// Returns the outputs of a course.
 fn outputs(kept: &mut Option<StepWriter>) -> Vec<&mut dyn Output> {
     kept.iter_mut().map(|kept| kept as &mut dyn Output).collect()
 }
@@ -243,13 +244,13 @@ impl From<StaticRecord> for Outcome {
     }
 }
 
-/// The fields of a contact of the `pair` in one step without friction.
+/// Creates the fields of a contact of the `pair` in one step without friction.
 pub(super) fn pressed(pair: Pair, solution: Solution) -> RestFields {
     let plastic = solution.plastic_interference();
     fields(pair, Equilibrium::Frictionless(Box::new(solution)), plastic, None)
 }
 
-/// The fields of a contact of the `pair`, whose cells have taken up so much plastically.
+/// Creates the fields of a contact of the `pair` with this plastic interference of its cells.
 fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field; 2]>) -> RestFields {
     let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
     let (normal, shear) = match solution {
@@ -259,7 +260,7 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
             (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
         }
     };
-    // The gap is that of the bodies as they are prepared; a loading may have lowered those that it solved.
+    // The heights are those of the prepared bodies, whatever the loading history did to them.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
     let mut fields = Vec::new();
@@ -290,17 +291,17 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     RestFields { grid, approach: normal.approach, hardness, fields }
 }
 
-/// Names of the fields of what laws keep of the lower and of the upper body.
+/// Names of the fields of the state of laws on the lower and on the upper body.
 const STATES: [(&str, [&str; 2]); 3] = [
     (WEAR, ["wear_lower", "wear_upper"]),
     (FILM, ["film_lower", "film_upper"]),
     ("film_grown", ["film_grown_lower", "film_grown_upper"]),
 ];
 
-/// The fields of a contact that was worn in place, with its bodies as they are then.
+/// Creates the fields of a contact that wore in place, with its worn bodies.
 fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
     let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
-    // Films have given the bodies another hardness.
+    // Films have changed the hardness of the bodies.
     let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
     let (gap, plastic) = (solution.gap(), solution.plastic_interference());
     let mut fields = Vec::new();

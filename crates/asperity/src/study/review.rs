@@ -1,4 +1,4 @@
-//! What to be wary of in a result, told once it is there.
+//! Warnings about a finished result.
 
 use ndarray::Axis;
 
@@ -12,14 +12,14 @@ use crate::motion::{
 use crate::operator::Boundary;
 use crate::units::{self, Dimension, Joule, Metre, SquareMetre};
 
-/// The warnings of a static contact, by its pressure.
+/// Returns the warnings of a static contact, from its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
-/// The warnings of a contact that has worn in place, by its bodies and pressure after the last of its updates.
+/// Returns the warnings of a contact that wears in place, from its updates and its bodies and pressure after the last one.
 pub(super) fn worn(
     pair: &Pair,
     boundary: Boundary,
@@ -29,7 +29,7 @@ pub(super) fn worn(
     static_contact(pair, boundary, pressure).into_iter().chain(films_of_updates(pair, updates)).collect()
 }
 
-/// The warnings of a sweep, by its points, of which the `last` is known as a whole.
+/// Returns the warnings of a sweep, from its points and the contact of the `last` one.
 pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String> {
     let coarse =
         || points.iter().map(|p| p.largest_spot_cells).filter(|cells| (1..CELLS_ACROSS).contains(cells));
@@ -41,7 +41,7 @@ pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String>
     too_few.into_iter().chain(ploughed).collect()
 }
 
-/// What to be wary of in a static contact that was loaded in stages, or rolls.
+/// Returns the warnings of a static contact loaded in stages, or of a rolling contact.
 pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
     let mut warnings = Vec::new();
     let Some(shear) = &contact.record.shear else { return warnings };
@@ -53,9 +53,9 @@ pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
     warnings
 }
 
-/// The warning that the energy which friction took is known roughly.
+/// Warns of an inaccurate frictional energy.
 fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
-    /// Dissipation that is known less accurately than this is warned of.
+    /// Relative accuracy of the dissipation that needs no warning.
     const ACCURATE: f64 = 0.1;
     let error = error / shear.dissipation;
     (error > ACCURATE).then(|| {
@@ -67,9 +67,9 @@ fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
     })
 }
 
-/// What to be wary of in a static contact of bodies that flow below their surfaces.
+/// Returns the warnings of a static contact of elasto-plastic bodies.
 pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<String> {
-    /// Step of the load, of the load reached, beyond which the path of a flowing contact is followed roughly.
+    /// Step of the load, relative to the load reached, above which the loading path is resolved only roughly.
     const STEP: f64 = 0.15;
     let FlowedContact { record, flowed, .. } = contact;
     let mut warnings = volumes(case.contact.boundary, &flowed.volumes);
@@ -90,9 +90,9 @@ pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<S
     warnings
 }
 
-/// What to be wary of in volumes that have flowed under a boundary.
+/// Returns the warnings of plastic volumes under a boundary.
 pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<String> {
-    /// Plastic strain beyond which strains are not small, and slope of the surface that it leaves.
+    /// Plastic strain above which strains are not small, and the same for the slope of the residual surface.
     const SMALL: [f64; 2] = [0.1, 0.3];
     let mut warnings = Vec::new();
     let mut largest = 0.0_f64;
@@ -133,7 +133,7 @@ pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<Strin
     warnings
 }
 
-/// The warning that the first layer of bodies that have flowed is too thick for a contact spot so wide.
+/// Warns if the first layer of elasto-plastic bodies is too thick for the width of the contact spot.
 fn thick_layers(volumes: &[FlowedVolume], strain: f64, spot: Metre) -> Option<String> {
     let first = volumes.first().map_or(0.0, |volume| volume.faces[1]);
     (strain > 0.0 && first > 0.25 * spot).then(|| {
@@ -144,7 +144,7 @@ fn thick_layers(volumes: &[FlowedVolume], strain: f64, spot: Metre) -> Option<St
     })
 }
 
-/// What to be wary of in a motion of bodies that flow, by its positions and passes, and the volumes that these have left.
+/// Returns the warnings of a motion of elasto-plastic bodies, from its positions and passes, and from the residual volumes.
 pub(super) fn rolled(
     case: &Case,
     pitch: Metre,
@@ -152,11 +152,12 @@ pub(super) fn rolled(
     passes: &[PassRecord],
     left: &[FlowedVolume],
 ) -> Vec<String> {
-    /// Step of the load from a position to the next, of the load reached, beyond which the path is followed roughly.
+    /// Step of the load from one position to the next, relative to the load reached, above which the loading path is
+    /// resolved only roughly.
     const STEP: f64 = 0.15;
-    /// Stride, of the width of a spot, beyond which the path is followed roughly.
+    /// Stride, relative to the width of a spot, above which the path is resolved only roughly.
     const STRIDE: f64 = 0.1;
-    /// Share of the plastic work at the rim that is too much.
+    /// Largest acceptable share of the plastic work at the rim.
     const RIM: f64 = 0.1;
     let mut warnings = volumes(case.contact.boundary, left);
     let flows = |step: &StepRecord| step.flow.is_some_and(|flow| flow.yielded_cells > 0);
@@ -199,7 +200,7 @@ pub(super) fn rolled(
     warnings
 }
 
-/// Side of a square of the area in contact.
+/// Side of a square with the contact area.
 fn spot_width(record: &StaticRecord, cell: SquareMetre) -> Metre {
     record.contact_area.max(cell).sqrt()
 }
@@ -218,7 +219,7 @@ fn slope(heights: &Field, pitch: [Metre; 2]) -> f64 {
     [0, 1].into_iter().filter(|axis| sides[*axis] > 1).map(along).fold(0.0, f64::max)
 }
 
-/// The warnings of a motion of bodies of these `shapes`, by its passes.
+/// Returns the warnings of a motion of bodies with these `shapes`, from its passes.
 pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
@@ -227,7 +228,7 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     all.chain(films_of_passes(passes)).chain(all_computed(case, passes)).chain(settled(passes)).collect()
 }
 
-/// The warning that in some pass a film is thicker than the roughness it covers.
+/// Warns if in some pass a film is thicker than the roughness it covers.
 fn films_of_passes(passes: &[PassRecord]) -> Option<String> {
     let films = passes.iter().filter_map(|pass| {
         let running = pass.running?;
@@ -236,14 +237,14 @@ fn films_of_passes(passes: &[PassRecord]) -> Option<String> {
     thick_film(films)
 }
 
-/// The warning that at some update of a contact that wears in place a film is thicker than the roughness it covers.
+/// Warns if at some update of a contact that wears in place a film is thicker than the roughness it covers.
 fn films_of_updates(pair: &Pair, updates: &[UpdateRecord]) -> Option<String> {
     let [lower, upper] = [&pair.lower, &pair.upper].map(|body| body.heights.std(0.0));
     let films = |update: &UpdateRecord| [[update.mean_film_lower, lower], [update.mean_film_upper, upper]];
     thick_film(updates.iter().map(films))
 }
 
-/// The warning that a film is thicker than the roughness it covers. `films` has, step after step, the mean thickness of the film
+/// Warns if a film is thicker than the roughness it covers. `films` yields, step after step, the mean thickness of the film
 /// on the lower and on the upper body in contact, and the Sq of that body.
 fn thick_film(films: impl Iterator<Item = [[Metre; 2]; 2]>) -> Option<String> {
     let bodies = films.flat_map(|[lower, upper]| [("lower", lower), ("upper", upper)]);
@@ -256,9 +257,9 @@ fn thick_film(films: impl Iterator<Item = [[Metre; 2]; 2]>) -> Option<String> {
     ))
 }
 
-/// The warning that every pass was computed where few would have done.
+/// Warns if every pass was computed although few would have been enough.
 fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
-    /// Passes from which on it is worth a word.
+    /// Number of passes from which a warning is useful.
     const MANY: usize = 100;
     let repeats = case.motion?.repeats();
     let all = case.acceleration.is_none() && case.runs_in() && passes.len() >= MANY;
@@ -267,13 +268,13 @@ fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
     })
 }
 
-/// The warning that the last passes have changed the bodies no more.
+/// Warns if the last passes no longer changed the bodies.
 fn settled(passes: &[PassRecord]) -> Option<String> {
-    /// Passes from which on it is worth a word.
+    /// Number of passes from which a warning is useful.
     const MANY: usize = 10;
-    /// Share of the largest volume that a pass has moved, up to which one moves none.
+    /// Volume of a pass relative to the largest of all passes, below which a pass changes nothing.
     const NONE: f64 = 1e-6;
-    // What flow below the surfaces does has a verdict of its own.
+    // Plastic flow below the surfaces has a separate warning.
     if passes.iter().any(|pass| pass.flow.is_some()) {
         return None;
     }
@@ -292,8 +293,7 @@ fn settled(passes: &[PassRecord]) -> Option<String> {
     })
 }
 
-/// The warning that most of the volume of a law, which is called `what`, is lost at the free ends, more than their area accounts
-/// for.
+/// Warns if most of the volume of a law, called `what`, is lost at the free ends, more than in proportion to their area.
 fn at_the_rim(
     case: &Case,
     shapes: [[usize; 2]; 2],
@@ -301,7 +301,7 @@ fn at_the_rim(
     law: &str,
     what: &str,
 ) -> Option<String> {
-    /// Times the volume per area of the interior.
+    /// Limit as a multiple of the volume per area of the interior.
     const DENSER: f64 = 2.0;
     let strategy = case.motion?.strategy;
     let interiors = Interior::of_bodies(shapes, case.contact.boundary, strategy, case.output.rim);

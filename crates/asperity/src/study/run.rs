@@ -1,4 +1,4 @@
-//! From a case to its results: what the command line and every other caller run.
+//! From a case to its results, for the command line and every other caller.
 
 use std::path::Path;
 
@@ -18,15 +18,15 @@ use crate::study::rest::{self, Rest};
 use crate::study::results::{Existing, Writer};
 use crate::study::summary::Summary;
 
-/// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`, which is the writer's until
-/// that is dropped: figures may be added to them.
+/// Computes `case`, with the surfaces `given` that it names, and writes its results to `directory`. The returned writer
+/// owns the directory until it is dropped, so that figures can be added.
 ///
-/// What is there already stays until all has been checked that can be checked before something is solved; of a contact
-/// in one step until it is solved.
+/// Existing results stay until everything that can be checked before solving is checked. For a contact in one step they
+/// stay until it is solved.
 ///
 /// # Errors
-/// Everything that can be wrong with a case, its surfaces, the contact or the directory. A motion that ends early
-/// leaves its finished passes, a loading its finished increments, from which [`Existing::Resume`] goes on.
+/// Every error of a case, its surfaces, the contact or the directory. A motion that ends early leaves its finished passes,
+/// a loading its finished increments. [`Existing::Resume`] continues from these.
 pub fn run(
     case: &Case,
     given: Given,
@@ -37,7 +37,7 @@ pub fn run(
     run_with(case, given, directory, (existing, None), watch)
 }
 
-/// As [`run`], where the lock of the directory may be held already.
+/// [`run`] with a lock of the directory that may be held already.
 pub(super) fn run_with(
     case: &Case,
     given: Given,

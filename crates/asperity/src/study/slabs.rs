@@ -1,4 +1,4 @@
-//! A contact at rest on a grid that is divided among ranks, and its results.
+//! A static contact on a grid that is distributed over ranks, and its results.
 //!
 //! ```text
 //! DIR/case.json summary.json   as of any run
@@ -7,7 +7,7 @@
 //!     fields.h5                all rows, once they are collected
 //! ```
 
-mod index; // which rows of the fields are in which file
+mod index; // the rows of the fields in each file
 
 use std::path::Path;
 use std::sync::Arc;
@@ -39,18 +39,18 @@ use index::{Index, Named};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct DemandOfRank {
-    /// The most at any time, without what is only needed to make the surfaces.
+    /// The largest memory at any time, except while the surfaces are made.
     pub steady: f64,
-    /// The most while the surfaces are made or read, by one rank of a machine at a time.
+    /// The largest memory while the surfaces are generated or read, by one rank per machine at a time.
     pub making: f64,
-    /// The memory that the first rank needs to collect the fields of all.
+    /// The memory that the first rank needs to collect all fields.
     pub collecting: f64,
 }
 
-/// Estimates the memory that each of so many `ranks` needs for `case`. Only the size of files is read; nothing is made.
+/// Estimates the memory that each of the `ranks` needs for `case`. Only the sizes of files are read.
 ///
 /// # Errors
-/// [`Error::Case`] if a file cannot be read, or if `case` is not computed on ranks; [`Error::TooManyRanks`].
+/// [`Error::Case`] if a file cannot be read, or if `case` is not supported on ranks; [`Error::TooManyRanks`].
 pub fn demand_on_ranks(case: &Case, ranks: usize) -> Result<DemandOfRank> {
     check(case)?;
     let given = Given::default();
@@ -73,35 +73,36 @@ pub fn demand_on_ranks(case: &Case, ranks: usize) -> Result<DemandOfRank> {
 /// Estimates the memory that [`collect`] needs for the results in `directory`, bytes.
 ///
 /// # Errors
-/// As those of [`collect`], as far as its first file tells.
+/// The errors of [`collect`] for its first file.
 pub fn demand_of_collecting(directory: &Path) -> Result<f64> {
     let index = Index::read(directory, &Results::open(directory)?.case_json()?)?;
     Ok(collecting(index.grid().shape))
 }
 
 fn collecting([rows, columns]: [usize; 2]) -> f64 {
-    /// Fields that are held at a time.
+    /// Number of fields stored at a time.
     const FIELDS: f64 = 5.0;
     PROGRAM + FIELDS * NUMBER * rows as f64 * columns as f64
 }
 
-/// The memory of ranks over that of one process: transforms are held twice while they are exchanged.
+/// Memory of the ranks relative to that of one process: transforms are stored twice while they are exchanged.
 const EXCHANGED: f64 = 1.2;
-/// The program, MPI and their libraries.
+/// Memory of the program, MPI and their libraries.
 const PROGRAM: f64 = 24e6;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
-/// Computes the contact at rest of `case` on these `ranks`, which call it together, and writes its results to `directory`, which all
-/// of them see: each the fields on its rows, rank 0 all else. The summary is given to rank 0.
+/// Computes the static contact of `case` on these `ranks`, which all call it together, and writes its results to
+/// `directory`, which all of them must see. Each rank writes the fields on its rows, and rank 0 everything else. Rank 0
+/// receives the summary.
 ///
-/// Surfaces that are made are made by slabs, where both are Gaussian or forms and nothing else is done with them; of others each
-/// rank has the whole for a while.
+/// If both surfaces are Gaussian or forms, without further preparation, each rank generates only its slab. For other
+/// surfaces each rank holds the whole for a while.
 ///
 /// # Errors
-/// Everything that can be wrong with a case, its surfaces, the contact or the directory; [`Error::Case`] for what is not computed on
-/// ranks, [`Error::RanksDiffer`] also where a rank sees another directory than rank 0, [`Error::TooManyRanks`]. The other ranks wait
-/// for one that has an error.
+/// Every error of a case, its surfaces, the contact or the directory; [`Error::Case`] for input that is not supported on
+/// ranks; [`Error::RanksDiffer`], also if a rank sees another directory than rank 0; [`Error::TooManyRanks`]. If one rank
+/// fails, the others keep waiting for it.
 pub fn run_on_ranks(
     case: &Case,
     ranks: &Arc<dyn Ranks>,
@@ -147,13 +148,13 @@ pub fn run_on_ranks(
     conclude(case, &writer, resolved, began, computed, Vec::new()).map(Some)
 }
 
-/// Gathers the fields that the ranks of a run have left in `directory` into the one file that a run of one process leaves there,
-/// and adds to its summary what the whole contact gives to be wary of. It takes the memory of all fields.
+/// Gathers the fields that the ranks of a run left in `directory` into one file, as from a run of one process. Adds to the
+/// summary the warnings that need the whole contact. It takes the memory of all fields.
 ///
 /// # Errors
-/// [`Error::NoResults`] where no run on ranks has ended, [`Error::File`] for files that are missing or damaged,
-/// [`Error::OtherRows`] for files that hold the rows of another rank, [`Error::NotResumable`] for those of another run. What was
-/// collected before then stays as it is.
+/// [`Error::NoResults`] if no run on ranks has finished, [`Error::File`] for missing or damaged files, [`Error::OtherRows`]
+/// for files with the rows of another rank, [`Error::NotResumable`] for files of another run. Earlier collected fields then
+/// stay unchanged.
 pub fn collect(directory: &Path) -> Result<()> {
     let results = Results::open(directory)?;
     let index = Index::read(directory, &results.case_json()?)?;
@@ -183,7 +184,7 @@ pub fn collect(directory: &Path) -> Result<()> {
     summary::write(&results.summary_path(), &summary)
 }
 
-/// Refuses what is not computed on ranks, where it stands in the case.
+/// Rejects input that is not supported on ranks, at its place in the case.
 fn check(case: &Case) -> Result<()> {
     let bodies = [("lower", &case.lower), ("upper", &case.upper)];
     let of_bodies = bodies.into_iter().flat_map(|(name, body)| {
@@ -217,9 +218,9 @@ fn check(case: &Case) -> Result<()> {
     }
 }
 
-/// Refuses ranks that have not the same `text`.
+/// Returns an error if the ranks differ in their `text`.
 fn check_same(ranks: &dyn Ranks, what: &'static str, text: &str) -> Result<()> {
-    // As many digits as a number holds exactly.
+    // As many digits as a number represents exactly.
     let digest = crate::io::sha256(text.as_bytes());
     let number = u64::from_str_radix(&digest[..12], 16).expect("hexadecimal") as f64;
     let numbers = ranks.gather(&[number], &vec![1; ranks.count()]);
@@ -229,9 +230,9 @@ fn check_same(ranks: &dyn Ranks, what: &'static str, text: &str) -> Result<()> {
     }
 }
 
-/// Refuses ranks that do not see the `directory` of rank 0, which keeps a file there until all have looked.
+/// Returns an error if a rank does not see the `directory` of rank 0, which keeps a file there until all have looked.
 fn check_same_directory(ranks: &dyn Ranks, directory: &Path) -> Result<()> {
-    /// How often a rank looks, and how long it waits in between: a network's file system may take a moment.
+    /// Number of attempts, and the wait between them: a network file system may be slow.
     const TRIALS: (usize, Duration) = (10, Duration::from_millis(100));
     let token = match ranks.rank() {
         0 => Some(Token::new(directory)?),
@@ -252,7 +253,7 @@ fn check_same_directory(ranks: &dyn Ranks, directory: &Path) -> Result<()> {
     }
 }
 
-/// Returns once all ranks have come here.
+/// Returns once all ranks have called it.
 fn wait_for_all(ranks: &dyn Ranks) {
     ranks.gather(&[0.0], &vec![1; ranks.count()]);
 }
@@ -266,7 +267,7 @@ mod tests {
     use crate::ranks::threads::on_ranks;
     use crate::study::{Given, run};
 
-    /// Two bodies, the lower one of a ball and roughness, the upper one measured or made.
+    /// Two bodies: a ball with roughness below, a measured or generated surface above.
     fn case(upper: &str, contact: &str) -> Case {
         let text = format!(
             r#"
@@ -309,7 +310,7 @@ mod tests {
         for (upper, contact) in [
             ("", "load = \"0.1 N\""),
             ("", "boundary = \"periodic\"\nmean_pressure = \"50 MPa\""),
-            // Prepared, so made by each rank as a whole.
+            // Preparation: each rank makes the surface as a whole.
             ("level = \"mean\"", "boundary = [\"periodic\", \"free\"]\napproach = \"150 nm\""),
             // Heights that are not Gaussian.
             ("ssk = -0.5\nsku = 3.5", "load = \"0.2 N\""),
@@ -379,7 +380,7 @@ mod tests {
         assert_eq!(errors, ["rank 1 has another case than rank 0"; 2]);
     }
 
-    /// The results of a case on so many ranks, in a directory of its own.
+    /// Returns the results of a case on `count` ranks, in a new directory.
     fn computed(case: &Case, count: usize) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         on_ranks(count, |ranks| run_on_ranks(case, &ranks, folder.path(), Existing::Keep).map(drop))
@@ -412,7 +413,7 @@ mod tests {
             assert_eq!(message, format!("{} {said}", file_of(&two, rank).display()));
             fs::write(file_of(&two, rank), &own[rank]).unwrap();
         }
-        // Both at once, and the index of another run.
+        // Both at once, with the index of another run.
         fs::write(file_of(&two, 0), &own[1]).unwrap();
         fs::write(file_of(&two, 1), &own[0]).unwrap();
         assert!(matches!(collect(two.path()), Err(Error::OtherRows { rows: [33, 65], .. })));
@@ -450,7 +451,7 @@ mod tests {
             for bytes in flipped.chain(cut) {
                 fs::write(&path, bytes).unwrap();
                 match collect(folder.path()) {
-                    // A byte that nothing depends on, such as a name of a version, an unused one or a space.
+                    // A byte without effect, such as one in the name of a version, an unused one or a space.
                     Ok(()) => {
                         assert_eq!(fields(), expected, "{name} was damaged without a word");
                         unharmed += 1;
@@ -521,7 +522,7 @@ mod tests {
         assert!(own(one) > 1.6 * own(two) && own(two) > 1.8 * own(four), "{one:?} {two:?} {four:?}");
         assert!(one.making > two.making && two.making > four.making);
         assert_eq!(one.collecting, four.collecting);
-        // A surface that is levelled is made as a whole.
+        // A levelled surface is made as a whole.
         let [one, _, four] = demands("level = \"mean\"");
         assert_eq!(one.making, four.making);
         let error = demand_on_ranks(&case("", "load = 1"), 67).unwrap_err();

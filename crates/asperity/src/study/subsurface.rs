@@ -1,4 +1,4 @@
-//! The stress under the surface of a contact: what a case wants of it on its grid, and the file that holds it.
+//! Stress under the surface of a contact: the points requested in a case, and the result file.
 //!
 //! ```text
 //! /                      attributes: body, poisson, section, planes, columns; the record, see [`SubsurfaceRecord`]
@@ -26,27 +26,27 @@ use crate::stress::{Component, Stress};
 use crate::subsurface::{Extreme, LayeredStress, Plane, Subsurface, Tractions, von_mises};
 use crate::units::{self, Dimension, Metre, Pascal};
 
-/// What is looked at, on the grid of one contact.
+/// Requested points on the grid of one contact.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Plan {
-    /// Index of the position that is looked at.
+    /// Index of the requested position.
     pub index: usize,
-    /// The cells that face each other there.
+    /// The grid of the overlap at this position.
     pub grid: Grid,
     /// Evenly spaced, from the surface down.
     pub depths: Vec<Metre>,
     body: Side,
     poisson: f64,
     boundary: Boundary,
-    /// The corner of the grid on the body.
+    /// The corner of the overlap on the body.
     corner: [Metre; 2],
     planes: Vec<Metre>,
     section: Option<usize>,
     columns: Vec<[usize; 2]>,
-    /// Whether the stress is wanted as a volume, too.
+    /// Whether the stress is also requested as a volume.
     volume: bool,
-    /// The layers in which the body may flow; none of one that does not.
+    /// The plastic layers of the body; `None` if it is elastic.
     layers: Option<Layers>,
     material: Material,
     /// The grid of the body.
@@ -76,10 +76,10 @@ columns! {
 }
 
 impl Plan {
-    /// What `case` wants, where its bodies face each other at the `positions`.
+    /// Creates the plan of `case` for bodies that overlap at the `positions`.
     ///
     /// # Errors
-    /// [`Error::Case`] if something that is wanted lies outside the contact.
+    /// [`Error::Case`] if a requested point lies outside the contact.
     pub fn new(case: &Case, [lower, upper]: [&Grid; 2], positions: &[Position]) -> Result<Option<Self>> {
         let Some(spec) = &case.subsurface else { return Ok(None) };
         let error = |key: &str, message| case.error_at(&format!("subsurface.{key}"), message, None);
@@ -132,7 +132,7 @@ impl Plan {
         }))
     }
 
-    /// The same cells where a pass has them: on a body that moves on from pass to pass they lie elsewhere in each.
+    /// Returns the plan with the cells of a pass. On a body that moves from pass to pass they differ.
     pub(super) fn at(&self, position: &Position, lower: &Grid) -> Self {
         Self { corner: corner(self.body, position, lower), ..self.clone() }
     }
@@ -142,11 +142,11 @@ impl Plan {
         let cells = self.grid.cells() as f64;
         let padded = self.boundary.padded(self.grid.shape).map(|n| n as f64);
         let padded = padded[0] * padded[1];
-        // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one under way.
+        // Six components, von Mises' stress, two tables; influence, its transform, their sum, and one in progress.
         8.0 * (9.0 * cells + 4.0 * padded)
     }
 
-    /// Which of the bodies is looked into: 0 the lower, 1 the upper one.
+    /// The requested body: 0 the lower, 1 the upper one.
     pub(super) fn side(&self) -> usize {
         match self.body {
             Side::Lower => 0,
@@ -154,7 +154,7 @@ impl Plan {
         }
     }
 
-    /// The residual stress of what has flowed in the body, on which the contact is seated.
+    /// Returns the residual stress from the plastic state of the body, on the cells of the contact.
     fn residual(&self, flowed: Option<(&PlasticState, &Seat)>) -> Result<Option<LayeredStress>> {
         let (Some((state, seat)), Some(layers)) = (flowed, &self.layers) else { return Ok(None) };
         let to = self.depths[self.depths.len() - 1];
@@ -163,8 +163,8 @@ impl Plan {
             .map(Some)
     }
 
-    /// Computes the stress under `tractions`, those on the lower body, and by what has `flowed` in the body that is looked into, and
-    /// writes it to `path` with what `file` says already.
+    /// Computes the stress in the requested body under `tractions`, which act on the lower body, plus its residual stress
+    /// from `flowed`. Writes it to `path` with the present content of `file`.
     pub(super) fn write(
         &self,
         mut file: FieldFile,
@@ -232,7 +232,7 @@ impl Plan {
         Ok(record)
     }
 
-    /// The residual part of the stress on the section and under the columns.
+    /// Adds the residual stress on the section and under the columns.
     fn add_residual(&self, file: &mut FieldFile, residual: &LayeredStress, row: usize) {
         let planes: Vec<[Field; 6]> = self.depths.iter().map(|depth| residual.at(*depth)).collect();
         let pitch = [self.grid.pitch[0], self.spacing()];
@@ -297,10 +297,10 @@ impl Plan {
 }
 
 impl SubsurfaceRecord {
-    /// The record of the file at `path`.
+    /// Reads the record from the file at `path`.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read or has none.
+    /// [`Error::File`] if it cannot be read, or has no record.
     pub fn read(path: &Path) -> Result<Self> {
         let attributes = Fields::open(path)?.attributes()?;
         let numbers = |name: &str| match attributes.get(name) {
@@ -326,7 +326,7 @@ impl SubsurfaceRecord {
     }
 }
 
-/// The corner of the contact at a position on one of the bodies, whose cells are those of the `lower` one.
+/// Returns the corner of the contact at a position on one of the bodies, in cells of the `lower` one.
 fn corner(body: Side, position: &Position, lower: &Grid) -> [Metre; 2] {
     let [first_lower, first_upper] = position.places();
     let [dx, dy] = lower.pitch;

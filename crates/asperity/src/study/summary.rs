@@ -1,4 +1,4 @@
-//! `summary.json`: what was computed, in numbers.
+//! `summary.json`: the results of a computation in numbers.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,30 +16,30 @@ use crate::units::{CubicMetre, Metre, Second};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Version of the program that computed it.
+    /// Version of the program that wrote it.
     pub version: String,
-    /// The case as resolved: defaults filled in, SI.
+    /// The resolved case: in SI, with defaults filled in.
     pub case: serde_json::Value,
     /// The outcome, in the file under the key `static`, `sweep` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// What the passes of bodies that wear or grow films come to together; none of others.
+    /// Totals over the passes of bodies that wear or grow films; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub running_in: Option<RunningIn>,
-    /// The last update of a contact that has slid in place: what it has lost and come to; none of others.
+    /// The last update of a contact that wore in place, with its losses and final state; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding: Option<UpdateRecord>,
-    /// What the passes of bodies that flow below their surfaces have left, once the load is taken off, and what becomes of them; none
-    /// of others. What a contact at rest has left stands in its record.
+    /// Residual plastic state after the passes of elasto-plastic bodies, with its long-term regime; `None` for others. The
+    /// residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<FlowRecord>,
-    /// The most stressed point, of a static contact once, of a motion for each pass; none where the stress was not
-    /// wanted.
+    /// The most stressed point, once for a static contact, once per pass for a motion; empty if the stress was not
+    /// requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
-    /// What the user should know about the result.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// Time the whole computation took.
+    /// Time of the whole computation.
     pub wall_time_s: Second,
 }
 
@@ -60,7 +60,7 @@ columns! {
 }
 
 impl RunningIn {
-    /// Of these passes, if bodies wear or grow films in them.
+    /// Sums these passes, if bodies wear or grow films in them.
     pub(super) fn of(passes: &[PassRecord]) -> Option<Self> {
         passes.first()?.running?;
         let mut lost = BTreeMap::<String, [CubicMetre; 2]>::new();
@@ -81,21 +81,21 @@ impl RunningIn {
     }
 }
 
-/// What was computed.
+/// Outcome of a computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
     /// One static contact.
     #[serde(serialize_with = "with_converged")]
     Static(Box<StaticRecord>),
-    /// Static contacts under one load after another: one record each.
+    /// Static contacts at several loads: one record each.
     Sweep(Vec<SweepRecord>),
     /// A motion: one record per pass.
     Passes(Vec<PassRecord>),
 }
 
 impl Outcome {
-    /// Checks the numbers of static contacts; those of passes are checked as they are done.
+    /// Checks the numbers of static contacts. Passes are checked as they finish.
     ///
     /// # Errors
     /// [`Error::NotFinite`].
@@ -108,11 +108,11 @@ impl Outcome {
     }
 }
 
-/// What `static` has besides its record.
+/// The additional column of `static`.
 pub(super) const CONVERGED: Column =
     Column::new("converged", "", "`true`: a computation that does not converge leaves no summary.");
 
-/// A static contact with the word that readers of the file look for: what did not converge leaves no summary.
+/// Writes a static contact with a flag for readers of the file. A contact that did not converge leaves no summary.
 fn with_converged<S: Serializer>(
     record: &StaticRecord,
     serializer: S,
@@ -126,7 +126,7 @@ fn with_converged<S: Serializer>(
     Keys { record, converged: true }.serialize(serializer)
 }
 
-/// Writes `summary` to `path`, atomically. JSON has no NaN: such a number becomes `null`.
+/// Writes `summary` to `path`, atomically. JSON has no NaN, which is written as `null`.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -137,10 +137,10 @@ pub(super) fn write(path: &Path, summary: &Summary) -> Result<()> {
     })
 }
 
-/// Reads what [`write()`] wrote.
+/// Reads a file written by [`write()`].
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be read or is not a summary; the message then has line and column.
+/// [`Error::File`] if the file cannot be read or is not a summary; the message gives line and column.
 pub(super) fn read(path: &Path) -> Result<Summary> {
     let failed = |source| Error::File { path: path.to_owned(), source };
     let text = regular::read(path, "a summary", u64::MAX).map_err(failed)?;

@@ -1,8 +1,8 @@
-//! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: a row per position, per pass, per increment of a loading, per
-//! point of a sweep.
+//! `steps.csv`, `passes.csv`, `increments.csv`, `sweep.csv`: one row per position, pass, increment of a loading, or point
+//! of a sweep.
 //!
-//! A table grows by the rows of a step when that is done; a row counts once its line has an end, so that half a row, which a power cut
-//! may leave, is none. Numbers are written so that they read back to the same bits.
+//! A table grows by the rows of each finished step. Only rows with a line end count, so that half a row left by a power cut
+//! is ignored. Numbers read back to the same bits.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
@@ -20,12 +20,12 @@ use crate::motion::{
 };
 use crate::study::json;
 
-/// A record that is a row of a table, or of the summary.
+/// A record that forms a row of a table, or a part of the summary.
 pub(super) trait Record: Serialize {
-    /// Its columns, with those of the groups that it may have.
+    /// Its columns, including those of optional groups.
     const COLUMNS: &'static [Column];
 
-    /// The error of the computation at which the record was made.
+    /// Wraps an error as one at the step of the record.
     fn at(&self, error: Error) -> Error {
         error
     }
@@ -71,7 +71,7 @@ impl Record for StaticRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 }
 
-/// The rows of some records.
+/// Converts records to rows.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a number that is NaN or infinite, unless it may be unknown.
@@ -91,16 +91,16 @@ pub(super) fn checked<T: Record>(records: &[T]) -> Result<Vec<Row>> {
     records.iter().map(row).collect()
 }
 
-/// A table under way: rows are added to its end.
+/// A table to which rows are appended.
 pub(super) struct GrowingTable {
     path: PathBuf,
-    /// Its columns; none of a table without a row.
+    /// Its columns; empty for a table without rows.
     columns: Vec<String>,
 }
 
 impl GrowingTable {
-    /// The table at `path` with so many `rows`, its first; it is there if these are more than none. What a run that was killed has
-    /// written after them goes.
+    /// Opens the table at `path` with its first `rows` rows. It must exist unless `rows` is 0. Later rows, left by a killed
+    /// run, are removed.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -109,17 +109,17 @@ impl GrowingTable {
         Ok(Self { path, columns })
     }
 
-    /// Adds the rows of some `records`.
+    /// Appends some `records`.
     ///
     /// # Errors
-    /// [`Error::File`], [`Error::NotFinite`]; the table is then as it was.
+    /// [`Error::File`], [`Error::NotFinite`]; the table is then unchanged.
     pub(super) fn add<T: Record>(&mut self, records: &[T]) -> Result<()> {
         let rows = checked(records)?;
         let mut columns = rows.first().map_or(Vec::new(), Row::columns);
         if columns.iter().all(|column| self.columns.contains(column)) {
             return append(&self.path, &lines(&self.columns, &rows)).map_err(failed(&self.path));
         }
-        // What a law takes is told in the rows of all passes, once it has taken something in one.
+        // Once a law has removed volume in one pass, the rows of all passes have its columns.
         let known = self.columns.iter().filter(|column| !columns.contains(column));
         columns.extend(known.cloned().collect::<Vec<_>>());
         let mut before = match self.columns.is_empty() {
@@ -133,7 +133,7 @@ impl GrowingTable {
     }
 }
 
-/// How many whole rows the table at `path` has; none where it is not there.
+/// Returns the number of complete rows of the table at `path`; `None` if there is no table.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -145,7 +145,7 @@ pub(super) fn rows_there(path: &Path) -> Result<usize> {
     Ok(text.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1))
 }
 
-/// Writes a table of these columns.
+/// Writes a table with these columns.
 fn write_rows(path: &Path, columns: &[String], rows: &[Row]) -> Result<()> {
     let text = lines(columns, rows);
     atomic::write_with(path, |file| {
@@ -154,13 +154,13 @@ fn write_rows(path: &Path, columns: &[String], rows: &[Row]) -> Result<()> {
     })
 }
 
-/// The rows in the order of these `columns`, a line each; a volume of a law that a row does not know is 0.
+/// Formats the rows in the order of these `columns`, one line each. A missing volume of a law is 0.
 fn lines(columns: &[String], rows: &[Row]) -> String {
     let line = |row: &Row| row.values(columns).join(",") + "\n";
     rows.iter().map(line).collect()
 }
 
-/// Cuts a table off after its header and so many rows; its columns.
+/// Truncates a table after its header and `rows` rows; returns its columns.
 fn keep(path: &Path, rows: usize) -> io::Result<Vec<String>> {
     let mut reader = BufReader::new(regular::open(path, TABLE)?);
     let mut header = String::new();
@@ -178,7 +178,7 @@ fn keep(path: &Path, rows: usize) -> io::Result<Vec<String>> {
     Ok(header.trim_end().split(',').map(str::to_owned).collect())
 }
 
-/// Adds `text` to the end of a file; where that fails the file is as it was.
+/// Appends `text` to a file. If that fails, the file is unchanged.
 fn append(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::options().append(true).open(path)?;
     let length = file.metadata()?.len();
@@ -189,7 +189,7 @@ fn append(path: &Path, text: &str) -> io::Result<()> {
     written
 }
 
-/// The rows of a table as text.
+/// Reads the rows of a table as text.
 fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
     let mut table = csv::Reader::from_reader(regular::open(path, TABLE)?);
     let columns: Vec<String> = table.headers()?.iter().map(str::to_owned).collect();
@@ -199,26 +199,26 @@ fn raw_rows(path: &Path) -> io::Result<Vec<Row>> {
     table.records().map(row).collect()
 }
 
-/// The rows of a table that may be growing: those whose line has an end.
+/// Reads the rows of a table that may be growing: only those with a line end.
 ///
 /// # Errors
-/// [`Error::File`], with the line where a row is damaged.
+/// [`Error::File`], with the line of a damaged row.
 pub(super) fn read_growing<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
     let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
     let ended = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
     rows(path, &text[..ended])
 }
 
-/// What the files of this module are expected to be.
+/// Expected kind of the files of this module.
 const TABLE: &str = "a table of results";
 
-/// Digests rows after those of the digest `before`, which is empty where there are none: the same for the records and for what is
-/// read back from a table of them.
+/// Computes the digest of rows that follow rows with the digest `before`, which is empty for the first rows. Records, and
+/// the same records read back from a table, have equal digests.
 pub(super) fn digest<T: Serialize>(before: &str, records: &[T]) -> String {
     records.iter().fold(before.to_owned(), |digest, record| {
         let mut text = digest;
         for (column, value) in Row::of(record).cells() {
-            // A law that has taken nothing yet may have no columns, and times are another's in a run that was resumed.
+            // A law without effect so far may have no columns, and times differ in a resumed run.
             let is_nothing = is_volume_of_law(column) && value.parse() == Ok(0.0_f64);
             if !is_nothing && column != "wall_time_s" {
                 text += &format!(",{column}={value}");
@@ -228,7 +228,7 @@ pub(super) fn digest<T: Serialize>(before: &str, records: &[T]) -> String {
     })
 }
 
-/// Digests finished passes, each after its positions.
+/// Computes the digest of finished passes, each after its positions.
 pub(super) fn digest_of_passes(passes: &[PassRecord], steps: &[StepRecord]) -> String {
     let mut steps = steps;
     passes.iter().fold(String::new(), |before, pass| {
@@ -239,7 +239,7 @@ pub(super) fn digest_of_passes(passes: &[PassRecord], steps: &[StepRecord]) -> S
     })
 }
 
-/// A record whose columns depend on what is recorded, as text.
+/// A record as text, with columns that depend on its content.
 pub(super) struct Row(Vec<(String, String)>);
 
 impl Row {
@@ -251,12 +251,12 @@ impl Row {
         self.0.iter().map(|(column, _)| column.clone()).collect()
     }
 
-    /// Columns with their values, empty where there is none.
+    /// Returns columns with their values, which are empty if missing.
     pub(super) fn cells(&self) -> &[(String, String)] {
         &self.0
     }
 
-    /// The values in the order of these columns, 0 of those that there are not.
+    /// Returns the values in the order of these columns, 0 for missing ones.
     fn values(&self, columns: &[String]) -> Vec<&str> {
         let value = |column: &String| {
             self.0.iter().find(|(known, _)| known == column).map(|(_, value)| value.as_str())
@@ -289,10 +289,10 @@ impl<'de> Deserialize<'de> for Row {
     }
 }
 
-/// Reads a table that is whole.
+/// Reads a complete table.
 ///
 /// # Errors
-/// [`Error::File`], with the line where a row is damaged.
+/// [`Error::File`], with the line of a damaged row.
 pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
     let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
     if text.last() != Some(&b'\n') {
@@ -476,7 +476,7 @@ mod tests {
         let mut table = GrowingTable::open(path.clone(), 0).unwrap();
         table.add(&[pass()]).unwrap();
         table.add(&[PassRecord { pass: 2, ..pass() }]).unwrap();
-        // Half a row of a run that was killed.
+        // Half a row from a killed run.
         append(&path, "3,1e-9").unwrap();
         assert_eq!(read_growing::<PassRecord>(&path).unwrap().len(), 2);
         let mut table = GrowingTable::open(path.clone(), 1).unwrap();

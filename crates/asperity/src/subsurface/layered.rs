@@ -1,29 +1,29 @@
-//! A stress that is known in layers.
+//! A stress given at several depths.
 
 use crate::grid::Field;
 use crate::units::Metre;
 
-/// A stress that is known at some depths, and between them by straight lines: that which plastic flow has left.
+/// A stress given at several depths, linear between them: the residual stress of plastic strain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayeredStress {
     /// The depths, ascending.
     depths: Vec<Metre>,
-    /// The components at each of them, in the order of [`crate::stress::Component::ALL`], Pa.
+    /// The components at each depth, in the order of [`crate::stress::Component::ALL`], Pa.
     planes: Vec<[Field; 6]>,
 }
 
 impl LayeredStress {
-    /// The stress that has these components at the `depths`, ascending; above the first it goes on straight, below the last it
-    /// stays.
+    /// Creates the stress with these components at the `depths`, ascending. Above the first it is extrapolated linearly,
+    /// below the last it is constant.
     ///
     /// # Panics
-    /// If there are none, or not as many planes.
+    /// If there are no depths, or if their number differs from that of the planes.
     pub fn new(depths: Vec<Metre>, planes: Vec<[Field; 6]>) -> Self {
         assert!(!depths.is_empty() && depths.len() == planes.len(), "a plane at each depth");
         Self { depths, planes }
     }
 
-    /// The components at a depth.
+    /// Returns the components at a depth.
     pub fn at(&self, depth: Metre) -> [Field; 6] {
         let last = self.depths.len() - 1;
         let below =

@@ -1,9 +1,9 @@
-//! Where the material is stressed the most.
+//! Search for the most stressed point.
 
 use super::{Plane, Subsurface};
 use crate::units::{Metre, Pascal};
 
-/// The largest value of something, and where.
+/// A largest value and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Extreme {
@@ -15,7 +15,7 @@ pub struct Extreme {
     pub depth: Metre,
 }
 
-/// The largest stresses of some planes.
+/// The largest stresses on some planes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Maximum {
@@ -26,7 +26,7 @@ pub struct Maximum {
 }
 
 impl Plane {
-    /// The largest stresses on the plane; of equal ones the first.
+    /// Returns the largest stresses on the plane; the first of equal ones.
     pub fn maximum(&self) -> Maximum {
         let none = Extreme { value: 0.0, cell: [0, 0], depth: self.depth };
         let mut most = Maximum { von_mises: none, shear: none };
@@ -36,7 +36,7 @@ impl Plane {
             if value > most.von_mises.value {
                 most.von_mises = here(value);
             }
-            // The largest shear is at most 1/√3 of von Mises' stress: elsewhere it need not be known.
+            // The largest shear is at most 1/√3 of von Mises' stress, so that it is not needed elsewhere.
             if value > 3f64.sqrt() * most.shear.value {
                 let shear = self.at([i, j]).max_shear();
                 if shear > most.shear.value {
@@ -49,20 +49,20 @@ impl Plane {
 }
 
 impl Subsurface {
-    /// The largest stresses on planes at the `depths`, ascending, and on a few more between those beside the most
-    /// stressed point: each at the vertex of a parabola in depth through the von Mises stresses known there, which
-    /// finds the depth to about a hundredth of the distance of the planes. Each value is that of a cell at a depth, never
-    /// one of a parabola.
+    /// Returns the largest stresses on planes at the `depths`, ascending, and on a few more planes near the most stressed
+    /// point. Each of these is at the vertex of a parabola in depth through the known von Mises stresses. The depth is
+    /// accurate to about a hundredth of the distance between the planes. Each value is that of a cell at a depth, never
+    /// interpolated.
     ///
     /// # Panics
     /// If there are no depths.
     pub fn maximum(&self, depths: &[Metre]) -> Maximum {
-        /// Rounds, each of which takes a finer set of depths around the largest stress so far.
+        /// Number of refinements, each with a smaller depth interval around the largest stress so far.
         const REFINEMENTS: usize = 4;
         let all = self.planes(depths, |plane| plane.maximum());
         let mut most = all.into_iter().reduce(Maximum::or).expect("there are depths");
         let middle = depths.iter().position(|depth| *depth == most.von_mises.depth);
-        // Three planes, the middle one the most stressed; none at the ends of the depths.
+        // Three planes with the most stressed one in the middle; `None` at the ends of the depths.
         let Some(beside) = middle.filter(|k| (1..depths.len() - 1).contains(k)) else { return most };
         let mut around = [beside - 1, beside, beside + 1].map(|k| self.plane(depths[k]));
         for _ in 0..REFINEMENTS {
@@ -79,15 +79,15 @@ impl Subsurface {
     }
 }
 
-/// The place where the parabola through three points [depth, stress], the middle one the highest, is largest, unless
-/// there.
+/// Returns the vertex of the parabola through three points [depth, stress], the middle one the highest; `None` if it is
+/// the middle one.
 fn vertex([[above, a], [middle, m], [below, b]]: [[f64; 2]; 3]) -> Option<Metre> {
     let (up, down, rise, fall) = (middle - above, below - middle, m - a, m - b);
     let shift = 0.5 * (down * down * rise - up * up * fall) / (down * rise + up * fall);
     (shift.is_finite() && shift != 0.0).then_some(middle + shift)
 }
 
-/// The planes beside the most stressed one, `plane` among them, whether it is the most stressed itself or not.
+/// Returns the planes beside the most stressed one after adding `plane`; `most` is whether that is now the most stressed.
 fn narrowed([above, middle, below]: [Plane; 3], plane: Plane, most: bool) -> [Plane; 3] {
     match (plane.depth < middle.depth, most) {
         (true, true) => [above, plane, middle],
@@ -98,7 +98,7 @@ fn narrowed([above, middle, below]: [Plane; 3], plane: Plane, most: bool) -> [Pl
 }
 
 impl Maximum {
-    /// The larger of each; of equal ones the first.
+    /// Returns the larger of each; the first of equal ones.
     fn or(self, other: Self) -> Self {
         let larger = |a: Extreme, b: Extreme| if b.value > a.value { b } else { a };
         Self { von_mises: larger(self.von_mises, other.von_mises), shear: larger(self.shear, other.shear) }
@@ -114,7 +114,7 @@ mod tests {
     use crate::subsurface::Tractions;
     use std::f64::consts::PI;
 
-    /// a = p₀ = 1, on 24 cells a side of which 16 are in contact.
+    /// a = p₀ = 1, on a side of 24 cells, 16 of which are in contact.
     fn sphere(friction: f64) -> (Subsurface, SlidingSphere) {
         let normal = HertzSphere { radius: 1.0, modulus: PI / 2.0, load: 2.0 * PI / 3.0 };
         let contact = SlidingSphere { normal, friction, poisson: 0.3 };
@@ -137,7 +137,7 @@ mod tests {
         assert!((depth - 0.481).abs() < 0.01 && (found - depth).abs() < 3e-3, "{found}, {depth}");
         assert!((most.von_mises.value / exact.von_mises.value - 1.0).abs() < 1e-5);
         assert!((most.shear.value / exact.shear.value - 1.0).abs() < 1e-5);
-        // It is a value that the body has there.
+        // It is a value of the body at that place.
         assert_eq!(body.plane(found).at([12, 12]).von_mises(), most.von_mises.value);
     }
 
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(most.depth, 0.0);
         let [x, y] = most.cell.map(|i| 0.125 * (i as f64 - 12.0));
         assert!((most.value / contact.stress([x, y], 0.0).von_mises() - 1.0).abs() < 0.1, "{most:?}");
-        // Deep below, the first plane is the most stressed.
+        // At large depths the first plane is the most stressed.
         assert_eq!(body.maximum(&[2.0, 3.0, 4.0]).von_mises.depth, 2.0);
     }
 }

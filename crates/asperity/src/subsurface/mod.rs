@@ -1,7 +1,8 @@
-//! The stress under the surface of a body, plane by plane.
+//! Stress under the surface of a body, plane by plane.
 //!
-//! z points into the body, stress is positive in tension. A [`Subsurface`] knows the tractions on the surface by their
-//! transforms; [`Subsurface::plane`] is the stress at one depth, [`Subsurface::maximum`] the largest over many.
+//! z points into the body, and stress is positive in tension. A [`Subsurface`] stores the transforms of the tractions on
+//! the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::maximum`] the largest over many
+//! depths.
 //!
 //! ```
 //! use asperity::reference::HertzSphere;
@@ -37,28 +38,28 @@ use crate::operator::Boundary;
 use crate::stress::{Component, Stress};
 use crate::units::Metre;
 
-/// What acts on the surface of a body, on the cells of one grid.
+/// Tractions on the surface of a body, on the cells of one grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tractions {
     /// Pressure p ≥ 0, into the body.
     pub pressure: Field,
-    /// Shear tractions along +x and +y; `None` is zero.
+    /// Shear tractions along +x and +y; `None` for zero.
     pub shear: [Option<Field>; 2],
 }
 
 impl Tractions {
-    /// A pressure alone: contact without friction.
+    /// Creates a pressure without shear: contact without friction.
     pub fn frictionless(pressure: Field) -> Self {
         Self { pressure, shear: [None, None] }
     }
 
-    /// What acts on the upper body where these act on the lower one: the same pressure, the shear reversed. The upper
-    /// body's z points into it too, so that its stresses are those of the mirror image.
+    /// Converts tractions on the lower body to those on the upper one: the same pressure, the reversed shear. The upper
+    /// body's z also points into the body, so that its stresses are those of the mirror image.
     pub fn on_upper(self) -> Self {
         Self { shear: self.shear.map(|shear| shear.map(|q| -q)), ..self }
     }
 
-    /// The tractions that are not zero throughout.
+    /// Iterates over the tractions that are not zero throughout.
     pub(crate) fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
         let [qx, qy] = &self.shear;
         let all = [
@@ -74,11 +75,11 @@ impl Tractions {
 
 /// A half-space under given tractions.
 ///
-/// - [`Boundary::FREE`]: uniform in each cell, zero outside the grid. A plane is the convolution of the tractions with
-///   the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
+/// - [`Boundary::FREE`]: tractions are uniform in each cell, and zero outside the grid. A plane is the convolution of the
+///   tractions with the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
 /// - [`Boundary::PERIODIC`]: the harmonics of the values at the cells, each with the closed form of
-///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot widen: σzz = −p̄,
-///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
+///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot expand laterally: σzz = −p̄, σxx = σyy =
+///   −ν p̄/(1 − ν), at all depths.
 pub struct Subsurface {
     grid: Grid,
     poisson: f64,
@@ -86,17 +87,17 @@ pub struct Subsurface {
     fft: RealFft2,
     /// Transforms of the tractions that are not zero.
     tractions: Vec<(Traction, Spectrum)>,
-    /// What is there without tractions.
+    /// Stress without tractions, if any.
     residual: Option<LayeredStress>,
 }
 
 type Spectrum = ndarray::Array2<Complex64>;
 
 impl Subsurface {
-    /// A body of Poisson's ratio `poisson` under `tractions` on `grid`.
+    /// Creates a body with Poisson's ratio `poisson` under `tractions` on `grid`.
     ///
     /// # Panics
-    /// If a traction is not on the grid, or the boundary is periodic along one axis alone.
+    /// If the grid of a traction differs, or if the boundary is periodic along one axis alone.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, tractions: &Tractions) -> Self {
         assert!(boundary.repeats(0) == boundary.repeats(1), "one boundary along both axes");
         let fft = RealFft2::new(boundary.padded(grid.shape));
@@ -108,12 +109,12 @@ impl Subsurface {
         Self { grid, poisson, boundary, fft, tractions, residual: None }
     }
 
-    /// The same body with a residual stress, which is there without tractions.
+    /// Sets or removes a residual stress, which exists without tractions.
     pub fn with_residual(self, residual: impl Into<Option<LayeredStress>>) -> Self {
         Self { residual: residual.into(), ..self }
     }
 
-    /// The residual stress, none of a body that has not been given one.
+    /// Residual stress, if any.
     pub fn residual(&self) -> Option<&LayeredStress> {
         self.residual.as_ref()
     }
@@ -123,7 +124,7 @@ impl Subsurface {
         &self.grid
     }
 
-    /// The stress at `depth` ≥ 0; at 0 its limit from within.
+    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body.
     pub fn plane(&self, depth: Metre) -> Plane {
         let mut stress = Component::ALL.map(|component| self.component(component, depth));
         if let Some(residual) = &self.residual {
@@ -132,7 +133,8 @@ impl Subsurface {
         Plane { depth, stress }
     }
 
-    /// What `look` makes of the plane at each of the `depths`, in their order; in parallel, a plane for each thread.
+    /// Applies `look` to the plane at each of the `depths` in parallel, with one plane per thread. Returns the results in
+    /// order.
     pub fn planes<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane) -> T + Sync) -> Vec<T> {
         parallel::tasks(depths, |&depth| look(self.plane(depth)))
     }
@@ -157,8 +159,9 @@ impl Subsurface {
         self.fft.inverse_leading(&sum, self.grid.shape)
     }
 
-    /// Transform of the influence of one traction in the real part, of another, whose transform is imaginary, in the
-    /// imaginary part: one of them is even in both directions or odd in both, the other odd in one.
+    /// Returns the transform of the influence of two tractions, one with a real transform in the real part, one with an
+    /// imaginary transform in the imaginary part. The influence of the first is even in both directions or odd in both,
+    /// that of the second odd in one.
     fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
         let shape @ [nx, ny] = self.fft.shape();
         if !self.boundary.leaves_mean_free() {
@@ -173,7 +176,7 @@ impl Subsurface {
         Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
             let q =
                 [angular_frequency(k, nx, self.grid.pitch[0]), angular_frequency(l, ny, self.grid.pitch[1])];
-            // Half of what alternates from cell to cell runs either way: what is odd in it cancels.
+            // A wave that alternates from cell to cell runs half in each direction, so that its odd part cancels.
             let alternates = [2 * k == nx, 2 * l == ny];
             let part = |traction: Option<Traction>| match traction {
                 Some(traction) if !cancels(alternates, traction.odd(component)) => {
@@ -196,7 +199,7 @@ fn cancels(alternates: [bool; 2], odd: [bool; 2]) -> bool {
     (0..2).any(|axis| alternates[axis] && odd[axis])
 }
 
-/// Adds a table of offsets from 0 on, and its mirror images at the negative offsets, which stand at the end.
+/// Adds a table of offsets from 0, and its mirror images at the negative offsets, which are stored at the end.
 fn add_folded(influence: &mut Field, table: &Field, odd: [bool; 2]) {
     let [sign_x, sign_y] = odd.map(|odd| if odd { -1.0 } else { 1.0 });
     let (rows, across) = (influence.nrows(), influence.ncols());
@@ -223,18 +226,18 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The stress at a cell.
+    /// Returns the stress at a cell.
     pub fn at(&self, cell: [usize; 2]) -> Stress {
         Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
     }
 
-    /// Von Mises' stress of each cell, Pa.
+    /// Computes von Mises' stress of each cell, Pa.
     pub fn von_mises(&self) -> Field {
         von_mises(&self.stress)
     }
 }
 
-/// Von Mises' stress, Pa, where the components, in the order of [`Component::ALL`], are these.
+/// Computes von Mises' stress, Pa, from the components in the order of [`Component::ALL`].
 pub fn von_mises(stress: &[Field; 6]) -> Field {
     let at = |cell| Stress::from_components(stress.each_ref().map(|component| component[cell]));
     Field::from_shape_fn(stress[0].raw_dim(), |(i, j)| at([i, j]).von_mises())
@@ -298,7 +301,7 @@ mod tests {
         let decay = (-k * depth).exp();
         let tractions = Tractions { pressure: 5.0 + &sine, shear: [Some(2.0 + &sine), None] };
         let plane = Subsurface::new(grid, Boundary::PERIODIC, poisson, &tractions).plane(depth);
-        // Plane strain: Johnson (1985), section 13.2, and the mean; σyy = ν(σxx + σzz) of the wave.
+        // Plane strain: Johnson (1985), section 13.2, plus the mean; σyy = ν(σxx + σzz) for the wave.
         let (s, c) = (&sine * decay, &cosine * decay);
         let kz = k * depth;
         let exact = [
@@ -318,8 +321,8 @@ mod tests {
     #[test]
     fn what_balances_itself_is_the_same_on_a_free_and_on_a_wide_periodic_body() {
         let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
-        // No force, and no moment of the first three orders: the other periods are felt as 1/r⁶. Steps in
-        // place of waves differ by (qΔx)²/24.
+        // Without force and without moments of the first three orders, the effect of the other periods is of order 1/r⁶.
+        // Steps in place of waves differ by (qΔx)²/24.
         let bell = Field::from_shape_fn(grid.shape, |(i, j)| {
             let [x, y] = [grid.centre(0, i) - 30.0, grid.centre(1, j) - 33.0].map(|t| t / 5.0);
             (1.0 - x * x) * (1.0 - y * y) * (-0.5 * (x * x + y * y)).exp()

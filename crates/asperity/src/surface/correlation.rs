@@ -9,27 +9,27 @@ use crate::units::{Metre, SquareMetre};
 ///
 /// R(τ) = ⟨z(x) z(x + τ)⟩,  R(0) = Sq²
 ///
-/// the mean over all pairs of defined samples that are τ apart, the heights taken from their mean. Pairs with an
-/// undefined sample do not count, so that holes widen the scatter but leave no bias; a lag without any pair is NaN.
-/// No tilt or form is removed: level first.
+/// The mean is over all pairs of defined samples τ apart, with heights relative to their mean. Pairs with an undefined
+/// sample are ignored, so that holes increase the scatter but cause no bias. A lag without any pair is NaN. No tilt or form
+/// is removed: level first.
 ///
-/// Lags reach to half the topography along x and y, where an unperiodic one still has a quarter of its pairs.
-/// ISO 25178-2, autocorrelation function, is R(τ)/R(0); computed by the Fourier transform (Wiener–Khinchin).
+/// Lags extend to half the topography along x and y, where a nonperiodic one still has a quarter of its pairs. The
+/// autocorrelation function of ISO 25178-2 is R(τ)/R(0). It is computed by the Fourier transform (Wiener–Khinchin).
 #[derive(Debug, Clone)]
 pub struct Correlation {
     pitch: [Metre; 2],
-    /// Indexed from the most negative lags; the one in the centre is zero.
+    /// Indexed from the most negative lags; the central entry is lag 0.
     values: Field,
 }
 
 impl Correlation {
-    /// The autocorrelation of a topography that ends at its rim: the mean over the pairs that lie on it.
+    /// Computes the autocorrelation of a nonperiodic topography: the mean over the pairs within it.
     pub fn of(topography: &Topography) -> Self {
-        // Continued by zeros as far as the longest lag, so that no pair meets across the rim.
+        // Zero-padded to the longest lag, so that no pair wraps around.
         Self::with_period(topography, topography.grid().shape.map(|n| good_size(n + n / 2)))
     }
 
-    /// The autocorrelation of a periodic topography.
+    /// Computes the autocorrelation of a periodic topography.
     pub fn periodic(topography: &Topography) -> Self {
         Self::with_period(topography, topography.grid().shape)
     }
@@ -43,7 +43,8 @@ impl Correlation {
             fft.inverse_leading(&power, [period[0], longest[1] + 1])
         };
         let heights = topography.heights();
-        // From one of them first: equal heights leave nothing, not even the round-off of their mean.
+        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the round-off of
+        // their mean.
         let first = heights.iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
         let defined = heights.iter().filter(|z| !z.is_nan());
         let mean = first + defined.map(|z| z - first).sum::<f64>() / topography.defined() as f64;
@@ -56,7 +57,7 @@ impl Correlation {
             None => ((shape[0] - lag[0]) * (shape[1] - lag[1])) as f64,
         };
         let values = Field::from_shape_fn(longest.map(|n| 2 * n + 1), |(i, j)| {
-            // R(−τ) = R(τ): lags of negative y are those of positive y, both signs turned.
+            // R(−τ) = R(τ): lags with negative y are those with positive y and both signs changed.
             let i = if j < longest[1] { 2 * longest[0] - i } else { i };
             let lag = [i.abs_diff(longest[0]), j.abs_diff(longest[1])];
             let at = [if i < longest[0] { period[0] - lag[0] } else { lag[0] }, lag[1]];
@@ -66,8 +67,8 @@ impl Correlation {
         Self { pitch: topography.grid().pitch, values }
     }
 
-    /// R at all lags, m², of shape `[2 mx + 1, 2 my + 1]`, m half the number of samples: the entry
-    /// `[mx + i, my + j]` belongs to the lag of i samples along x and j along y.
+    /// R at all lags, m², of shape `[2 mx + 1, 2 my + 1]`, with m half the number of samples. The entry `[mx + i, my + j]`
+    /// belongs to the lag of i samples along x and j along y.
     pub fn values(&self) -> &Field {
         &self.values
     }
@@ -77,7 +78,7 @@ impl Correlation {
         self.values[self.longest()]
     }
 
-    /// Lags along `axis`, from 0 on, and R there.
+    /// Returns the lags along `axis`, from 0, and R at each.
     pub fn along(&self, axis: Axis) -> Vec<(Metre, SquareMetre)> {
         let [x, y] = self.longest();
         let (line, pitch) = match axis {
@@ -87,10 +88,10 @@ impl Correlation {
         line.iter().skip(line.len() / 2).enumerate().map(|(n, r)| (n as f64 * pitch, *r)).collect()
     }
 
-    /// R averaged over all directions: over the rings |τ| = n Δ, Δ the larger pitch, as far as they lie within the
-    /// lags; the mean |τ| of each and the mean R. Lags without a pair are left out.
+    /// Averages R over all directions. The rings are |τ| = n Δ, with Δ the larger pitch, as far as they lie within the
+    /// lags. Returns the mean |τ| of each ring and the mean R. Lags without a pair are left out.
     pub fn radial(&self) -> Vec<(Metre, SquareMetre)> {
-        // A direction with a single sample does not count.
+        // A direction with a single sample is ignored.
         let several = |axis: &usize| self.values.shape()[*axis] > 1;
         let width = (0..2).filter(several).map(|axis| self.pitch[axis]).fold(0.0, f64::max);
         let reach = |axis: usize| self.longest()[axis] as f64 * self.pitch[axis];
@@ -111,17 +112,17 @@ impl Correlation {
         filled.map(|[distance, sum, count]| (distance / count, sum / count)).collect()
     }
 
-    /// The lag at which R(τ)/R(0) first falls to `level`, < 1, in the direction `angle` from the x axis towards the y
-    /// axis, in radians; NaN if it does not within the lags.
+    /// Returns the lag at which R(τ)/R(0) first falls to `level`, < 1, in the direction `angle` from the x axis towards the
+    /// y axis, in radians; NaN if it does not within the lags.
     ///
-    /// Between the samples R is interpolated by cubic convolution (Keys, IEEE Trans. Acoust. Speech Signal Process.
-    /// 29, 1153, 1981), which is of third order.
+    /// Between the samples R is interpolated by cubic convolution (Keys, IEEE Trans. Acoust. Speech Signal Process. 29,
+    /// 1153, 1981), which is of third order.
     pub fn decay_length(&self, angle: f64, level: f64) -> Metre {
         if self.variance() == 0.0 {
             return f64::NAN;
         }
         let (sin, cos) = angle.sin_cos();
-        // To the next sample along x or y, whichever comes first.
+        // Step to the next sample along x or y, whichever is closer.
         let step = 1.0 / (cos.abs() / self.pitch[0]).max(sin.abs() / self.pitch[1]);
         let target = level * self.variance();
         let above = |distance: f64| {
@@ -140,11 +141,11 @@ impl Correlation {
         }
     }
 
-    /// The shortest and the longest [`Correlation::decay_length`] to `level` over all directions: those of fastest
-    /// and of slowest decay. Each is NaN if it lies beyond the lags: the first if R falls to the level nowhere, the
-    /// second if there is a direction in which it does not.
+    /// Returns the shortest and the longest [`Correlation::decay_length`] to `level` over all directions: those of fastest
+    /// and of slowest decay. The first is NaN if R falls to the level in no direction within the lags, the second if R does
+    /// not in some direction.
     pub fn decay_lengths(&self, level: f64) -> [Metre; 2] {
-        // So many directions that on the longest lag they are about a sample apart, and both axes among them.
+        // Enough directions that they are about a sample apart at the longest lag, both axes included.
         let [mx, my] = self.longest();
         let directions = ((std::f64::consts::PI * mx.max(my) as f64) as usize).next_multiple_of(2).max(2);
         let angle = |k: usize| std::f64::consts::PI * k as f64 / directions as f64;
@@ -154,15 +155,15 @@ impl Correlation {
         [fastest, if lengths.iter().any(|length| length.is_nan()) { f64::NAN } else { slowest }]
     }
 
-    /// Number of samples to the longest lag along x and y: the entry of lag 0.
+    /// Number of samples to the longest lag along x and y, which is the index of lag 0.
     fn longest(&self) -> [usize; 2] {
         [self.values.nrows() / 2, self.values.ncols() / 2]
     }
 
-    /// R at a lag given in samples, which need not be whole; none beyond the longest.
+    /// Returns R at a lag in samples, which need not be whole; `None` beyond the longest lag.
     fn between(&self, lag: [f64; 2]) -> Option<SquareMetre> {
         let longest = self.longest();
-        // A lag on the limit counts, whatever the round-off.
+        // A lag at the limit counts, whatever the round-off.
         if (0..2).any(|axis| lag[axis].abs() > longest[axis] as f64 + 1e-9) {
             return None;
         }
@@ -174,8 +175,8 @@ impl Correlation {
     }
 }
 
-/// The samples, from 0 to `last`, that a value at `position` draws on by cubic convolution, and their weights; beyond
-/// the ends the outermost repeats.
+/// Returns the samples, from 0 to `last`, used for the value at `position` by cubic convolution, and their weights. Beyond
+/// the ends the outermost sample repeats.
 fn cubic_weights(position: f64, last: usize) -> [(usize, f64); 4] {
     let below = position.floor();
     let t = position - below;
@@ -188,7 +189,7 @@ fn cubic_weights(position: f64, last: usize) -> [(usize, f64); 4] {
     std::array::from_fn(|n| ((below + n as f64 - 1.0).clamp(0.0, last as f64) as usize, weights[n]))
 }
 
-/// The place where `f`, positive at `inside` and not at `outside`, changes its sign, by bisection.
+/// Finds by bisection where `f`, positive at `inside` and not at `outside`, changes its sign.
 fn crossing(mut inside: f64, mut outside: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..40 {
         let middle = 0.5 * (inside + outside);
@@ -224,7 +225,7 @@ mod tests {
         topography
     }
 
-    /// An autocorrelation function that is not measured but given.
+    /// A prescribed autocorrelation function.
     fn given(longest: [usize; 2], pitch: [f64; 2], r: impl Fn(f64, f64) -> f64) -> Correlation {
         let values = Field::from_shape_fn(longest.map(|n| 2 * n + 1), |(i, j)| {
             r((i as f64 - longest[0] as f64) * pitch[0], (j as f64 - longest[1] as f64) * pitch[1])
@@ -287,15 +288,15 @@ mod tests {
         for ((i, j), r) in correlation.values().indexed_iter() {
             let lag = [(i as f64 - 12.0) * 0.5, j as f64 - 8.0];
             let transform = spectrum.sum(|q| (q[0] * lag[0] + q[1] * lag[1]).cos());
-            // The transform stands for both signs: the sine terms cancel.
+            // The transform covers both signs: the sine terms cancel.
             assert_relative_eq!(*r, transform, epsilon = 1e-12);
         }
     }
 
     #[test]
     fn holes_leave_it_unbiased() {
-        // 20 % of the samples missing: R at short lags as without, but for the pairs that are missing. The two differ
-        // by the scatter of a mean over the pairs that one has and the other has not, n' = 0.36 n/(1 − 0.36) of them.
+        // 20 % of the samples missing: at short lags R is as without holes, except for the missing pairs. The two differ by
+        // the scatter of a mean over the pairs present in only one of them, n' = 0.36 n/(1 − 0.36).
         let whole = rough([256, 256], [1.0; 2], [12.0; 2], 3);
         let holed = with_holes(whole.clone(), 5);
         assert_relative_eq!(holed.undefined() as f64, 0.2 * 65536.0, max_relative = 0.05);
@@ -328,7 +329,7 @@ mod tests {
 
     #[test]
     fn a_gaussian_decays_to_a_fifth_at_its_length_times_the_root_of_ln_5() {
-        // R = exp(−(ξ/3)² − η²), ξ and η turned by 30°: in the direction φ from ξ, (cos²φ/9 + sin²φ)^(−1/2) √ln 5.
+        // R = exp(−(ξ/3)² − η²), with ξ and η rotated by 30°. In the direction φ from ξ: (cos²φ/9 + sin²φ)^(−1/2) √ln 5.
         let correlation = |pitch: f64| {
             let (sin, cos) = FRAC_PI_6.sin_cos();
             let r =
@@ -349,8 +350,8 @@ mod tests {
         let (coarse, fine) = (error(0.25), error(0.125));
         let order = (coarse / fine).log2();
         assert!(2.7 < order && fine < 1e-3, "error {coarse:e} → {fine:e} is order {order:.2}");
-        // The extrema over directions that are π/n apart: up to half of that beside them, where the squared length
-        // differs by (3² − 1) (π/2n)².
+        // The extrema lie on directions π/n apart, up to half of that away, where the squared length differs by (3² − 1)
+        // (π/2n)².
         for pitch in [0.25, 0.125] {
             let [fastest, slowest] = correlation(pitch).decay_lengths(0.2);
             let beside = 0.5 * 8.0 * (0.5 * pitch / 6.0).powi(2);
@@ -363,7 +364,7 @@ mod tests {
     fn a_decay_beyond_the_lags_is_no_length() {
         let ridge = given([20, 30], [1.0, 1.0], |x, _| (-x.abs() / 4.0).exp());
         let [fastest, slowest] = ridge.decay_lengths(0.2);
-        // Third order would be h³ of a wavelength; with a kink at lag 0 only, the crossing is away from it.
+        // Third order would be h³ of a wavelength. The only kink is at lag 0, away from the crossing.
         assert_relative_eq!(fastest, 4.0 * 5f64.ln(), max_relative = 1e-3);
         assert!(slowest.is_nan() && ridge.decay_length(FRAC_PI_2, 0.2).is_nan());
         assert!(

@@ -9,57 +9,56 @@ use crate::ranks::Slab;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// An ideal form, material's side up, its apex in the centre of the grid's extent at height 0.
+/// An ideal form, material's side up, with its apex in the centre of the grid at height 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "form", rename_all = "kebab-case")]
 pub enum Form {
     /// z = 0.
     Flat,
-    /// z = −r²/2R: the paraboloid that contact mechanics puts in place of the sphere (Johnson 1985, eq. 4.1).
+    /// z = −r²/2R: the paraboloid that approximates a sphere in contact mechanics (Johnson 1985, eq. 4.1).
     Sphere {
         /// Radius of curvature R, > 0.
         radius: Metre,
     },
-    /// z = −x²/2Rx − y²/2Ry: the paraboloid in place of an ellipsoid, or of a crowned roller.
+    /// z = −x²/2Rx − y²/2Ry: the paraboloid that approximates an ellipsoid, or a crowned roller.
     Ellipsoid {
-        /// Principal radii of curvature Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0. An ellipsoid of semi-axes
-        /// a, b in the plane and c across it has a²/c and b²/c.
+        /// Principal radii of curvature Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0. An ellipsoid with
+        /// semi-axes a, b in the plane and c across it has a²/c and b²/c.
         radius: [Metre; 2],
     },
-    /// z = −s²/2R, s the distance from the line of the apex: the parabolic cylinder of line contact.
+    /// z = −s²/2R, with s the distance from the line of the apex: the parabolic cylinder of line contact.
     Cylinder {
         /// Radius of curvature R, > 0.
         radius: Metre,
-        /// The direction that the cylinder's axis lies in.
+        /// Direction of the cylinder's axis.
         axis: Axis,
     },
     /// z = −r tan α.
     Cone {
-        /// Slope α of the flank against the plane of the surface, 0 < α < π/2, in radians; an indenter of
-        /// semi-angle θ has α = π/2 − θ.
+        /// Slope α of the flank relative to the surface plane, 0 < α < π/2, in radians; an indenter with semi-angle θ has α =
+        /// π/2 − θ.
         angle: f64,
     },
-    /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), a crest of height 0 in the centre, mean height −A.
+    /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), with a crest of height 0 in the centre and the mean height −A.
     Sinusoid {
         /// Amplitude A, > 0, half the height from trough to crest.
         amplitude: Metre,
-        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite where the height does not vary in that
-        /// direction.
+        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite if the height does not vary in that direction.
         wavelength: [Metre; 2],
     },
-    /// z = −d p(u), parallel grooves with ridges of height 0 between them: u is the distance from a ridge over the
-    /// period, one ridge runs through the centre.
+    /// z = −d p(u), parallel grooves with ridges of height 0 between them. u is the distance from a ridge over the period,
+    /// and one ridge passes through the centre.
     ///
-    /// Turned with a feed f by a tool of nose radius r they are parabolic, of period f and depth d = f²/8r, of
-    /// which Sa is 4/(9√3) = 0.257 and Sq 2/(3√5) = 0.298.
+    /// Turning with a feed f and a tool of nose radius r gives parabolic grooves with period f and depth d = f²/8r. Then
+    /// Sa/d is 4/(9√3) = 0.257 and Sq/d is 2/(3√5) = 0.298.
     Grooves {
-        /// Distance of the ridges, ≥ 2 pitches.
+        /// Distance between ridges, ≥ 2 pitches.
         period: Metre,
         /// Depth d below the ridges, > 0.
         depth: Metre,
-        /// The shape of a groove across it.
+        /// Shape of a groove in cross-section.
         profile: Groove,
-        /// Angle of the grooves against x, towards y, in radians.
+        /// Angle of the grooves from x towards y, in radians.
         lay: f64,
     },
 }
@@ -67,10 +66,10 @@ pub enum Form {
 /// The profile p(u) of a groove, 0 ≤ u ≤ 1 from ridge to ridge.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Groove {
-    /// 4u(1 − u), as a round tool leaves it.
+    /// 4u(1 − u), from a round tool.
     #[default]
     Parabolic,
-    /// 1 − |1 − 2u|, as a pointed tool leaves it.
+    /// 1 − |1 − 2u|, from a pointed tool.
     Triangular,
 }
 
@@ -81,7 +80,7 @@ choice!(Groove: "parabolic" => Parabolic, "triangular" => Triangular);
 pub enum Axis {
     /// The direction of motion.
     X,
-    /// The direction across the motion: that of the axis of a cylinder that rolls.
+    /// The direction across the motion: that of the axis of a rolling cylinder.
     #[default]
     Y,
 }
@@ -89,18 +88,18 @@ pub enum Axis {
 choice!(Axis: "x" => X, "y" => Y);
 
 impl Form {
-    /// The topography of this form on `grid`.
+    /// Creates the topography of this form on `grid`.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or a wavelength is below two pitches.
+    /// [`crate::Error::OutOfRange`] if a parameter is invalid, or if a wavelength is below two pitches.
     pub fn on(&self, grid: &Grid) -> Result<Topography> {
         Topography::new(*grid, self.on_slab(&Slab::whole(*grid), false)?)
     }
 
-    /// The heights on a `slab` of what [`Form::on`] makes; those of its underside, if it is turned over.
+    /// Creates the heights of [`Form::on`] on a `slab`; those of its underside, if it is turned over.
     ///
     /// # Errors
-    /// As of [`Form::on`].
+    /// The errors of [`Form::on`].
     pub fn on_slab(&self, slab: &Slab, turned_over: bool) -> Result<Field> {
         let (grid, rows) = (slab.whole_grid(), slab.rows());
         self.check(&grid)?;
@@ -113,7 +112,7 @@ impl Form {
         }))
     }
 
-    /// Height at `(x, y)` from the apex.
+    /// Height at `(x, y)` relative to the apex.
     fn height(&self, x: Metre, y: Metre) -> Metre {
         match *self {
             Self::Flat => 0.0,
@@ -243,7 +242,7 @@ mod tests {
         {
             let form = Form::Grooves { period: 100.0, depth: 2.0, profile: Groove::Parabolic, lay };
             let parameters = HeightParameters::of(&form.on(&Grid::new(shape, [1.0; 2]).unwrap()).unwrap());
-            // Whole periods are right to the square of pitch/period; across the grid a period more or less counts.
+            // Whole periods are accurate to the square of pitch/period; across the grid the number of periods is not whole.
             let tolerance = if lay == 0.6 { 0.02 } else { 1e-3 };
             assert_relative_eq!(parameters.sa, 2.0 * 4.0 / 243f64.sqrt(), max_relative = tolerance);
             assert_relative_eq!(parameters.sq, 2.0 * 2.0 / 45f64.sqrt(), max_relative = tolerance);
@@ -258,7 +257,7 @@ mod tests {
         for profile in [Groove::Parabolic, Groove::Triangular] {
             let lay = 1f64.atan2(2.0);
             let z = Form::Grooves { period: 7.3, depth: 1.0, profile, lay }.on(&grid).unwrap().into_heights();
-            // Along (2, 1): a step of one sample in x and, of half the pitch, one in y.
+            // Along (2, 1): one step of one sample in x and of one sample, half the pitch, in y.
             let same = (0..40).all(|i| (0..40).all(|j| (z[[i, j]] - z[[i + 1, j + 1]]).abs() < 1e-12));
             assert!(same && (z[[20, 20]] - z[[20, 24]]).abs() > 0.1, "{profile:?}");
         }

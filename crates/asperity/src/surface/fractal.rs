@@ -1,4 +1,4 @@
-//! The self-affine law fitted to a spectrum or to the heights.
+//! Self-affine law fitted to a spectrum or to heights.
 
 use serde::Serialize;
 
@@ -7,18 +7,18 @@ use crate::surface::moments::mean_square;
 use crate::surface::{Axis, SpectralPoint, Topography};
 use crate::units::{Metre, RadianPerMetre, SquareMetre};
 
-/// A surface that looks the same at every scale, once heights are scaled by the length to the power of H:
+/// A surface that is statistically the same at every scale, if heights are scaled by the length to the power of H:
 ///
 /// C^iso(q) ∝ q^(−2−2H),  ⟨(z(x + τ) − z(x))²⟩ ∝ τ^(2H)
 ///
-/// the straight line of least squares through the logarithms, each point with the same weight. Mandelbrot, *The Fractal
-/// Geometry of Nature* (1982); Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
+/// The fit is the least-squares line through the logarithms, with equal weights. Mandelbrot, *The Fractal Geometry of
+/// Nature* (1982); Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SelfAffinity {
-    /// Hurst exponent H; a surface that is self-affine has 0 < H < 1.
+    /// Hurst exponent H; a self-affine surface has 0 < H < 1.
     pub hurst: f64,
-    /// Standard error of H, from the scatter of the points about the law, which need not be the same for all: those
-    /// of few waves scatter more. MacKinnon & White, J. Econometrics 29, 305 (1985), HC3.
+    /// Standard error of H, from the scatter of the points about the law. The scatter may differ from point to point, and
+    /// is larger for points of few waves. MacKinnon & White, J. Econometrics 29, 305 (1985), HC3.
     pub hurst_error: f64,
     /// First and last abscissa fitted: wave numbers in rad/m, or lags in metres.
     pub range: [f64; 2],
@@ -27,9 +27,8 @@ pub struct SelfAffinity {
 }
 
 impl SelfAffinity {
-    /// The law from the points of a mean over all directions ([`crate::surface::Spectrum::radial`], best in
-    /// logarithmic rings)
-    /// whose wave numbers lie within `range`.
+    /// Fits the law to the points of a mean over all directions ([`crate::surface::Spectrum::radial`], best in logarithmic
+    /// rings) with wave numbers within `range`.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if there are fewer than three.
@@ -38,11 +37,10 @@ impl SelfAffinity {
         Ok(Self::of_densities(&Line::within(range, points)?))
     }
 
-    /// The law from the longest range of wave numbers on which no point is off the fitted law by more than a tenth
-    /// and three
-    /// standard errors √(2/waves), in the logarithm: without roll-off and cut-off, where there are any. Points of fewer
-    /// than a hundred waves, which would fit any law, are left out. On a measured surface the range may be one in which
-    /// the instrument sets the law: an H beyond 0 … 1 tells.
+    /// Fits the law to the longest range of wave numbers, without roll-off and cut-off. In the range, no point deviates
+    /// from the fit by more than a tenth plus three standard errors √(2/waves), in the logarithm. Points of fewer than a
+    /// hundred waves, which would fit any law, are left out. On a measured surface the instrument may determine the law in
+    /// this range; an H beyond 0 … 1 indicates it.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if there is no such range of three points.
@@ -70,11 +68,10 @@ impl SelfAffinity {
         Ok(Self::of_densities(&best.expect("checked")))
     }
 
-    /// The law from the mean square differences of height ([`Topography::height_differences`]) whose lags lie within
-    /// `range`.
+    /// Fits the law to the mean square differences of height ([`Topography::height_differences`]) with lags within `range`.
     ///
-    /// A limited range of waves bends the curve beyond its ends: a lag should be ten times the shortest wavelength and
-    /// a tenth of the longest. The spectrum is the better witness.
+    /// A limited range of waves bends the curve beyond its ends. A lag should be at least ten times the shortest wavelength
+    /// and at most a tenth of the longest. The spectrum is more reliable.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if there are fewer than three.
@@ -83,15 +80,16 @@ impl SelfAffinity {
         Ok(Self::of_line(&line, 0.5 * line.slope))
     }
 
-    /// Decades of wave numbers, or lags, over which it was fitted.
+    /// Decades of wave numbers, or of lags, in the fitted range.
     pub fn decades(&self) -> f64 {
         (self.range[1] / self.range[0]).log10()
     }
 
-    /// Why the exponent is a slope of the spectrum and not a law of the surface, if it is: H outside 0 … 1, which no
-    /// self-affine surface has, or less than a decade, over which any smooth curve is straight.
+    /// Returns the reason, if any, why the exponent is only a slope of the spectrum and not a law of the surface. Either H
+    /// is outside 0 … 1, which no self-affine surface has, or the range is less than a decade, over which any smooth curve
+    /// is nearly straight.
     pub fn doubt(&self) -> Option<String> {
-        /// Rounding of a range of wavelengths.
+        /// Rounding tolerance of a range of wavelengths.
         const CRUMB: f64 = 1e-9;
         if !(0.0..=1.0).contains(&self.hurst) {
             return Some(format!(
@@ -107,7 +105,7 @@ impl SelfAffinity {
         })
     }
 
-    /// Fractal dimension D = 3 − H of the surface; that of its profiles is 2 − H.
+    /// Fractal dimension D = 3 − H of the surface; profiles have 2 − H.
     pub fn fractal_dimension(&self) -> f64 {
         3.0 - self.hurst
     }
@@ -123,10 +121,11 @@ impl SelfAffinity {
 }
 
 impl Topography {
-    /// Mean square difference of the heights a lag apart along `axis`, ⟨(z(x + τ) − z(x))²⟩: the structure function,
-    /// twice the variogram; 2 Sq² (1 − R(τ)/R(0)) for a stationary surface. Over the pairs of defined samples.
+    /// Computes the mean square difference of heights separated by a lag along `axis`, ⟨(z(x + τ) − z(x))²⟩. This is the
+    /// structure function, twice the variogram; 2 Sq² (1 − R(τ)/R(0)) for a stationary surface. The mean is over the pairs
+    /// of defined samples.
     ///
-    /// At lags of 1, 2, … samples that grow by some √2 to half the topography, each in metres; lags without a pair are
+    /// The lags are 1, 2, … samples, growing by about √2 to half the topography, each in metres. Lags without a pair are
     /// left out. Sayles & Thomas, Wear 42, 263 (1977).
     pub fn height_differences(&self, axis: Axis) -> Vec<(Metre, SquareMetre)> {
         let axis = match axis {
@@ -150,7 +149,7 @@ impl Topography {
     }
 }
 
-/// The line of least squares through points.
+/// Least-squares line through points.
 struct Line {
     centre: (f64, f64),
     slope: f64,
@@ -161,7 +160,7 @@ struct Line {
 }
 
 impl Line {
-    /// Through the logarithms of the points of positive values with an abscissa in `range`.
+    /// Fits the logarithms of points with positive values and an abscissa in `range`.
     fn within(range: [f64; 2], points: impl Iterator<Item = (f64, f64)>) -> Result<Self> {
         let inside: Vec<_> = points
             .filter(|(x, y)| (range[0]..=range[1]).contains(x) && *x > 0.0 && *y > 0.0)
@@ -172,7 +171,7 @@ impl Line {
         Ok(Self::through(&inside))
     }
 
-    /// Through `points` in the order of their abscissae, at least three.
+    /// Fits `points` in the order of their abscissae, at least three.
     fn through(points: &[(f64, f64)]) -> Self {
         let count = points.len() as f64;
         let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), (s, t)| (x + s / count, y + t / count));
@@ -191,7 +190,7 @@ impl Line {
         line
     }
 
-    /// How far a point lies above the line.
+    /// Height of a point above the line.
     fn residual(&self, (x, y): (f64, f64)) -> f64 {
         y - self.centre.1 - self.slope * (x - self.centre.0)
     }
@@ -219,7 +218,7 @@ mod tests {
 
     #[test]
     fn the_hurst_exponent_is_found_on_a_part_of_a_surface() {
-        // Cut out of a surface, so that it is not periodic and its densities scatter.
+        // Cut out of a larger surface, so that it is not periodic and its densities scatter.
         for hurst in [0.3, 0.5, 0.8] {
             let seeds = 4;
             let (mut mean, mut variance) = (0.0, 0.0);
@@ -230,8 +229,8 @@ mod tests {
                 mean += fit.hurst / seeds as f64;
                 variance += fit.hurst_error.powi(2) / (seeds * seeds) as f64;
             }
-            // The window smears the power law p over a step of 1/8 of its lowest wave number: p² (1/8)²/2 there, and
-            // less elsewhere; the slope over a decade takes the share 1/ln 10 of it.
+            // The window smears the power law p over a step of 1/8 of its lowest wave number: p² (1/8)²/2 there, and less
+            // elsewhere. The slope over a decade changes by the fraction 1/ln 10 of it.
             let smearing = 0.5 * (2.0 + 2.0 * hurst).powi(2) / 64.0 / 2.0 / std::f64::consts::LN_10;
             assert!(
                 (mean - hurst).abs() < 4.0 * variance.sqrt() + smearing,
@@ -247,7 +246,7 @@ mod tests {
         let surface = self_affine(512, 0.6, [Some(rolloff), Some(shortest)], 2);
         let radial = Spectrum::of(&surface, Window::None).radial(Bins::Logarithmic { per_decade: 20 });
         let fit = SelfAffinity::of_longest_range(&radial).unwrap();
-        // Magnitudes are exact: what is left is that the ends may lie a ring, 12 %, too far out or in.
+        // The magnitudes are exact. Only the ends may be a ring, 12 %, too far out or in.
         assert_relative_eq!(fit.range[0], TAU / rolloff, max_relative = 0.25);
         assert_relative_eq!(fit.range[1], TAU / shortest, max_relative = 0.25);
         assert!((fit.hurst - 0.6).abs() < 0.03 && fit.hurst_error < 0.02, "{fit:?}");
@@ -299,7 +298,7 @@ mod tests {
         let differences = walks.height_differences(Axis::X);
         assert_eq!(differences[0], (0.5, 1.0));
         for &(lag, square) in &differences {
-            // Squares of Gaussian steps scatter by √2; n/steps independent ones in each line.
+            // Squares of Gaussian steps scatter by √2; each line has n/steps independent ones.
             let steps = 2.0 * lag;
             let error = (2.0 * steps / (n as f64 - steps) / lines as f64).sqrt();
             assert_relative_eq!(square, steps, max_relative = 4.0 * error);

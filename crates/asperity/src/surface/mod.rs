@@ -1,7 +1,7 @@
-//! Topographies of single bodies: made, read, prepared, written and described by their roughness.
+//! Topographies of single bodies: generation, reading, preparation, writing and roughness parameters.
 //!
-//! A topography is given with the material's side up, as it is measured. Only [`Topography::underside`] turns
-//! one over, when it is mounted as the upper body.
+//! A topography has the material's side up, as it is measured. Only [`Topography::underside`] turns one over, to mount it
+//! as the upper body.
 
 mod correlation;
 mod form;

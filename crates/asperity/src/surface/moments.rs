@@ -1,4 +1,4 @@
-//! Spectral moments, and the asperities that the theory of random surfaces makes of them.
+//! Spectral moments, and the asperities predicted from them by the theory of random surfaces.
 
 use std::f64::consts::PI;
 
@@ -9,16 +9,15 @@ use crate::grid::Grid;
 use crate::surface::{GreenwoodWilliamson, Spectrum, Topography};
 use crate::units::SquareMetre;
 
-/// Spectral moments: the variances of the heights and, along x and y, of slope and curvature,
+/// Spectral moments: the variances of heights, slopes and curvatures, the latter two along x and y,
 ///
 /// m₀ = ⟨z²⟩,  m₂ = ⟨(∂z/∂x)²⟩ = ∫ qx² C d²q/(2π)²,  m₄ = ⟨(∂²z/∂x²)²⟩ = ∫ qx⁴ C d²q/(2π)²
 ///
-/// Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93, 398 (1971). m₂ and m₄ rest on
-/// the shortest waves: those of a self-affine surface are those of the cut-off, be it the grid's.
+/// Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol. 93, 398 (1971). m₂ and m₄ depend
+/// mainly on the shortest waves. For a self-affine surface they depend on the cut-off, which may be that of the grid.
 ///
-/// By the spectrum ([`Spectrum::moments`]) the derivatives are exact up to the shortest wave that the grid resolves; by
-/// differences ([`SpectralMoments::by_differences`]) they are those between neighbouring samples, which soften short
-/// waves.
+/// With the spectrum ([`Spectrum::moments`]) the derivatives are exact up to the shortest wave resolved by the grid. With
+/// differences ([`SpectralMoments::by_differences`]) they are those between neighbouring samples, which reduce short waves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SpectralMoments {
     /// Variance of the heights, m².
@@ -30,9 +29,9 @@ pub struct SpectralMoments {
 }
 
 impl Spectrum {
-    /// The spectral moments, as integrals over the spectrum.
+    /// Computes the spectral moments as integrals over the spectrum.
     ///
-    /// A window smears each wave over its neighbours: Hann's adds (2π/L)² m₀/3 to m₂, L the length along the axis.
+    /// A window smears each wave over its neighbours: Hann's adds (2π/L)² m₀/3 to m₂, with L the length along the axis.
     pub fn moments(&self) -> SpectralMoments {
         let along = |power: i32| [0, 1].map(|axis| self.sum(|q: [f64; 2]| q[axis].powi(power)));
         SpectralMoments { m0: self.variance(), m2: along(2), m4: along(4) }
@@ -40,14 +39,13 @@ impl Spectrum {
 }
 
 impl SpectralMoments {
-    /// The spectral moments by differences between samples, as from profiles:
+    /// Computes the spectral moments by differences between samples, as for profiles:
     ///
     /// m₂ = ⟨((z₊₁ − z)/Δx)²⟩,  m₄ = ⟨((z₊₁ − 2z + z₋₁)/Δx²)²⟩
     ///
-    /// over all places where the samples are defined; the heights are taken from their mean. A wave counts with
-    /// qⁿ sincⁿ(qΔx/2) in place of qⁿ: at ten samples per wave m₂ is 3 % and m₄ 6 % too small. A single sample along a
-    /// direction has no slope or curvature there, 0; where no neighbours are defined they are NaN.
-    /// McCool, J. Tribol. 109, 264 (1987).
+    /// over all places with defined samples, with heights relative to their mean. A wave counts with qⁿ sincⁿ(qΔx/2) in
+    /// place of qⁿ: at ten samples per wave m₂ is 3 % and m₄ 6 % too small. A single sample along a direction has zero
+    /// slope and curvature there. Without defined neighbours they are NaN. McCool, J. Tribol. 109, 264 (1987).
     pub fn by_differences(topography: &Topography) -> Self {
         let Grid { shape, pitch } = *topography.grid();
         let mean = topography.mean();
@@ -72,28 +70,28 @@ impl SpectralMoments {
         Self { m0: mean_square(heights.iter().map(|z| z - mean)), m2: along(1), m4: along(2) }
     }
 
-    /// m₂ of an isotropic surface, the mean over x and y: half the mean square gradient.
+    /// m₂ of an isotropic surface, as the mean over x and y: half the mean square gradient.
     pub fn mean_m2(&self) -> f64 {
         0.5 * (self.m2[0] + self.m2[1])
     }
 
-    /// m₄ of an isotropic surface, the mean over x and y, 1/m².
+    /// m₄ of an isotropic surface, as the mean over x and y, 1/m².
     pub fn mean_m4(&self) -> f64 {
         0.5 * (self.m4[0] + self.m4[1])
     }
 
-    /// Nayak's bandwidth parameter α = m₀m₄/m₂², of the means over x and y: 3/2 for an isotropic surface of a single
-    /// wavelength, without bound for a broad spectrum. Nayak (1971).
+    /// Nayak's bandwidth parameter α = m₀m₄/m₂², from the means over x and y: 3/2 for an isotropic surface with a single
+    /// wavelength, unbounded for a broad spectrum. Nayak (1971).
     pub fn bandwidth(&self) -> f64 {
         self.m0 * self.mean_m4() / self.mean_m2().powi(2)
     }
 
-    /// The asperities of an isotropic Gaussian surface with these moments (means over x and y):
+    /// Returns the asperities of an isotropic Gaussian surface with these moments (means over x and y):
     ///
     /// η = m₄/(6π√3 m₂),  R = 3√π/(8√m₄),  σs² = (1 − 0.8968/α) m₀,  z̄s = 4 √(m₀/πα)
     ///
-    /// Nayak (1971) for η; Bush, Gibson & Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109, 264
-    /// (1987) for the rest. σs is NaN where α < 0.8968, which no isotropic surface has.
+    /// Nayak (1971) for η; Bush, Gibson & Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109, 264 (1987)
+    /// for the rest. σs is NaN for α < 0.8968, which no isotropic surface has.
     pub fn greenwood_williamson(&self) -> GreenwoodWilliamson {
         let (m0, m2, m4) = (self.m0, self.mean_m2(), self.mean_m4());
         let bandwidth = self.bandwidth();
@@ -106,7 +104,7 @@ impl SpectralMoments {
     }
 }
 
-/// Mean square of the values that are numbers.
+/// Mean square of the values that are not NaN.
 pub(super) fn mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values
         .filter(|value| !value.is_nan())
@@ -138,7 +136,7 @@ mod tests {
 
     #[test]
     fn differences_soften_a_wave_by_the_cardinal_sine() {
-        // 41 samples have 40 differences of the first order, 42 have 40 of the second: whole waves of 10 samples.
+        // 41 samples have 40 first differences, 42 have 40 second differences: whole waves of 10 samples.
         let wave = |n: usize| {
             let grid = Grid::new([n, 3], [0.5, 1.0]).unwrap();
             Form::Sinusoid { amplitude: 2.0, wavelength: [5.0, f64::INFINITY] }.on(&grid).unwrap()
@@ -180,8 +178,8 @@ mod tests {
 
     #[test]
     fn a_disc_of_waves_has_a_bandwidth_of_two() {
-        // C constant up to q_c: ⟨qx²⟩ = q_c²/4 and ⟨qx⁴⟩ = q_c⁴/8. Waves: π (L/λ)², half of them independent; the
-        // moments of each scatter by less than twice its power. Hann's window leaves 1 in (35/18)² of them.
+        // C constant up to q_c: ⟨qx²⟩ = q_c²/4 and ⟨qx⁴⟩ = q_c⁴/8. Of the π (L/λ)² waves half are independent, and the
+        // relative scatter of each moment is less than twice that of its power. Hann's window leaves 1 in (35/18)² of them.
         let grid = Grid::new([256, 256], [1.0; 2]).unwrap();
         let heights = LowPass::new(1.0, [8.0; 2]).generate(&grid, 3).unwrap();
         let moments = Spectrum::of(&heights, Window::Hann).moments();

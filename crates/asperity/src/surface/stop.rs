@@ -1,22 +1,23 @@
-//! Whether to go on with what takes long.
+//! Cancellation of long computations.
 
 use crate::error::{Error, Result};
 
-/// Asked now and then by what takes long, on any thread: whether to stop, which then ends with [`Error::Interrupted`].
+/// Called repeatedly by long computations, on any thread. If it returns true, the computation fails with
+/// [`Error::Interrupted`].
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Nobody asks to stop.
+/// Never stops.
 pub(crate) const NEVER: Stop<'static> = &|| false;
 
-/// [`Error::Interrupted`] if somebody asks to stop.
+/// Returns [`Error::Interrupted`] if `stop` returns true.
 pub(crate) fn go_on(stop: Stop<'_>) -> Result<()> {
     if stop() { Err(Error::Interrupted) } else { Ok(()) }
 }
 
-/// Samples between two questions.
+/// Number of samples between two calls.
 const STRIDE: usize = 1 << 14;
 
-/// As [`go_on`], asked at every so many of the samples that are counted by `n`.
+/// [`go_on`], called once for every `STRIDE` samples counted by `n`.
 pub(crate) fn go_on_at(n: usize, stop: Stop<'_>) -> Result<()> {
     if n.is_multiple_of(STRIDE) { go_on(stop) } else { Ok(()) }
 }

@@ -12,11 +12,10 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// The topography with these `heights`, each finite, or NaN where it is undefined.
+    /// Creates a topography with these `heights`, each finite, or NaN if undefined.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if the heights have another shape than the grid, [`Error::OutOfRange`] if one
-    /// is infinite.
+    /// [`Error::GridMismatch`] if the shapes of heights and grid differ, [`Error::OutOfRange`] if a height is infinite.
     pub fn new(grid: Grid, heights: Field) -> Result<Self> {
         if heights.shape() != grid.shape {
             return Err(Error::GridMismatch {
@@ -32,13 +31,13 @@ impl Topography {
                 value,
                 expected: "a finite height, or NaN where the sample is undefined",
             }),
-            // Row by row, whatever the order in memory of what came.
+            // Copied to row order if the memory order differs.
             None if heights.is_standard_layout() => Ok(Self { grid, heights }),
             None => Ok(Self { grid, heights: heights.as_standard_layout().into_owned() }),
         }
     }
 
-    /// The grid that the heights stand on.
+    /// The grid of the heights.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -48,17 +47,17 @@ impl Topography {
         &self.heights
     }
 
-    /// Heights to be changed in place: each stays finite, or NaN where undefined.
+    /// Heights to be changed in place: each must stay finite, or NaN if undefined.
     pub fn heights_mut(&mut self) -> &mut Field {
         &mut self.heights
     }
 
-    /// The heights alone.
+    /// Returns the heights alone.
     pub fn into_heights(self) -> Field {
         self.heights
     }
 
-    /// The sum of two topographies on one grid, roughness on a form for example; undefined where one of them is.
+    /// Adds two topographies on one grid, for example roughness on a form; undefined where either is.
     ///
     /// # Errors
     /// [`Error::GridMismatch`] if their shapes differ, or their pitches by more than 10⁻⁹.
@@ -79,7 +78,7 @@ impl Topography {
         self.heights.iter().filter(|z| z.is_nan()).count()
     }
 
-    /// Number of samples that have a height.
+    /// Number of defined samples.
     pub fn defined(&self) -> usize {
         self.heights.len() - self.undefined()
     }
@@ -95,7 +94,7 @@ impl Topography {
 pub(super) mod tests {
     use super::*;
 
-    /// 4 × 3 samples, 10 i + j the height of `[i, j]`.
+    /// 4 × 3 samples; the height of `[i, j]` is 10 i + j.
     pub(in crate::surface) fn numbered() -> Topography {
         let grid = Grid::new([4, 3], [1.0, 2.0]).unwrap();
         Topography::new(grid, Field::from_shape_fn([4, 3], |(i, j)| (10 * i + j) as f64)).unwrap()

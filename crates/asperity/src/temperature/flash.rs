@@ -1,4 +1,4 @@
-//! The flash temperature over a pass.
+//! Flash temperature over a pass.
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::Grid;
@@ -10,27 +10,28 @@ use crate::temperature::present::{Ramp, Spread, padded, ramps};
 use crate::temperature::{FlashStep, Thermal};
 use crate::units::{Dimension, Kelvin, Second, WattPerSquareMetre};
 
-/// The temperature of two bodies over a pass, step after step, each in a frame of its own.
+/// Temperature of two bodies over a pass, step by step, each in its own frame.
 ///
-/// The flux into a cell is linear in time within a step; that of the first grows from 0. What the present step heats is exact, by
-/// the coefficients of even cells or, where an edge repeats itself, of waves; what the steps before have left is a sum of
-/// exponentials in the waves of each body. Heat is divided cell by cell, to a relative residual of 10⁻¹⁰.
+/// The flux into a cell is linear in time within a step; in the first it grows from 0. The heat of the present step is
+/// treated exactly, by the coefficients of uniform cells or, on a periodic boundary, of waves. The heat of earlier steps is
+/// a sum of exponentials in the waves of each body. The heat is divided cell by cell, to a relative residual of 10⁻¹⁰.
 ///
-/// A body keeps three numbers in single precision for each exponential (9 for 127 steps) and each of its waves, of which there are,
-/// along an axis of n cells, 1.1 nΔx/√(DΔt) + 5.5 √N for N steps, or n + 5 √(DΔtN)/Δx where these are fewer: 0.8 MB for 64² cells and
-/// 127 steps with DΔt = 25 Δx², 1.1 MB for 256² cells and 128 steps with DΔt = 100 Δx². The present step takes five convolutions and
-/// about ten for the division, of the padded size, or direct sums where cells are few.
+/// A body stores three numbers in single precision for each exponential (9 for 127 steps) and each of its waves. Along an
+/// axis of n cells there are 1.1 nΔx/√(DΔt) + 5.5 √N waves for N steps, or n + 5 √(DΔtN)/Δx if these are fewer. Examples
+/// are 0.8 MB for 64² cells and 127 steps with DΔt = 25 Δx², and 1.1 MB for 256² cells and 128 steps with DΔt = 100 Δx².
+/// The present step takes five convolutions and about ten for the heat partition, of the padded size, or direct sums for
+/// few cells.
 ///
-/// Held against an integral over the past of every cell it is right to 3·10⁻⁵ where DΔt is above a square of a cell, to 5·10⁻⁴ at 0.3
-/// and to some per cent at 0.02: there the heat of a step stays in its cell.
+/// Compared with an integral over the history of every cell, the error is 3·10⁻⁵ if DΔt is above a squared cell size,
+/// 5·10⁻⁴ at 0.3 and a few per cent at 0.02, where the heat of a step stays in its cell.
 pub struct FlashTemperature {
     bulk: [Kelvin; 2],
     cell_area: f64,
     width: usize,
-    /// Cells of the period along each axis that has one.
+    /// Number of cells per period along each periodic axis.
     repeats: [Option<usize>; 2],
     bodies: [Warmed; 2],
-    /// What a flux into both bodies does to the difference of their temperatures.
+    /// Response of the temperature difference to a flux into both bodies.
     sum: Spread,
     preconditioner: Preconditioner,
 }
@@ -38,25 +39,25 @@ pub struct FlashTemperature {
 /// A body in its own frame.
 struct Warmed {
     history: History,
-    /// Of a flux that grows through the present step, and of one that falls.
+    /// Response to a flux that grows during the present step, and to one that decreases.
     present: [Spread; 2],
-    /// Cells across, and all of them.
+    /// Number of cells across, and of all cells.
     width: u32,
     count: u32,
-    /// Cells that were heated at the last step, and how much.
+    /// Cells heated in the last step, and their flux.
     cells: Vec<u32>,
     flux: Vec<WattPerSquareMetre>,
 }
 
 impl FlashTemperature {
-    /// Two bodies at rest at their `bulk` temperatures, on their `grids`, lower one first, that are to be heated over so many
-    /// `steps` of a time each. More steps may follow; what lies further back is then not quite right.
+    /// Creates two bodies at rest at their `bulk` temperatures, on their `grids`, lower one first. They can be heated over
+    /// `steps` steps of equal time. More steps are possible, but the effect of older heat is then slightly inaccurate.
     ///
-    /// Along an axis on which the `boundary` repeats itself both bodies have the same cells.
+    /// Along a periodic axis of the `boundary` both bodies have the same number of cells.
     ///
     /// # Errors
-    /// [`Error::GridMismatch`] if pitches, widths across or periods differ, [`Error::OutOfRange`] for a time or a bulk
-    /// temperature without meaning.
+    /// [`Error::GridMismatch`] if pitches, transverse widths or periods differ, [`Error::OutOfRange`] for an invalid time
+    /// or bulk temperature.
     pub fn new(
         grids: [&Grid; 2],
         thermal: [Thermal; 2],
@@ -108,7 +109,7 @@ impl FlashTemperature {
         })
     }
 
-    /// Begins a pass: both bodies are at their bulk temperatures again.
+    /// Begins a pass: resets both bodies to their bulk temperatures.
     pub fn begin(&mut self) {
         for body in &mut self.bodies {
             body.history.forget();
@@ -117,30 +118,30 @@ impl FlashTemperature {
         }
     }
 
-    /// Goes on by a step, at whose end these `cells` are in contact, flat in the lower and in the upper body, of which those of the
-    /// same index face each other, and friction heats each by a `flux`. The temperature is that at the end of the step.
+    /// Advances by a step. At its end these flat `cells` of the lower and of the upper body are in contact, paired by
+    /// index, and friction heats each by a `flux`. The temperature is that at the end of the step.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
     ///
     /// # Panics
-    /// If there are not as many cells of each body as fluxes, or those of the upper body are not those of the lower one moved as a
-    /// whole.
+    /// If the numbers of cells and fluxes differ, or if the cells of the upper body are not those of the lower one with a
+    /// common shift.
     pub fn step(&mut self, cells: [&[u32]; 2], flux: &[WattPerSquareMetre]) -> Result<FlashStep> {
         self.step_between(cells, [0.0; 2], flux)
     }
 
-    /// Goes on by a step as [`FlashTemperature::step`] does, at whose end what is in contact lies beyond these cells of the lower and
-    /// of the upper body by a `fraction` of a cell, from 0, below 1, on the way to the next along x.
+    /// Advances by a step like [`FlashTemperature::step`], with the contact displaced from these cells of the lower and of
+    /// the upper body by a `fraction` of a cell, 0 ≤ `fraction` < 1, towards the next along x.
     ///
-    /// The temperature there is the mean of both cells by the parts on each, and they share the heat alike; after the last cell of a
-    /// row along x comes the first. What heats during the step stands as a whole, wherever it lies on the body.
+    /// The temperature is the weighted mean of both cells, and the heat is divided in the same proportion. The last cell of
+    /// a row along x is followed by the first. The contact stays in one place on the body during the step.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
     ///
     /// # Panics
-    /// As [`FlashTemperature::step`].
+    /// As for [`FlashTemperature::step`].
     pub fn step_between(
         &mut self,
         cells: [&[u32]; 2],
@@ -160,7 +161,8 @@ impl FlashTemperature {
             || lower.remember(cells[0], fraction[0], of_lower),
             || upper.remember(cells[1], fraction[1], of_upper),
         );
-        // x is the flux into the lower body: (G₁ + G₂) x = G₂ q + (T_b2 + T₂) − (T_b1 + T₁), T what is remembered.
+        // x is the flux into the lower body: (G₁ + G₂) x = G₂ q + (T_b2 + T₂) − (T_b1 + T₁), with the temperature rise T
+        // from earlier steps.
         let mut right: Vec<f64> = rise[1]
             .iter()
             .zip(&rise[0])
@@ -207,7 +209,7 @@ impl FlashTemperature {
         );
     }
 
-    /// Whether the cells of both bodies are the same, moved as a whole.
+    /// Whether the cells of both bodies agree up to a common shift.
     fn face(&self, cells: [&[u32]; 2]) -> bool {
         let moved = |(lower, upper): (&u32, &u32)| {
             let place = |cell: u32| [cell as usize / self.width, cell as usize % self.width];
@@ -224,8 +226,7 @@ impl FlashTemperature {
 }
 
 impl Warmed {
-    /// Adds the temperature of all that has heated the body before the end of this step, by a `fraction` of a cell beyond the flat
-    /// `cells`.
+    /// Adds the temperature rise from all heat before the present step, at a `fraction` of a cell beyond the flat `cells`.
     fn remember(&mut self, cells: &[u32], fraction: f64, rise: &mut [Kelvin]) {
         if fraction == 0.0 {
             self.remember_at(cells, rise);
@@ -238,7 +239,7 @@ impl Warmed {
         rise.iter_mut().zip(&beyond).for_each(between);
     }
 
-    /// Adds the temperature of all that has heated the body before the end of this step to the `rise` at the flat `cells`.
+    /// Adds to `rise` the temperature rise from all heat before the present step, at the flat `cells`.
     fn remember_at(&mut self, cells: &[u32], rise: &mut [Kelvin]) {
         if cells.is_empty() {
             return;
@@ -249,7 +250,7 @@ impl Warmed {
         }
     }
 
-    /// Ends the step with a `flux` that goes in by a `fraction` of a cell beyond the flat `cells`.
+    /// Ends the step with a `flux` that enters at a `fraction` of a cell beyond the flat `cells`.
     fn heat(&mut self, cells: &[u32], fraction: f64, flux: Vec<WattPerSquareMetre>) {
         if fraction == 0.0 {
             self.cells.clear();
@@ -263,13 +264,13 @@ impl Warmed {
         self.history.advance(&self.cells, &self.flux);
     }
 
-    /// The flat cells beyond these along x; the first ones after the last.
+    /// Returns the next flat cells along x; the last are followed by the first.
     fn next(&self, cells: &[u32]) -> Vec<u32> {
         cells.iter().map(|cell| (cell + self.width) % self.count).collect()
     }
 }
 
-/// An error unless bulk temperatures are finite and not below 0 K.
+/// Returns an error unless bulk temperatures are finite and not below 0 K.
 pub(super) fn check_bulk(bulk: [Kelvin; 2]) -> Result<()> {
     let good = |t: f64| t >= 0.0 && t.is_finite();
     bulk.into_iter().try_for_each(|t| check("bulk temperature in K", t, good(t), "a temperature from 0 K on"))
@@ -279,7 +280,7 @@ fn mismatch(what: &'static str, [left, right]: [String; 2]) -> Error {
     Error::GridMismatch { what, left, right }
 }
 
-/// Σ a b, in lanes.
+/// Computes Σ a b in parallel lanes.
 fn sums_of_products(a: &[f64], b: &[f64]) -> f64 {
     let [sum] = crate::math::sum::sums(a, |index, a| [a * b[index]]);
     sum
@@ -299,7 +300,7 @@ mod tests {
         Thermal::new(46.0, 460.0, 7850.0).unwrap()
     }
 
-    /// A body that takes no heat to speak of, as diffusive as another.
+    /// A body that takes almost no heat, with the diffusivity of another.
     fn insulating(other: &Thermal) -> Thermal {
         Thermal { conductivity: 1e-9 * other.conductivity, density: 1e-9 * other.density, ..*other }
     }
@@ -324,7 +325,7 @@ mod tests {
 
     #[test]
     fn it_is_the_convolution_with_the_past_of_every_cell() {
-        // Against each cell's response to a sudden flux, integrated over all steps: DΔt in squares of a cell.
+        // Compared with the response of each cell to a sudden flux, integrated over all steps; DΔt in squared cell sizes.
         for (spread, close) in
             [(0.02, 5e-2), (0.3, 5e-4), (1.0, 3e-5), (5.0, 3e-5), (40.0, 3e-5), (2000.0, 3e-5)]
         {
@@ -360,7 +361,7 @@ mod tests {
         }
     }
 
-    /// Temperature at a cell at the end of a history of fluxes, linear within steps of which the first begins at 0.
+    /// Temperature at a cell at the end of a history of fluxes, linear within steps, the first from 0.
     fn brute_force(grid: &Grid, thermal: &Thermal, history: &[Field], step: f64, at: [usize; 2]) -> f64 {
         let last = history.len() - 1;
         let mut sum = 0.0;
@@ -368,7 +369,7 @@ mod tests {
             let (new, old) = (&history[last - back], (back < last).then(|| &history[last - back - 1]));
             let points = if back == 0 { 400 } else { 40 };
             for k in 0..points {
-                // Ages of the last step as s⁸: the integrand grows fast towards 0.
+                // Ages in the last step as s⁸, because the integrand grows fast towards 0.
                 let s = (k as f64 + 0.5) / points as f64;
                 let (age, weight) = if back == 0 { (s.powi(8), 8.0 * s.powi(7)) } else { (s, 1.0) };
                 let weight = weight / points as f64;
@@ -393,7 +394,7 @@ mod tests {
         sum
     }
 
-    /// Solves A x = b by elimination with pivots.
+    /// Solves A x = b by elimination with pivoting.
     fn dense(mut a: Field, mut b: Vec<f64>) -> Vec<f64> {
         let n = b.len();
         for k in 0..n {
@@ -412,7 +413,7 @@ mod tests {
         b
     }
 
-    /// Some cells of a 10 × 8 grid, a flux for each, and the matrix of what `between` two offsets.
+    /// Some cells of a 10 × 8 grid, a flux for each, and the matrix of the function `between` of two offsets.
     fn some() -> (Grid, Vec<u32>, Vec<f64>) {
         let grid = Grid::new([10, 8], [1e-6, 0.7e-6]).unwrap();
         let cells: Vec<u32> = (0..80).filter(|cell| (cell * 7 + cell / 9) % 5 < 3).collect();
@@ -466,7 +467,7 @@ mod tests {
 
     #[test]
     fn many_cells_are_divided_as_few_are() {
-        // So many go by transforms.
+        // With this number of cells, transforms are used.
         let grid = Grid::new([40, 40], [1e-6; 2]).unwrap();
         let cells: Vec<u32> = (0..1600).filter(|cell| cell % 7 != 3).collect();
         let fluxes: Vec<f64> = cells.iter().map(|cell| 1e9 * f64::from(1 + cell % 4)).collect();
@@ -497,7 +498,7 @@ mod tests {
 
     #[test]
     fn planes_share_heat_by_their_effusivities() {
-        // All of a periodic contact is heated evenly: a problem in depth alone.
+        // A periodic contact heated uniformly: a problem in depth alone.
         let grid = Grid::new([6, 4], [1e-6; 2]).unwrap();
         let bodies = [steel(), polymer()];
         let (cells, step): (Vec<u32>, f64) = ((0..24).collect(), 1e-7);
@@ -516,7 +517,7 @@ mod tests {
         for n in 1..=40 {
             let found = flash.step([&cells, &cells], &[1e9; 24]).unwrap();
             assert_relative_eq!(found.heat[0] / found.heat[1], b1 / b2, max_relative = 1e-3);
-            // The first step grows from 0.
+            // In the first step the flux grows from 0.
             let heated: f64 = if n == 1 { 2.0 / 3.0 } else { (f64::from(n) - 0.5).sqrt() };
             let exact = 2e9 * (step / PI).sqrt() / (b1 + b2) * heated;
             let close = if n == 2 { 2e-2 } else { 6e-3 };
@@ -532,7 +533,7 @@ mod tests {
         let mut field = grid.zeros();
         cells.iter().zip(&fluxes).for_each(|(cell, q)| field[[*cell as usize / 8, *cell as usize % 8]] = *q);
         let mut rise = grid.zeros();
-        // Half of the heat goes into each of two equal bodies.
+        // Half of the heat flows into each of two equal bodies.
         FreeFft::new(grid, 4.0 * thermal.conductivity).apply(&field, &mut rise);
         let mut steady =
             SteadyTemperature::new(grid, [thermal; 2], Boundary::FREE, [0.0; 2], [300.0; 2]).unwrap();
@@ -544,7 +545,7 @@ mod tests {
                 max_relative = 1e-11
             );
         }
-        // 1000 steps in which heat comes 300 cells far: what is missing is about the size of the contact over √(πDt).
+        // In 1000 steps the heat travels 300 cells. The missing part is about the contact size over √(πDt).
         let step = 1e-10 / thermal.diffusivity();
         let mut flash = flash(&grid, [thermal; 2], Boundary::FREE, 1000, step);
         let mut last = flash.step([&cells, &cells], &fluxes).unwrap();
@@ -564,7 +565,7 @@ mod tests {
         for (cell_peclet, close) in [(0.02, 8e-3), (0.3, 4e-2)] {
             let speed = cell_peclet * 2.0 * thermal.diffusivity() / 1e-6;
             let bodies = [thermal, polymer()];
-            // The lower body moves through the contact, the upper one carries it.
+            // The lower body moves through the contact, which is fixed to the upper one.
             let mut flash =
                 FlashTemperature::new([&grid; 2], bodies, Boundary::FREE, 140, 1e-6 / speed, [300.0; 2])
                     .unwrap();
@@ -576,7 +577,7 @@ mod tests {
                 found = flash.step([&lower, &upper], &fluxes).unwrap().temperature;
             }
             let cells = flat(&grid, patch);
-            // The patch goes to +x over the lower body, which therefore passes it at −V.
+            // The patch moves along +x over the lower body, which therefore passes it at −V.
             let mut steady = SteadyTemperature::new(
                 Grid::new([7, 9], [1e-6; 2]).unwrap(),
                 bodies,
@@ -639,7 +640,7 @@ mod tests {
     fn what_moves_by_parts_of_a_cell_is_as_warm_as_on_finer_cells() {
         let bodies = [steel(), polymer()];
         let step = 1e-12 / steel().diffusivity();
-        // A square of 8 µm that goes half a micrometre further over the lower body in each step.
+        // A square of 8 µm that moves by half a micrometre over the lower body in each step.
         let run = |cells_per_um: usize, between: bool| {
             let n = 32 * cells_per_um;
             let grid = Grid::new([n, n], [1e-6 / cells_per_um as f64; 2]).unwrap();
@@ -664,7 +665,7 @@ mod tests {
         for (a, b) in coarse.iter().zip(&fine).skip(1) {
             assert_relative_eq!(*a, b, max_relative = 0.02);
         }
-        // What a whole number of cells was, it is still, at whatever time heat went in between two.
+        // Steps of whole cells are unchanged, even after a step in which heat entered between two cells.
         assert!(run(1, false).iter().zip(&coarse).any(|(a, b)| a != b));
     }
 
@@ -683,7 +684,7 @@ mod tests {
                 for _ in 0..pause {
                     assert!(flash.step([&[], &[]], &[]).unwrap().temperature.is_empty());
                 }
-                // A cell that touches without friction shows how warm both are.
+                // A cell in contact without friction shows the temperature of both bodies.
                 flash.step([&cells[20..21], &cells[20..21]], &[0.0]).unwrap().temperature[0]
             })
             .collect();

@@ -1,4 +1,4 @@
-//! What a body remembers of the heat of earlier steps.
+//! Temperature of a body from the heat of earlier steps.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,27 +11,27 @@ use crate::temperature::Thermal;
 use crate::temperature::memory::exponentials;
 use crate::units::{Kelvin, Metre, Second, WattPerSquareMetre};
 
-/// The temperature that a body has of the heat of all steps but the present one, as waves:
+/// Temperature of a body from the heat of all steps except the present one, as waves:
 ///
 /// ```text
 /// T̂(t) = ∫ q̂(t − τ) e^(−Dq²τ)/(β√(πτ)) dτ,  τ ≥ Δt
 /// ```
 ///
-/// with 1/√(πτ) as a sum of exponentials, of which each needs one number for each wave from one step to the next. After a step
-/// the waves of D q² Δt > 12 have faded. Along a free edge the waves are those of a period that is longer than the body by
-/// 5 √(D t) for the time t of all steps: so far erfc(2.5) = 4e-4 is what is left of the temperature of a source.
+/// with 1/√(πτ) as a sum of exponentials. Each exponential needs one number per wave from one step to the next. Waves with
+/// D q² Δt > 12 decay within a step and are omitted. Along a free edge the waves have a period longer than the body by 5
+/// √(D t), with the time t of all steps. At this distance the temperature of a source is reduced to erfc(2.5) = 4e-4.
 ///
-/// In single precision, which is far below the error of the exponentials.
+/// Single precision is used; its error is far below that of the exponentials.
 pub(super) struct History {
     width: usize,
-    /// The waves along x and along y.
+    /// Waves along x and along y.
     axes: [Waves; 2],
     /// e^(−Dq²Δt) of each wave.
     decay: Vec<f32>,
     terms: Vec<Term>,
-    /// Waves of the flux at the last step.
+    /// Waves of the flux in the last step.
     flux: Array2<f32>,
-    /// Waves of the flux at the one before; scratch of the next.
+    /// Waves of the flux in the step before it; scratch memory of the next.
     before: Array2<f32>,
     /// Waves of the temperature.
     temperature: Array2<f32>,
@@ -45,9 +45,9 @@ pub(super) struct History {
 struct Term {
     /// e^(−s).
     decay: f32,
-    /// What the flux at the end and at the beginning of the last step adds to the state.
+    /// Contributions of the flux at the end and at the beginning of the last step to the state.
     gains: [Vec<f32>; 2],
-    /// Temperature due to it.
+    /// Temperature from this exponential.
     state: Vec<f32>,
 }
 
@@ -55,7 +55,7 @@ struct Term {
 struct Waves {
     /// Angular wavenumber, 1/m.
     numbers: Vec<f64>,
-    /// Mean square over the period, and what the sampling by cells makes of the wave.
+    /// Mean square over the period, and the effect of sampling by cells on the wave.
     weights: Vec<f64>,
     /// Their values `[cell, wave]`.
     values: Array2<f32>,
@@ -63,7 +63,7 @@ struct Waves {
 }
 
 impl History {
-    /// A body on `grid` over so many `steps` of a time.
+    /// Creates a body on `grid` over `steps` steps of equal time.
     pub(super) fn new(
         grid: &Grid,
         thermal: &Thermal,
@@ -83,7 +83,7 @@ impl History {
         let unit = step.sqrt() / thermal.effusivity() * grid.cell_area() / (axes[0].period * axes[1].period);
         let weight = Array2::from_shape_fn(shape, |(i, j)| unit * axes[0].weights[i] * axes[1].weights[j]);
         let term = |(s, w): (f64, f64)| {
-            // Over a step, of an exponential of rate r = Dq² + s: ∫ e^(−rt) dt and ∫ t e^(−rt) dt.
+            // Moments of an exponential with the rate r = Dq² + s over a step: ∫ e^(−rt) dt and ∫ t e^(−rt) dt.
             let moments = |exponent: f64| {
                 let r = exponent + s;
                 let whole = -(-r).exp_m1() / r;
@@ -111,7 +111,7 @@ impl History {
         }
     }
 
-    /// Forgets all heat.
+    /// Resets the history: removes all heat.
     pub(super) fn forget(&mut self) {
         self.terms.iter_mut().for_each(|term| term.state.fill(0.0));
         self.flux.fill(0.0);
@@ -132,7 +132,7 @@ impl History {
         }
     }
 
-    /// Goes on by a step at whose end the flat `cells` take a `flux`, and all others none.
+    /// Advances by a step, at whose end the flat `cells` receive a `flux`, and all others none.
     pub(super) fn advance(&mut self, cells: &[u32], flux: &[WattPerSquareMetre]) {
         if cells.is_empty() && !self.warm {
             return;
@@ -167,21 +167,21 @@ impl History {
         }
     }
 
-    /// The first and the last row of the flat `cells`.
+    /// Returns the first and the last row of the flat `cells`.
     fn span(&self, cells: &[u32]) -> Option<(usize, usize)> {
         let rows = || cells.iter().map(|cell| *cell as usize / self.width);
         rows().min().zip(rows().max())
     }
 }
 
-/// Temperatures below this are zero: before they come to be denormal numbers, which take their time.
+/// Smaller temperatures are set to zero, before they become denormal numbers, which are slow.
 const NOTHING: f32 = 1e-25;
-/// The waves of a larger D q² Δt are left out.
+/// Waves with a larger D q² Δt are omitted.
 const FADED: f64 = 12.0;
 
 impl Waves {
-    /// The waves along an `axis` of `grid` that are left after a step of `spread` DΔt: of the grid's own period, or, by a `reach`
-    /// beyond it, of a longer one.
+    /// Creates the waves along an `axis` of `grid` that remain after a step with `spread` DΔt. Their period is that of the
+    /// grid, or longer by a `reach`.
     fn new(grid: &Grid, axis: usize, boundary: Boundary, reach: Option<Metre>, spread: f64) -> Self {
         let (cells, pitch) = (grid.shape[axis], grid.pitch[axis]);
         let period = grid.extent()[axis] + reach.unwrap_or(0.0);
@@ -216,8 +216,8 @@ impl Waves {
     }
 }
 
-/// What the wave of `phase` φ = qΔx a cell has of a flux that is even over cells, seen at their centres after a step of `spread`
-/// DΔt/Δx²: Σ sin(½φₙ)/½φₙ e^(−spread (φₙ² − φ²)) over all φₙ = φ + 2πn, which are the same at the centres.
+/// Response of the wave with `phase` φ = qΔx to a flux uniform over cells, sampled at their centres after a step with
+/// `spread` DΔt/Δx². It is Σ sin(½φₙ)/½φₙ e^(−spread (φₙ² − φ²)) over all φₙ = φ + 2πn, which are equal at the centres.
 fn even(phase: f64, spread: f64) -> f64 {
     let alias = |n: i32| {
         let own = phase + TAU * f64::from(n);
@@ -225,7 +225,7 @@ fn even(phase: f64, spread: f64) -> f64 {
         share * (-spread * (own * own - phase * phase)).exp()
     };
     let last = 50;
-    // The mean of two partial sums: where nothing fades, signs alternate.
+    // The mean of two partial sums: without decay the signs alternate.
     let without: f64 = (1 - last..last).map(alias).sum();
     without + 0.5 * (alias(last) + alias(-last))
 }

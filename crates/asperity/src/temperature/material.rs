@@ -2,7 +2,7 @@
 
 use crate::error::{Result, check};
 
-/// Thermal constants of a body that conducts heat alike in all directions, at all temperatures.
+/// Thermal constants of a body with isotropic heat conduction, independent of temperature.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct Thermal {
@@ -15,7 +15,7 @@ pub struct Thermal {
 }
 
 impl Thermal {
-    /// A body of conductivity λ in W/(m K), heat capacity c in J/(kg K) and density ρ in kg/m³.
+    /// Creates a body with conductivity λ in W/(m K), heat capacity c in J/(kg K) and density ρ in kg/m³.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if a constant is not positive and finite.
@@ -33,7 +33,7 @@ impl Thermal {
         self.conductivity / (self.density * self.heat_capacity)
     }
 
-    /// Effusivity β = √(λρc), W √s/(m² K): the flux that warms the surface by ΔT after the time t is β ΔT √π/(2√t).
+    /// Effusivity β = √(λρc), W √s/(m² K): the flux that heats the surface by ΔT after the time t is β ΔT √π/(2√t).
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.heat_capacity).sqrt()
     }

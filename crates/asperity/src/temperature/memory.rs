@@ -1,12 +1,12 @@
-//! The memory of a half-space as a sum of exponentials.
+//! Thermal memory of a half-space as a sum of exponentials.
 
 use crate::grid::Field;
 use crate::math::Cholesky;
 
-/// Rates s and weights w of 1/√(πτ) ≈ Σ w e^(−sτ) for 1 ≤ τ ≤ `last`, right to 2e-4: τ and 1/s in steps.
+/// Returns rates s and weights w with 1/√(πτ) ≈ Σ w e^(−sτ) for 1 ≤ τ ≤ `last`, accurate to 2e-4; τ and 1/s are in steps.
 ///
-/// There are 4 + ⌈ln `last`⌉ rates (11 for 1000 steps), each as many times the one before, from 0.3/`last` to 4; the weights have the
-/// least square error, relative and over ln τ.
+/// There are 4 + ⌈ln `last`⌉ rates (11 for 1000 steps), in geometric sequence from 0.3/`last` to 4. The weights minimise
+/// the mean square of the relative error over ln τ.
 pub(super) fn exponentials(last: f64) -> Vec<(f64, f64)> {
     let last = last.max(SHORTEST);
     let terms = 4 + last.ln().ceil() as usize;
@@ -21,9 +21,9 @@ pub(super) fn exponentials(last: f64) -> Vec<(f64, f64)> {
     (0..terms).map(rate).zip(weights).collect()
 }
 
-/// The shortest memory that is approximated.
+/// Largest rate, for the shortest memory approximated.
 const SHORTEST: f64 = 4.0;
-/// Times at which the sum is fitted.
+/// Number of times at which the sum is fitted.
 const SAMPLES: usize = 400;
 
 #[cfg(test)]

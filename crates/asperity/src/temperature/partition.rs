@@ -1,31 +1,32 @@
-//! The division of heat between two bodies, as a linear system on the cells in contact.
+//! Heat partition between two bodies, as a linear system on the cells in contact.
 
 use crate::error::{Error, Result};
 use crate::math::{ROWS_ABOVE, SparseInverse};
 
-/// Relative residual at which heat is divided, ‖b − A x‖ ≤ TOLERANCE ‖b‖.
+/// Relative residual of the heat partition, ‖b − A x‖ ≤ TOLERANCE ‖b‖.
 pub(super) const TOLERANCE: f64 = 1e-10;
-/// Iterations after which there is none to be expected any more.
+/// Number of iterations after which convergence is no longer expected.
 const MOST: usize = 1000;
 
-/// An approximate inverse between the cells in contact, for either method.
+/// An approximate inverse on the cells in contact, for either method.
 pub(super) struct Preconditioner {
     sparse: SparseInverse,
-    /// Which cells are in contact.
+    /// Whether each cell is in contact.
     touching: Vec<bool>,
-    /// For each cell in contact the pattern of its neighbours.
+    /// Pattern of the neighbours of each cell in contact.
     patterns: Vec<u8>,
-    /// Cells in a row of the grid.
+    /// Number of cells in a row of the grid.
     columns: usize,
-    /// Residual and its image on the whole grid and some rows of nothing above it, zero but where there is contact.
+    /// Residual and its image on the whole grid, with some zero rows above it; zero outside the contact.
     whole: [Vec<f32>; 2],
 }
 
 impl Preconditioner {
-    /// From the coefficients `influence(i, j)` at the offsets ±i, ±j, of a positive definite matrix, on a grid of `shape`.
+    /// Creates it from the coefficients `influence(i, j)` at the offsets ±i, ±j of a positive definite matrix, on a grid of
+    /// `shape`.
     pub(super) fn new(shape: [usize; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
         let cells = shape[0] * shape[1];
-        // Coefficients of about 1: single precision knows no SI.
+        // Coefficients are scaled to about 1, because SI values exceed the range of single precision.
         let unit = influence(0, 0);
         let above = ROWS_ABOVE * shape[1];
         Self {
@@ -47,7 +48,7 @@ impl Preconditioner {
         cells.iter().for_each(|cell| touching[*cell as usize] = false);
     }
 
-    /// z = M r on the flat `cells`, but for a factor.
+    /// Computes z = M r on the flat `cells`, up to a factor.
     fn apply(&mut self, cells: &[u32], r: &[f64], z: &mut [f64]) {
         let Self { sparse, patterns, columns, whole: [whole, image], .. } = self;
         let place = |cell: &u32| ROWS_ABOVE * *columns + *cell as usize;
@@ -96,8 +97,8 @@ pub(super) fn conjugate_gradients(
     Err(Error::NotConverged { iterations: MOST, residual: norm(&r) / size, tolerance: TOLERANCE })
 }
 
-/// As [`conjugate_gradients`], for an A that need not be symmetric: the stabilised method of biconjugate gradients, van der
-/// Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992).
+/// [`conjugate_gradients`] for an A that need not be symmetric: the stabilised biconjugate gradient method, van der Vorst,
+/// SIAM J. Sci. Stat. Comput. 13, 631 (1992).
 ///
 /// # Errors
 /// [`Error::NotConverged`].
@@ -120,7 +121,7 @@ pub(super) fn biconjugate_gradients(
         }
         let mut next = dot(&shadow, &r);
         if next.abs() < 1e-12 * norm(&shadow) * norm(&r) {
-            // The shadow has turned away: begin anew from here.
+            // The shadow residual is nearly orthogonal: restart from here.
             shadow.clone_from(&r);
             next = dot(&r, &r);
             p.fill(0.0);

@@ -1,4 +1,4 @@
-//! What the heat of the present step does.
+//! Temperature from the heat of the present step.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::temperature::Thermal;
 use crate::temperature::source::Cell;
 use crate::units::Second;
 
-/// Coefficients by which the values of some cells are spread to others, by direct summation where these are few.
+/// Coefficients between cells, applied by transforms, or by direct summation for few cells.
 pub(super) struct Spread {
     /// Coefficients at the offsets `[i, j]`, even in both.
     pub(super) table: Field,
@@ -25,7 +25,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// The coefficients of a `kernel`, which is of `padded` shape, between the cells of a grid of `shape`.
+    /// Creates the coefficients of a `kernel`, of shape `padded`, between the cells of a grid of `shape`.
     pub(super) fn new(kernel: Kernel<f64>, padded: [usize; 2], shape: [usize; 2]) -> Self {
         let mut convolution = Convolution::new(Arc::new(kernel), shape);
         let (mut input, mut table) = (Field::zeros(shape), Field::zeros(shape));
@@ -36,7 +36,7 @@ impl Spread {
         Self { table, transformed, convolution, input, output }
     }
 
-    /// Adds to `sums` at the flat cells `to` what the `values` at the flat cells `from` come to there.
+    /// Adds to `sums` at the flat cells `to` the effect of the `values` at the flat cells `from`.
     pub(super) fn add(&mut self, from: &[u32], values: &[f64], to: &[u32], sums: &mut [f64]) {
         if self.is_direct(from.len() * to.len()) {
             let [from, to] = [from, to].map(|cells| self.places(cells));
@@ -55,7 +55,7 @@ impl Spread {
         to.iter().zip(sums).for_each(|(cell, sum)| *sum += output[*cell as usize]);
     }
 
-    /// The matrix of the coefficients between the flat `cells`, row by row, where that is less than transforms.
+    /// Returns the matrix of the coefficients between the flat `cells`, row by row, if it is cheaper than transforms.
     pub(super) fn matrix(&self, cells: &[u32]) -> Option<Vec<f64>> {
         self.is_direct(cells.len().pow(2)).then(|| {
             let places = self.places(cells);
@@ -68,7 +68,7 @@ impl Spread {
         })
     }
 
-    /// Whether so many products take less than a convolution.
+    /// Whether this number of products takes less time than a convolution.
     fn is_direct(&self, products: usize) -> bool {
         products <= DIRECT * self.transformed
     }
@@ -78,20 +78,20 @@ impl Spread {
         cells.iter().map(|cell| [(cell / width) as i32, (cell % width) as i32]).collect()
     }
 
-    /// The coefficient between two places.
+    /// Returns the coefficient between two places, as a function.
     fn between(&self) -> impl Fn([i32; 2], [i32; 2]) -> f64 {
         let (width, table) = (self.table.ncols(), self.table.as_slice().expect("standard layout"));
         move |from, to| table[from[0].abs_diff(to[0]) as usize * width + from[1].abs_diff(to[1]) as usize]
     }
 }
 
-/// Products that take as long as a convolution, for each cell of its transforms.
+/// Number of products that take as long as a convolution, per cell of its transforms.
 const DIRECT: usize = 12;
 
-/// Coefficients of the temperature of a body at rest at the end of a step of a time, K m²/W, on cells of the `grid`: under a flux
-/// that grows from 0 through the step, and under one that falls to 0.
+/// Coefficients of the temperature of a body at rest at the end of a step, K m²/W, on cells of the `grid`, for a flux that
+/// grows from 0 during the step, and for one that decreases to 0.
 ///
-/// Without an edge that repeats itself those of [`Cell::ramps`]; else those of waves, with x = √(Dq²t),
+/// Without a periodic axis they are those of [`Cell::ramps`]; otherwise those of waves, with x = √(Dq²t),
 ///
 /// ```text
 /// Σ of both: erf(x)/λq          falling: √t/β [erf(x)/2x³ − e^(−x²)/√π x²]
@@ -130,8 +130,8 @@ pub(super) fn ramps(
         .map(|table| Ramp { padded, values: Values::Waves(table) })
 }
 
-/// The cyclic grid for bodies on `grid` that conduct heat no better than by a `diffusivity`, so large that what comes around
-/// along a free edge within a step is nothing or, with waves, erfc(3) = 2e-5 of the heat.
+/// Returns the cyclic grid for bodies on `grid` with at most this `diffusivity`. It is so large that the wrap-around along
+/// a free edge within a step vanishes or, with waves, is erfc(3) = 2e-5 of the heat.
 pub(super) fn padded(grid: &Grid, diffusivity: f64, boundary: Boundary, step: Second) -> [usize; 2] {
     let length = 2.0 * (diffusivity * step).sqrt();
     [0, 1].map(|axis| {
@@ -159,7 +159,7 @@ enum Values {
 }
 
 impl Ramp {
-    /// The sum of the coefficients of two bodies on the same cyclic grid.
+    /// Adds the coefficients of two bodies on the same cyclic grid.
     pub(super) fn sum([one, other]: [&Self; 2]) -> Self {
         let values = match (&one.values, &other.values) {
             (Values::Cells(one), Values::Cells(other)) => Values::Cells(one + other),
@@ -169,7 +169,7 @@ impl Ramp {
         Self { padded: one.padded, values }
     }
 
-    /// What spreads by these coefficients between cells of a grid of `shape`.
+    /// Creates the operator with these coefficients between cells of a grid of `shape`.
     pub(super) fn spread(&self, shape: [usize; 2]) -> Spread {
         let kernel = match &self.values {
             Values::Cells(table) => Kernel::from_values(self.padded, table),
@@ -185,7 +185,7 @@ impl Ramp {
     }
 }
 
-/// The most cells by which an edge is padded.
+/// Largest padding of an edge, in cells.
 const MOST: f64 = 1e5;
 
 /// erf(x)/x.

@@ -1,4 +1,4 @@
-//! The temperature that a cell's uniform flux brings about.
+//! Temperature under a uniform flux into a cell.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI, TAU};
 
@@ -8,16 +8,16 @@ use crate::math::gauss_legendre;
 use crate::temperature::Thermal;
 use crate::units::{Metre, MetrePerSecond, Second};
 
-/// Steady temperature at `(x, y)` per unit flux into the cell centred at the origin, K m²/W, of a body that passes the cell at
-/// the `speed` V along x, of either sign.
+/// Steady temperature at `(x, y)` per unit flux into the cell centred at the origin, K m²/W, for a body that passes the
+/// cell at the `speed` V along x, positive or negative.
 ///
 /// ```text
 /// T = (1/2πλ) ∬ e^(−(|V|r − Vx)/2D)/r  =  (1/2πλ) ∮ (e^(−w r₀) − e^(−w r₁))/w dθ,   w = (|V| + V cos θ)/2D
 /// ```
 ///
-/// with r₀ and r₁ where the ray at the angle θ from `(x, y)` enters and leaves the cell. At V = 0 this is the displacement
-/// [`crate::kernel::normal_displacement`] for E* = 2λ. Error below 1e-12 of the temperature of a square cell at rest under its
-/// own flux. Jaeger, Proc. R. Soc. N.S.W. 76, 203 (1942).
+/// where the ray at the angle θ from `(x, y)` enters the cell at r₀ and leaves it at r₁. At V = 0 this is the displacement
+/// [`crate::kernel::normal_displacement`] for E* = 2λ. The error is below 1e-12 of the temperature of a stationary square
+/// cell under its own flux. Jaeger, Proc. R. Soc. N.S.W. 76, 203 (1942).
 pub fn moving_source_temperature(
     x: Metre,
     y: Metre,
@@ -28,10 +28,10 @@ pub fn moving_source_temperature(
     Cell::new(pitch).moving([x, y], thermal, speed)
 }
 
-/// A cell of uniform flux around the origin.
+/// A cell with uniform flux around the origin.
 pub(super) struct Cell {
     half: [Metre; 2],
-    /// Nodes and weights of Gauss and Legendre's rule.
+    /// Nodes and weights of the Gauss–Legendre rule.
     rule: Vec<(f64, f64)>,
 }
 
@@ -53,15 +53,15 @@ impl Cell {
         around / (TAU * thermal.conductivity)
     }
 
-    /// Temperature at a point of a body at rest, K m²/W, per unit flux at the end of a step: under a flux that grows from 0
-    /// through the `step`, and under one that falls to 0.
+    /// Temperature at a point of a body at rest, K m²/W, per unit flux at the end of a step, for a flux that grows from 0
+    /// during the `step`, and for one that decreases to 0.
     ///
     /// ```text
     /// Σ of both:   (1/2πλ) ∮ ℓ [i¹(u₀) − i¹(u₁)] dθ                                         u = r/ℓ,  ℓ = 2√(Dt)
     /// falling:     (1/2πλ) ∮ 2ℓ [i³(u₀) + u₀ i²(u₀) − i³(u₁) − u₁ i²(u₁)] dθ                iⁿ: iⁿerfc
     /// ```
-    /// The integrals over a ray of erfc(u)/r and of 2 i¹(u)/ℓ, a point's. Carslaw and Jaeger, *Conduction of Heat in Solids*,
-    /// chapter X and appendix II.
+    /// Integrals over a ray of the point source solutions erfc(u)/r and 2 i¹(u)/ℓ. Carslaw and Jaeger, *Conduction of Heat
+    /// in Solids*, chapter X and appendix II.
     pub(super) fn ramps(&self, at: [Metre; 2], thermal: &Thermal, step: Second) -> [f64; 2] {
         let length = 2.0 * (thermal.diffusivity() * step).sqrt();
         let [dx, dy] = [0, 1].map(|axis| (at[axis].abs() - self.half[axis]).max(0.0));
@@ -77,8 +77,8 @@ impl Cell {
         [both - falling, falling]
     }
 
-    /// ∮ f(θ, [r₀, r₁]) dθ over the rays from a point that meet the cell, by Gauss and Legendre's rule on halved intervals until
-    /// halving changes nothing beyond the round-off of lengths, of which one may be given.
+    /// Computes ∮ f(θ, [r₀, r₁]) dθ over the rays from a point that meet the cell. The Gauss–Legendre rule is applied to
+    /// halved intervals until halving changes nothing beyond the round-off of lengths, one of which may be given.
     fn around(&self, at: [Metre; 2], length: Metre, f: impl Fn(f64, [f64; 2]) -> f64) -> f64 {
         let ([x, y], [a, b]) = (at, self.half);
         let inside = x.abs() <= a && y.abs() <= b;
@@ -91,7 +91,7 @@ impl Cell {
         } else {
             corners.iter().fold((PI, -PI), |(lo, hi), c| (lo.min(*c), hi.max(*c)))
         };
-        // The ray along which a moving body has been heated, and that against it, are where w turns.
+        // w has its extrema along the ray on which a moving body was heated, and along the opposite one.
         let mut ends = vec![lo, hi, wrapped(-centre), wrapped(PI - centre)];
         ends.extend(corners);
         ends.retain(|angle| (lo..=hi).contains(angle));
@@ -112,7 +112,7 @@ impl Cell {
         ends.windows(2).map(|ends| self.refined(&along, [ends[0], ends[1]], tolerance)).sum()
     }
 
-    /// ∫ f over an interval, halved where the halves differ from the whole.
+    /// Computes ∫ f over an interval, halving it if the sum of the halves differs from the whole.
     fn refined(&self, f: &impl Fn(f64) -> f64, [lo, hi]: [f64; 2], tolerance: f64) -> f64 {
         let mut open = vec![([lo, hi], self.gauss(f, [lo, hi]), DEEPEST)];
         let mut sum = 0.0;
@@ -135,13 +135,14 @@ impl Cell {
     }
 }
 
-/// Points of the rule on an interval.
+/// Number of points of the rule on an interval.
 const POINTS: usize = 10;
-/// An interval is halved until that changes its integral by less than this of the cell's half-sides, or of a tenth of lengths.
+/// Smallest change of the integral for which an interval is halved, relative to the half sides of the cell, or to a tenth
+/// of lengths.
 const TOLERANCE: f64 = 1e-14;
-/// Intervals are halved so often at most.
+/// Largest number of halvings.
 const DEEPEST: usize = 30;
-/// Beyond so many ℓ from a cell its heat has not come within a step: erfc(6) = 2e-17.
+/// Distance in ℓ from a cell that its heat does not reach within a step: erfc(6) = 2e-17.
 const FADED: f64 = 6.0;
 
 /// iⁿerfc(u) for n = 1, 2 and 3.
@@ -172,7 +173,7 @@ mod tests {
     use crate::kernel::normal_displacement;
     use approx::assert_relative_eq;
 
-    /// λ = 1, D = ½: V = Pe for cells of half side 1.
+    /// λ = 1, D = ½: V = Pe for cells with half side 1.
     fn unit() -> Thermal {
         Thermal::new(1.0, 2.0, 1.0).unwrap()
     }
@@ -202,7 +203,7 @@ mod tests {
                 let step = 2e-3;
                 let past: f64 = (-17_500..5_000).map(|n| step * integrand(step * f64::from(n))).sum();
                 let found = moving_source_temperature(at[0], at[1], [2.0, 2.0], &unit(), speed);
-                // The largest half side is 1, the cell's own temperature at rest 1.122.
+                // The largest half side is 1, and the temperature of the cell at rest under its own flux 1.122.
                 assert!((found - past).abs() < 2e-12, "{speed}, {at:?}: {found} and {past}");
             }
         }
@@ -226,7 +227,7 @@ mod tests {
             let mut sums = [0.0; 2];
             let n = 20_000;
             for k in 0..n {
-                // Age = step · s², which takes the root out of the integrand.
+                // Age = step · s², which removes the root from the integrand.
                 let s = (f64::from(k) + 0.5) / f64::from(n);
                 let age = step * s * s;
                 let width = 2.0 * (0.5 * age).sqrt();
@@ -240,7 +241,7 @@ mod tests {
             }
             assert!((rising - sums[0]).abs() < 1e-8 && (falling - sums[1]).abs() < 1e-8, "{at:?}");
         }
-        // A cell far larger than ℓ is heated as a half-space is, 2√(t/π)/β, of which two thirds are due to a rising flux.
+        // A cell much larger than ℓ is heated like a half-space, 2√(t/π)/β, with two thirds from a growing flux.
         let wide = Cell::new([100.0; 2]).ramps([0.0; 2], &thermal, step);
         let plane = 2.0 * (step / PI).sqrt() / thermal.effusivity();
         assert_relative_eq!(wide[0], plane / 1.5, max_relative = 1e-13);

@@ -1,4 +1,4 @@
-//! The flash temperature of a contact that stays where it is while the bodies move through it.
+//! Flash temperature of a stationary contact with bodies moving through it.
 
 use std::sync::Arc;
 
@@ -15,19 +15,19 @@ use crate::temperature::source::Cell;
 use crate::temperature::{FlashStep, Thermal};
 use crate::units::{Dimension, Kelvin, MetrePerSecond, WattPerSquareMetre};
 
-/// The steady temperature of the cells in contact.
+/// Steady temperature of the cells in contact.
 ///
-/// With a free boundary by the coefficients of [`crate::temperature::moving_source_temperature`]; with a periodic one by those of
-/// waves, `1/(λ √(q² + iVq_x/D))`. What is uniform in a periodic contact has no steady temperature: it rises for ever, as
-/// 2q̄√(t/π)/β, and is left out (0 at q = 0), so that temperatures are those above the mean of the surface, which is taken to be
-/// at the bulk temperature.
+/// A free boundary uses the coefficients of [`crate::temperature::moving_source_temperature`], a periodic one those of
+/// waves, `1/(λ √(q² + iVq_x/D))`. The uniform part of a periodic contact has no steady temperature: it grows without bound
+/// as 2q̄√(t/π)/β. It is omitted (0 at q = 0), so that temperatures are relative to the mean of the surface, which is set
+/// to the bulk temperature.
 pub struct SteadyTemperature {
     bulk: [Kelvin; 2],
     grid: Grid,
     boundary: Boundary,
     bodies: [SkewConvolution; 2],
     sum: SkewConvolution,
-    /// Temperature of a cell under its own unit flux, K m²/W.
+    /// Temperature of a cell under a unit flux into it, K m²/W.
     own: [f64; 2],
     preconditioner: Preconditioner,
     input: Field,
@@ -35,11 +35,11 @@ pub struct SteadyTemperature {
 }
 
 impl SteadyTemperature {
-    /// The contact on `grid` of bodies that pass it at these `speeds` along x, of either sign, lower one first.
+    /// Creates the contact on `grid` of bodies that pass it at these `speeds` along x, positive or negative, lower one
+    /// first.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where one axis alone is periodic, [`Error::OutOfRange`] for a speed or a bulk temperature without
-    /// meaning.
+    /// [`Error::Unsupported`] if only one axis is periodic, [`Error::OutOfRange`] for an invalid speed or bulk temperature.
     pub fn new(
         grid: Grid,
         thermal: [Thermal; 2],
@@ -61,7 +61,7 @@ impl SteadyTemperature {
         let [one, other] = [0, 1].map(|body| coefficients(&thermal[body], speeds[body]));
         let mut sum = one.plus(&other).convolution(grid.shape);
         let mut bodies = [one, other].map(|body| body.convolution(grid.shape));
-        // What is even in x of the coefficients, periodic ones counted from the far field.
+        // Part of the coefficients that is even in x; periodic ones are relative to the far field.
         let [nx, ny] = grid.shape;
         let [ahead, behind] = [[0, 0], [nx - 1, 0]].map(|cell| under_one_cell(&mut sum, &grid, cell));
         let far = if boundary == Boundary::PERIODIC { ahead[[nx / 2, ny / 2]] } else { 0.0 };
@@ -79,14 +79,14 @@ impl SteadyTemperature {
         })
     }
 
-    /// The temperature of these flat `cells`, which friction heats by a `flux` each.
+    /// Computes the temperature of these flat `cells`, which friction heats by a `flux` each.
     ///
     /// # Errors
-    /// [`Error::NotConverged`]; [`Error::Unsupported`] where all cells of a periodic contact touch: of its mean flux nobody can
-    /// tell where it goes.
+    /// [`Error::NotConverged`]; [`Error::Unsupported`] if all cells of a periodic contact touch, because the partition of
+    /// its mean flux is undetermined.
     ///
     /// # Panics
-    /// If there are not as many cells as fluxes.
+    /// If the numbers of cells and fluxes differ.
     pub fn solve(&mut self, cells: &[u32], flux: &[WattPerSquareMetre]) -> Result<FlashStep> {
         assert_eq!(cells.len(), flux.len(), "as many cells as fluxes");
         if self.boundary == Boundary::PERIODIC && cells.len() == self.grid.cells() {
@@ -121,7 +121,7 @@ impl SteadyTemperature {
     }
 }
 
-/// Temperature under a unit flux into one cell.
+/// Returns the temperature under a unit flux into one cell.
 fn under_one_cell(convolution: &mut SkewConvolution, grid: &Grid, cell: [usize; 2]) -> Field {
     let (mut unit, mut temperature) = (grid.zeros(), grid.zeros());
     unit[cell] = 1.0;
@@ -129,7 +129,7 @@ fn under_one_cell(convolution: &mut SkewConvolution, grid: &Grid, cell: [usize; 
     temperature
 }
 
-/// Temperature per flux of a body on a cyclic grid, K m²/W.
+/// Temperature of a body per flux on a cyclic grid, K m²/W.
 enum Coefficients {
     /// At all cyclic offsets.
     Cells(Field),

@@ -1,4 +1,4 @@
-//! SI quantities: the aliases that name them in signatures, and their reading and writing with a unit.
+//! SI quantities: type aliases for signatures, and reading and writing with a unit.
 
 mod quantity;
 mod range;
@@ -17,7 +17,7 @@ pub type SquareMetre = f64;
 pub type CubicMetre = f64;
 /// Wave number 2π/wavelength in radians per metre.
 pub type RadianPerMetre = f64;
-/// Angle over a distance, in 1/m.
+/// Angle per distance, in 1/m.
 pub type PerMetre = f64;
 /// Pressure, modulus or hardness in pascals.
 pub type Pascal = f64;
@@ -35,7 +35,7 @@ pub type MetrePerSecond = f64;
 pub type Second = f64;
 /// Volume lost per load and distance slid, or per energy of friction, in 1/Pa.
 pub type PerPascal = f64;
-/// Absolute temperature, or a rise of it, in kelvins.
+/// Absolute temperature or temperature rise in kelvins.
 pub type Kelvin = f64;
 /// Heat flow in watts.
 pub type Watt = f64;
@@ -52,7 +52,7 @@ pub fn bytes(count: f64) -> String {
     }
 }
 
-/// Writes a time as people say it: `0.3 s`, `12 s`, `5 min`, `3.2 h`, `40 days`.
+/// Writes a time for people: `0.3 s`, `12 s`, `5 min`, `3.2 h`, `40 days`.
 pub fn format_time(seconds: Second) -> String {
     match seconds {
         t if t < 10.0 => std::format!("{t:.1} s"),

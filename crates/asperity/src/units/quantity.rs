@@ -1,6 +1,6 @@
 //! Quantities as people write them: `"2.4 GPa"`, `"0.25 um"`, `"10 mm/s"`.
 
-/// What a quantity measures.
+/// Physical dimension of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// Metres.
@@ -25,9 +25,9 @@ pub enum Dimension {
     Stiffness,
     /// Volume lost per load and distance slid, or per energy of friction: 1/Pa, which is m³/(N m) and m³/J.
     WearCoefficient,
-    /// A rate per pressure and distance slid, 1/(Pa m).
+    /// Removal rate per pressure and distance slid, 1/(Pa m).
     RemovalRate,
-    /// Kelvins; degrees Celsius are read.
+    /// Kelvins; degrees Celsius are also read.
     Temperature,
     /// Watts per metre and kelvin.
     Conductivity,
@@ -39,50 +39,50 @@ pub enum Dimension {
     Power,
 }
 
-/// Why a text is no quantity of the dimension wanted.
+/// Reason why a text is not a quantity of the expected dimension.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UnitError {
     /// No dimension has this unit.
     Unknown {
         /// The unit as written.
         unit: String,
-        /// The dimension wanted.
+        /// The expected dimension.
         expected: Dimension,
-        /// The unit of that dimension that was probably meant.
+        /// The most similar unit of that dimension.
         suggestion: Option<String>,
     },
     /// The unit belongs to another dimension.
     WrongDimension {
         /// The quantity as written.
         text: String,
-        /// What it measures.
+        /// The dimension found.
         found: Dimension,
-        /// The dimension wanted.
+        /// The expected dimension.
         expected: Dimension,
     },
     /// The text does not start with a number.
     NotAQuantity {
         /// The text.
         text: String,
-        /// The dimension wanted.
+        /// The expected dimension.
         expected: Dimension,
     },
-    /// The number is too large, not a number, or infinite where that has no meaning.
+    /// The number is too large, NaN, or infinite where infinity is not accepted.
     NotFinite {
         /// The text.
         text: String,
-        /// The dimension wanted.
+        /// The expected dimension.
         expected: Dimension,
     },
 }
 
 /// Reads a quantity, in SI.
 ///
-/// A number without a unit is in SI already. `inf` is a pressure (that of a rigid or unyielding body) and nothing
-/// else. The result is the double nearest to what is written, prefix included: `"0.1 um"` is `1e-7`.
+/// A number without a unit is in SI already. `inf` is accepted for pressures only (a rigid or unyielding body). The result
+/// is the `f64` nearest to the written value, prefix included: `"0.1 um"` is `1e-7`.
 ///
 /// # Errors
-/// [`UnitError`], which also knows what was expected.
+/// [`UnitError`], which also names the expected dimension.
 pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let trimmed = text.trim();
     let bare = trimmed.strip_prefix(['+', '-']).unwrap_or(trimmed);
@@ -108,20 +108,20 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: text.to_owned(), expected }) }
 }
 
-/// The unit in which wear coefficients are told.
+/// Unit in which wear coefficients are written.
 const MM3_PER_NM: &str = "mm³/(N m)";
 
 /// 0 °C in kelvins.
 pub const CELSIUS: f64 = 273.15;
 
-/// Writes a quantity with four significant digits and the prefix that suits it: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
+/// Writes a quantity with four significant digits and a suitable prefix: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
 ///
-/// [`parse`] reads it back. Lengths from 0.1 µm stay in micrometres, the unit of roughness; angles are in degrees.
+/// [`parse`] reads it back. Lengths from 0.1 µm up stay in micrometres, the unit of roughness. Angles are in degrees.
 pub fn format(value: f64, dimension: Dimension) -> String {
     format_digits(value, dimension, 4)
 }
 
-/// Two values with a unit, with so many digits (four at least, twelve at most) that they differ if the values do.
+/// Writes two values with a unit, with enough digits (four to twelve) to show a difference between them.
 pub fn format_distinct(values: [f64; 2], dimension: Dimension) -> [String; 2] {
     let shown = |digits| values.map(|value| format_digits(value, dimension, digits));
     (4..12).map(shown).find(|[one, other]| one != other).unwrap_or_else(|| shown(12))
@@ -132,7 +132,7 @@ pub fn format_number(value: f64) -> String {
     format_number_digits(value, 4)
 }
 
-/// [`format_number()`] with another number of significant digits; all of those before the point are written.
+/// [`format_number()`] with another number of significant digits. All digits before the point are written.
 pub fn format_number_digits(value: f64, digits: usize) -> String {
     match value.abs() {
         size if size != 0.0 && size.is_finite() && !(1e-4..1e6).contains(&size) => {
@@ -143,7 +143,8 @@ pub fn format_number_digits(value: f64, digits: usize) -> String {
     }
 }
 
-/// [`format()`] with as many digits as it takes, four at least, for [`parse`] to come within the share `within` of the value.
+/// [`format()`] with as many digits, at least four, as [`parse`] needs to come within the relative error `within` of the
+/// value.
 pub fn format_within(value: f64, dimension: Dimension, within: f64) -> String {
     let close =
         |text: &String| parse(text, dimension).is_ok_and(|read| (read - value).abs() <= within * value.abs());
@@ -167,7 +168,7 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     if !value.is_finite() {
         return format!("{value}");
     }
-    // Rounded first: 999.96 Pa is 1 kPa.
+    // Rounded first: 999.96 Pa becomes 1 kPa.
     let rounded = round(value, digits);
     match dimension.prefix(rounded) {
         Some((prefix, exponent)) => {
@@ -181,22 +182,22 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     }
 }
 
-/// A multiple of a unit, in which all numbers of a column are written.
+/// A multiple of a unit, used for all numbers of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Multiple {
-    /// One of it in SI.
+    /// Size of one multiple in SI.
     pub factor: f64,
     /// The symbol of the multiple: `µm`.
     pub symbol: String,
 }
 
 impl UnitError {
-    /// The message once the key is known: `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
+    /// The message for a known key: `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
     pub fn for_key(&self, key: &str) -> String {
         self.message(&format!(" in '{key}'"))
     }
 
-    /// What was probably meant, to be shown below the message.
+    /// The probably intended unit, to be shown below the message.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Unknown { suggestion, .. } => {
@@ -259,7 +260,7 @@ impl Dimension {
         }
     }
 
-    /// A quantity that [`parse`] reads.
+    /// A sample quantity that [`parse`] reads.
     pub fn example(self) -> &'static str {
         match self {
             Self::Length => "0.25 um",
@@ -286,7 +287,7 @@ impl Dimension {
         format!("{} such as \"{}\"", self.noun(), self.example())
     }
 
-    /// The SI unit itself, which [`parse`] reads: `Pa`, `m/s`, `rad`.
+    /// Symbol of the SI unit, which [`parse`] reads: `Pa`, `m/s`, `rad`.
     pub fn si(self) -> String {
         let base = self.scale().base;
         format!("{}{}", base.symbol(), base.suffix())
@@ -336,7 +337,7 @@ impl Dimension {
         }
     }
 
-    /// The multiple that suits `value`, SI, as [`format()`] has it; the SI unit for 0.
+    /// The multiple that suits `value`, SI, as in [`format()`]; the SI unit for 0.
     pub fn multiple(self, value: f64) -> Multiple {
         if self == Self::Angle {
             return Multiple { factor: std::f64::consts::PI / 180.0, symbol: "°".to_owned() };
@@ -350,7 +351,7 @@ impl Dimension {
         Multiple { factor: 10f64.powi(power * exponent), symbol }
     }
 
-    /// The prefix that suits a value, and its exponent; none for what is below the least.
+    /// The prefix that suits a value, and its exponent; `None` below the smallest prefix.
     fn prefix(self, value: f64) -> Option<(&'static str, i32)> {
         if !self.takes_prefixes() {
             return (1e-3..1e6).contains(&value.abs()).then_some(("", 0));
@@ -362,7 +363,7 @@ impl Dimension {
         prefixes.copied().find(|(_, exponent)| suits(*exponent))
     }
 
-    /// Whether its unit is written with prefixes.
+    /// Whether the unit is written with prefixes.
     fn takes_prefixes(self) -> bool {
         !matches!(
             self,
@@ -452,7 +453,7 @@ impl Dimension {
     }
 }
 
-/// How a dimension takes its prefixes.
+/// How a dimension uses prefixes.
 struct Scale {
     base: Base,
     /// The power of the prefix: 2 for an area.
@@ -484,7 +485,7 @@ impl Base {
     }
 }
 
-/// Ascending. The centi- is for metres alone, and for reading alone.
+/// Ascending. The centi- prefix is for metres only, and is read but never written.
 const PREFIXES: [(&str, i32); 10] = [
     ("p", -12),
     ("n", -9),
@@ -508,7 +509,7 @@ fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), 
     Err(UnitError::Unknown { unit: unit.to_owned(), expected, suggestion: suggest(unit, expected) })
 }
 
-/// A unit one slip away: another case, or one letter more, less, other or swapped.
+/// Suggests a unit that differs by one slip: another case, or one letter added, missing, wrong or swapped.
 fn suggest(unit: &str, expected: Dimension) -> Option<String> {
     let Scale { base, largest, .. } = expected.scale();
     let mut candidates: Vec<_> = PREFIXES
@@ -532,7 +533,7 @@ struct Number<'a> {
     rest: &'a str,
 }
 
-/// `-2.5e3 GPa` is −2.5, 3 and ` GPa`. An `e` that no digits follow belongs to the unit.
+/// Splits a number from its unit: `-2.5e3 GPa` is −2.5, 3 and ` GPa`. An `e` without digits after it belongs to the unit.
 fn split_number(text: &str) -> Option<Number<'_>> {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let sign = usize::from(text.starts_with(['+', '-']));
@@ -566,17 +567,17 @@ fn round(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value)
 }
 
-/// From here on numbers are written with a power of ten: no prefix has more to say.
+/// Numbers from here on are written with a power of ten, because no prefix is large enough.
 const MAX_FIXED: f64 = 1e12;
 
-/// Fixed notation, or with a power of ten where that would have too many digits.
+/// Writes in fixed notation, or with a power of ten if fixed notation would have too many digits.
 fn legible(value: f64, digits: usize) -> String {
     let size = value.abs();
     let is_fixed = size == 0.0 || !size.is_finite() || (1.0 / MAX_FIXED..MAX_FIXED).contains(&size);
     if is_fixed { decimal(value, digits) } else { format!("{:e}", round(value, digits)) }
 }
 
-/// Fixed notation with at most `digits` significant digits and no trailing zeros.
+/// Writes in fixed notation with at most `digits` significant digits and no trailing zeros.
 fn decimal(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");

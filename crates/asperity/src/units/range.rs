@@ -1,29 +1,29 @@
-//! How small and how large what is given may be: far beyond any contact on either side, and so that no product of such
-//! quantities overflows or vanishes.
+//! Limits on the magnitude of input values. They lie far beyond any contact on either side, and no product of such
+//! quantities overflows or underflows.
 
 use std::fmt;
 
 use super::Dimension;
 
-/// Magnitudes that are accepted, besides 0 where that has a meaning.
+/// Accepted magnitudes, besides 0 where zero is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// The smallest, SI.
     pub least: f64,
     /// The largest, SI.
     pub most: f64,
-    /// The unit of the magnitudes; empty for numbers.
+    /// The unit of the magnitudes; empty for pure numbers.
     pub unit: &'static str,
 }
 
-/// The magnitudes of numbers without a unit: slopes, factors, coefficients, creepages, tolerances.
+/// Accepted magnitudes of numbers without a unit: slopes, factors, coefficients, creepages, tolerances.
 pub const NUMBERS: Range = Range { least: 1e-15, most: 1e12, unit: "" };
 
-/// The largest number of passes, increments, cells of a stride, samples along an axis.
+/// The largest count of passes, increments, cells of a stride, or samples along an axis.
 pub const MAX_COUNT: usize = 1_000_000_000;
 
 impl Dimension {
-    /// The magnitudes that are accepted of quantities.
+    /// The accepted magnitudes of a quantity.
     pub fn range(self) -> Range {
         let (least, most, unit) = match self {
             Self::Length => (1e-15, 1e6, "m"),
@@ -49,12 +49,12 @@ impl Dimension {
 }
 
 impl Range {
-    /// Whether a positive value lies within.
+    /// Whether a positive value lies within the range.
     pub fn holds(&self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
     }
 
-    /// Whether a value of any sign is 0 or has a magnitude within.
+    /// Whether a value of any sign is 0 or has a magnitude within the range.
     pub fn holds_signed(&self, value: f64) -> bool {
         value == 0.0 || self.holds(value.abs())
     }

@@ -1,4 +1,4 @@
-//! Bodies under a coating.
+//! Coated bodies.
 
 use std::f64::consts::PI;
 
@@ -20,8 +20,8 @@ fn coated([young, poisson]: [f64; 2], thickness: f64, layer: [f64; 2]) -> Result
     Ok(CoatedHalfSpace::new(&Material::elastic(young, poisson)?, &coating))
 }
 
-/// A wave meets the layer where it is short, the body below where it is long, a foundation where that is rigid, and what flows
-/// between two planes where the layer cannot be compressed either.
+/// A short wave depends on the layer, a long one on the substrate. On a rigid substrate the limit is an elastic foundation,
+/// or for an incompressible layer the flow between two planes.
 pub(super) const HARMONICS: Case = Case {
     name: "Coated half-space: harmonics",
     source: "O'Sullivan and King (1988); Johnson (1985), section 5.8",
@@ -54,8 +54,8 @@ pub(super) const HARMONICS: Case = Case {
     },
 };
 
-/// A smooth pressure without force or moment, which neither its images nor the mean disturb: its waves, which are exact, against
-/// the sum of its cells, over each of which the pressure is taken as uniform.
+/// A smooth pressure without force or moment, which is affected neither by its images nor by the mean. Its waves, which are
+/// exact, are compared with the sum of its cells, each with uniform pressure.
 pub(super) const FREE_AND_PERIODIC: Case = Case {
     name: "Coated half-space: cells against harmonics",
     source: "the Hankel transform",
@@ -86,8 +86,8 @@ pub(super) const FREE_AND_PERIODIC: Case = Case {
     },
 };
 
-/// A layer that is thick against the contact: Hertz' contact of the layer, over a half-space that sinks as a whole by what
-/// contrast of the compliances there is, and bends by that times (a/t)³.
+/// A layer thick compared with the contact: Hertz' contact of the layer. The half-space below sinks as a whole in
+/// proportion to the contrast of the compliances, and bends by that times (a/t)³.
 pub(super) const THICK: Case = Case {
     name: "Coated half-space: Hertz on a thick layer",
     source: "Johnson (1985), section 5.8",
@@ -103,7 +103,7 @@ pub(super) const THICK: Case = Case {
             let a = hertz.contact_radius();
             let grid = Grid::new([96; 2], [a / 32.0; 2])?;
             let (gap, load) = (sphere_gap(&grid)?, Control::Load(hertz.load));
-            // Against the same on the same grid without contrast, which leaves the error of the grid out.
+            // Compared with the same grid without contrast, to exclude the error of the grid.
             let solve = |base| -> Result<[f64; 2]> {
                 let body = coated(base, n as f64 * a, layer)?;
                 let solution = press(&mut FreeFft::new(grid, body), &gap, Pascal::INFINITY, load)?;
@@ -115,8 +115,8 @@ pub(super) const THICK: Case = Case {
     },
 };
 
-/// A compressible layer that is thin against the contact, on a rigid body: an elastic foundation of modulus
-/// E(1 − ν)/(1 + ν)(1 − 2ν), but for terms of order (qt)² in the harmonics and an edge as wide as the layer is thick.
+/// A compressible layer thin compared with the contact, on a rigid body. It is an elastic foundation with the modulus E(1 −
+/// ν)/(1 + ν)(1 − 2ν), apart from terms of order (qt)² in the harmonics and an edge as wide as the layer thickness.
 pub(super) const FOUNDATION: Case = Case {
     name: "Coated half-space: thin layer on a rigid body",
     source: "Johnson (1985), section 5.8",
@@ -134,7 +134,7 @@ pub(super) const FOUNDATION: Case = Case {
     },
 };
 
-/// The same where it cannot be compressed either: it flows as between two planes, p = 3G(a² − r²)²/32Rt³.
+/// An incompressible thin layer: it flows as between two planes, p = 3G(a² − r²)²/32Rt³.
 pub(super) const INCOMPRESSIBLE: Case = Case {
     name: "Coated half-space: thin incompressible layer on a rigid body",
     source: "Johnson (1985), section 5.8",
@@ -151,8 +151,8 @@ pub(super) const INCOMPRESSIBLE: Case = Case {
     },
 };
 
-/// A sphere on a layer of thickness a/n on a rigid body, under the load at which the `limit` for t → 0 has the radius a = 1;
-/// it tells load, peak pressure and approach.
+/// A sphere on a layer with the thickness a/n on a rigid body. The load is that at which the contact radius is a = 1 for
+/// t → 0. `limit` returns load, peak pressure and approach in this limit.
 fn thin_layer(
     checks: [(&'static str, Expected); 2],
     layer: [f64; 2],

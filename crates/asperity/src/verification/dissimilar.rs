@@ -1,4 +1,4 @@
-//! Bodies of different materials: pressure and shear displace each other.
+//! Dissimilar bodies: pressure and shear are coupled.
 
 use super::{
     Case, Check, Expected, hold, largest, press, relative, relative_max, relative_rms, rough, smooth, study,
@@ -14,7 +14,7 @@ use crate::units::{Metre, Newton};
 
 const APPROACH: Metre = 1e-3;
 
-/// All that differs is the coupling, and that vanishes: the pressure is that of [`solve_normal`], cell by cell.
+/// Identical bodies, for which the coupling vanishes: the pressure is that of [`solve_normal`], cell by cell.
 ///
 /// [`solve_normal`]: crate::solver::solve_normal
 pub(super) const IDENTICAL: Case =
@@ -49,7 +49,7 @@ fn identical() -> Result<Vec<Check>> {
     })
 }
 
-/// Pressed together, bodies that differ a little bear shear as β, and it changes the pressure as β².
+/// Slightly dissimilar bodies pressed together: the shear is of order β, its effect on the pressure of order β².
 pub(super) const ALMOST_IDENTICAL: Case = Case {
     name: "almost identical bodies: W alone",
     source: "Johnson (1985), section 5.4",
@@ -74,7 +74,7 @@ pub(super) const ALMOST_IDENTICAL: Case = Case {
     },
 };
 
-/// As the punch without friction, of order 1.
+/// Like the punch without friction, of order 1.
 pub(super) const NO_SLIP: Case = Case {
     name: "punch without slip: β = 0.3",
     source: "Mossakovskii (1954); Spence (1968)",
@@ -87,7 +87,7 @@ pub(super) const NO_SLIP: Case = Case {
     },
 };
 
-/// Goodman's approximation has a closed form. Contact and stick are both counted.
+/// Goodman's approximation, which has a closed form. Cells in contact and in stick are counted.
 pub(super) const GOODMAN: Case = Case {
     name: "Spence's punch after Goodman: β = 0.3",
     source: "Goodman (1962); Spence (1968, 1975)",
@@ -104,7 +104,7 @@ pub(super) const GOODMAN: Case = Case {
     },
 };
 
-/// With the shear acting back on the pressure less sticks than Goodman has it: by 0.09 and 0.1 here.
+/// With the effect of the shear on the pressure the stick area is smaller than Goodman's, here by 0.09 and 0.1.
 pub(super) const SPENCE: Case = Case {
     name: "Spence's punch: β = 0.5",
     source: "Spence (1975); numbers of an axisymmetric program",
@@ -132,8 +132,8 @@ pub(super) const SPENCE: Case = Case {
     },
 };
 
-/// The contact grows and stays similar to itself: what sticks is the share of the punch's. Increments of the radius by
-/// two cells, in which new cells slip before they touch: order 1 in these.
+/// A growing self-similar contact: the stick ratio is that of the punch. In increments of the radius by two cells, new
+/// cells slip before they touch: order 1 in the increments.
 pub(super) const SPHERE: Case = Case {
     name: "Spence's sphere, in increments: β = 0.3",
     source: "Spence (1968, 1975); Mossakovskii (1963)",
@@ -165,14 +165,14 @@ fn coupled(dundurs: f64, friction: f64) -> CoupledPunch {
     *COUPLED.iter().find(of).expect("a row of the table")
 }
 
-/// A body of E* = 1 under a rigid one, 0 < β ≤ ½.
+/// A body with E* = 1 under a rigid one, 0 < β ≤ ½.
 fn under_rigid(dundurs: f64) -> Result<Compliances> {
     let poisson = (0.5 - dundurs) / (1.0 - dundurs);
     let rigid = Material::elastic(f64::INFINITY, 0.3)?;
     Compliances::new(&Material::elastic(1.0 - poisson * poisson, poisson)?, &rigid)
 }
 
-/// A flat punch and its load. Its whole history is one increment: what slips has slipped in proportion to the load.
+/// A flat punch and its load. Its whole history is one increment, because slip is proportional to the load.
 fn punch(
     n: usize,
     dundurs: f64,
@@ -187,7 +187,7 @@ fn punch(
     Ok((solution, load))
 }
 
-/// A sphere and its load, pressed down to a contact of radius 1 (without friction), `n` cells long.
+/// A sphere and its load, pressed to a contact radius of 1 (without friction), `n` cells long.
 fn indent(n: usize, dundurs: f64, coefficient: f64) -> Result<(FrictionalSolution, Newton)> {
     let grid = Grid::new([2 * n + 4; 2], [1.0 / n as f64; 2])?;
     let gap = smooth::sphere_gap(&grid)?;
@@ -209,7 +209,7 @@ fn down(approach: Metre) -> Loading {
     Loading { normal: Control::Approach(approach), tangential: Tangential::Force([0.0; 2]) }
 }
 
-/// Radius of what sticks over that of the contact.
+/// Radius of the stick area over that of the contact.
 fn stick_share(solution: &FrictionalSolution) -> f64 {
     (solution.stick.sum() / solution.normal.contact_cells() as f64).sqrt()
 }

@@ -1,4 +1,4 @@
-//! What friction heats.
+//! Frictional heating.
 
 use std::f64::consts::PI;
 
@@ -17,14 +17,14 @@ fn steel() -> Thermal {
     Thermal { conductivity: 46.0, heat_capacity: 460.0, density: 7850.0 }
 }
 
-/// A body that takes a share of 10⁻¹² of the heat and is as diffusive as another: that one is alone.
+/// A body with the fraction 10⁻¹² of the heat and the diffusivity of another, which is then heated alone.
 fn insulating(other: &Thermal) -> Thermal {
     Thermal { conductivity: 1e-12 * other.conductivity, density: 1e-12 * other.density, ..*other }
 }
 
-/// A square at Péclet numbers from 0 to 100, n cells a side. Superposition gives the temperature of every cell without error; the
-/// largest is that of the hottest cell: of order 2 at rest, where the hottest place is the middle; where it lies behind, between the
-/// centres of cells, it is missed by up to half a cell.
+/// A square at Péclet numbers from 0 to 100, with n cells per side. Superposition gives the temperature of every cell
+/// without error. The largest temperature is that of the hottest cell. At rest it is in the middle, and the error is of
+/// order 2. If it lies behind, between the centres of cells, it is missed by up to half a cell.
 pub(super) const SQUARE: Case = Case {
     name: "moving square: Pe 0, 1, 5, 10, 100",
     source: "Jaeger (1942); Carslaw and Jaeger (1959), chapter X",
@@ -63,7 +63,7 @@ fn square() -> Result<Vec<Check>> {
     })
 }
 
-/// A square of a side on steel that takes all of the heat.
+/// A square with this side on steel that takes all of the heat.
 fn square_source(peclet: f64, side: Metre) -> SquareSource {
     let thermal = steel();
     SquareSource {
@@ -75,9 +75,9 @@ fn square_source(peclet: f64, side: Metre) -> SquareSource {
     }
 }
 
-/// A disc is heated on equal bodies at rest, each of which takes half: the temperature of the centre after 1/4, 1 and 4 times a²/D,
-/// against a disc of the area of the cells. Cells at the edge are in or out, as of a circle in the mean, so that the order scatters
-/// around 2.
+/// A heated disc on equal bodies at rest, each of which takes half. The temperature of the centre after 1/4, 1 and 4 times
+/// a²/D is compared with that of a disc with the area of the cells. Cells at the edge are inside or outside, so that the
+/// order scatters around 2.
 pub(super) const DISC: Case =
     Case { name: "heated disc: in time", source: "Carslaw and Jaeger (1959), chapter X", checks: disc };
 
@@ -106,14 +106,14 @@ fn disc() -> Result<Vec<Check>> {
             for _ in 0..steps {
                 centre = flash.step([&cells, &cells], &fluxes)?.temperature[middle];
             }
-            // The first step grows from 0: as if it began at its middle.
+            // In the first step the flux grows from 0, as if it began at its middle.
             Ok(relative(centre - BULK, exact.centre((steps as f64 - 0.5) * step)))
         };
         Ok([error(0.25)?, error(1.0)?, error(4.0)?])
     })
 }
 
-/// Flat cells whose centres are within so many cells of the middle of an odd grid.
+/// Flat cells with centres within `radius` cells of the middle of an odd grid.
 fn within(grid: &Grid, radius: f64) -> Vec<u32> {
     let middle = grid.shape.map(|n| (n / 2) as f64);
     let inside = |(i, j): (usize, usize)| (i as f64 - middle[0]).hypot(j as f64 - middle[1]) < radius;
@@ -152,8 +152,8 @@ pub(super) const HERTZIAN: Case = Case {
     },
 };
 
-/// A square of n cells a side moves over a body that was cold, by a cell a step, for three of its sides or, slow, for eight: its largest
-/// temperature against the steady one.
+/// A square of n cells per side moves over a cold body by one cell per step, for three of its sides or, if slow, for eight.
+/// Its largest temperature is compared with the steady one.
 pub(super) const TRANSIENT: Case = Case {
     name: "moving square, step by step",
     source: "Jaeger (1942)",
@@ -185,8 +185,8 @@ fn travelling_square(n: usize, peclet: f64) -> Result<f64> {
     Ok(relative(hottest - BULK, exact.max_temperature()))
 }
 
-/// Between equal bodies of which one moves heat goes by halves as the speed falls; at every speed, between any bodies, all of it goes
-/// somewhere.
+/// Between equal bodies, one of them moving, the heat is divided equally as the speed decreases. At every speed, for any
+/// bodies, the sum is the frictional heat.
 pub(super) const DIVISION: Case = Case {
     name: "heat: divided, and all of it",
     source: "q₁ + q₂ = q",
@@ -225,7 +225,7 @@ pub(super) const DIVISION: Case = Case {
     },
 };
 
-/// Waves of flux into two equal bodies at rest, of which each takes half: T̂ = q̂/2λq.
+/// Waves of flux into two equal bodies at rest, each of which takes half: T̂ = q̂/2λq.
 pub(super) const WAVE: Case = Case {
     name: "periodic heat: oblique sinusoid",
     source: "1/λ√(q² + iVq_x/D)",
@@ -238,14 +238,14 @@ pub(super) const WAVE: Case = Case {
             let speed = 3.0;
             let mut steady =
                 SteadyTemperature::new(grid, [thermal; 2], Boundary::PERIODIC, [speed; 2], [BULK; 2])?;
-            // All cells but one are heated by a wave; that one by nothing, which its neighbours' wave takes to be so at a node.
+            // A wave heats all cells but one, which has zero flux, as at a node of the wave.
             let (i0, j0) = (0, 0);
             let wave = Field::from_shape_fn(grid.shape, |(i, j)| (phase(i, j) - phase(i0, j0)).sin());
             let cells: Vec<u32> = (1..grid.cells() as u32).collect();
             let flat = wave.as_slice().expect("standard layout");
             let fluxes: Vec<f64> = cells.iter().map(|cell| 2.0 * FLUX * flat[*cell as usize]).collect();
             let found = steady.solve(&cells, &fluxes)?.temperature;
-            // 1/√(q² + iVq_x/D) has the modulus m and lags behind by the angle.
+            // 1/√(q² + iVq_x/D) has the modulus m and the phase lag of the angle.
             let (qx, qy) = (4.0 * PI / lx, -2.0 * PI / ly);
             let (re, im) = (qx * qx + qy * qy, speed * qx / thermal.diffusivity());
             let (m, angle) = (re.hypot(im).powf(-0.5), -0.5 * im.atan2(re));

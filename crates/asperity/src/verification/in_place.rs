@@ -1,4 +1,4 @@
-//! Static contacts that slide and wear in place.
+//! Static contacts that wear in place.
 
 use std::f64::consts::PI;
 
@@ -14,21 +14,21 @@ use crate::solver::Control;
 use crate::surface::Form;
 use crate::units::{Metre, PerPascal};
 
-/// The amplitude of grooves that are pressed flat falls as a power of e.
+/// The amplitude of grooves pressed flat decays exponentially.
 pub(super) const GROOVES: Case = Case {
     name: "grooves wear in place: A₀ e^(−(k₁+k₂)E*πs/L)",
     source: "decay of a harmonic by Archard's law",
     checks: grooves,
 };
 
-/// The same while a film grows that lowers the wear.
+/// The same decay with a growing film that reduces the wear.
 pub(super) const GROOVES_UNDER_FILM: Case = Case {
     name: "grooves wear in place under a growing film",
     source: "k s ⇒ v (k_f t + (k₀ − k_f) τ (1 − e^(−t/τ))), τ = f_max/G",
     checks: grooves_under_film,
 };
 
-/// Flat bodies wear until the pressure is the same everywhere.
+/// Flat bodies wear until the pressure is uniform.
 pub(super) const FLAT: Case =
     Case {
         name: "flat on flat wears: p̄ everywhere, −p̄ C·1", source: "no wear but the mean", checks: flat
@@ -72,13 +72,13 @@ fn grooves_under_film() -> Result<Vec<Check>> {
     amplitudes(1e-3, |updates| amplitude(updates, Some((coefficient, &film)), exact))
 }
 
-/// The wear of both bodies together by which the amplitude falls by e.
+/// Wear of both bodies together that reduces the amplitude by a factor e.
 fn decay() -> Result<PerPascal> {
     let steel = Material::elastic(210e9, 0.3)?;
     Ok(LENGTH / (PI * 0.5 * steel.plane_strain_modulus() * DISTANCE))
 }
 
-/// The error of the amplitude at as many updates, and extrapolated from half as many and these.
+/// Errors of the amplitude for each number of updates, and extrapolated from half that number and itself.
 fn amplitudes(finest: f64, error: impl Fn(usize) -> Result<f64>) -> Result<Vec<Check>> {
     let first = [("amplitude", Expected::Order { order: 0.9..=1.1, finest: 4e-2 })];
     let single = study("updates", &[20, 40, 80], first, |n| Ok([error(n)?]))?;
@@ -87,7 +87,7 @@ fn amplitudes(finest: f64, error: impl Fn(usize) -> Result<f64>) -> Result<Vec<C
     Ok([single, both].concat())
 }
 
-/// Relative error of the amplitude after so many equal updates.
+/// Relative error of the amplitude after `updates` equal updates.
 fn amplitude(updates: usize, under: Option<(WearCoefficient, &Film)>, exact: f64) -> Result<f64> {
     let grid = Grid::new([4, CELLS], [PITCH; 2])?;
     let waves = Form::Sinusoid { amplitude: AMPLITUDE, wavelength: [f64::INFINITY, LENGTH] }.on(&grid)?;
@@ -129,7 +129,7 @@ fn flat() -> Result<Vec<Check>> {
         let pressure = Field::from_elem(grid.shape, mean);
         FreeFft::new(grid, pair.modulus()).apply(&pressure, &mut even);
         even -= even.mean().unwrap_or(f64::NAN);
-        // In each of these updates what is left of any pattern falls to less than a thirtieth.
+        // In each of these updates any pattern decays to less than a thirtieth.
         let stiffest = 30.0 * n as f64 * PITCH / pair.modulus();
         let ends = (1..=8).map(|update| f64::from(update) * 0.1).collect();
         let coefficient = Some(WearCoefficient::archard(stiffest / 0.1)?);
@@ -156,7 +156,7 @@ fn ball() -> Result<Vec<Check>> {
     study("mm", &stations, checks, |_| Ok(found.next().expect("an error for each station")))
 }
 
-/// Errors of depth, radius of the contact and volume of a ball that has slid over these distances, mm.
+/// Errors of depth, contact radius and volume of a ball after these sliding distances, mm.
 fn worn_ball(stations: &[usize]) -> Result<Vec<[f64; 3]>> {
     const BALL_CELLS: usize = 65;
     const UPDATES: usize = 40;

@@ -1,8 +1,8 @@
-//! Verification: the whole program against closed forms, by the order in which its error vanishes.
+//! Verification: the whole program compared with closed forms, by the order of convergence.
 //!
-//! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s asks of one
-//! quantity that the error vanishes as theory expects it to. A lucky per cent passes no check; an order does.
-//! What one may expect of pressures that are constant in each cell and displacements taken at its centre:
+//! A [`Case`] is one closed form. It is computed on finer and finer grids, and each of its [`Check`]s tests that the error
+//! of one quantity decreases as in theory. A lucky per cent passes no check; an order does. With pressures constant in each
+//! cell and displacements evaluated at its centre, theory predicts:
 //!
 //! ```text
 //! load, approach, mean gap, energy: what follows from the least energy
@@ -15,8 +15,8 @@
 //!     order 1   a cell at each edge is in or out
 //! ```
 //!
-//! Shear and tangential displacement, and what sticks, do as pressure, approach and contact do. Increments in which the
-//! contact grows, and steps of rolling, are of order 1.
+//! Shear, tangential displacement and stick area behave like pressure, approach and contact area. Increments with a growing
+//! contact, and steps of rolling, are of order 1.
 
 mod coated;
 mod dissimilar;
@@ -44,12 +44,12 @@ use crate::solver::{
 };
 use crate::units::Pascal;
 
-/// A closed form, or an identity of the theory, that the program is held against.
+/// A closed form, or an identity of the theory, with which the program is compared.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// What is computed.
+    /// Name of the computation.
     pub name: &'static str,
-    /// The work in which the closed form is found.
+    /// Source of the closed form.
     pub source: &'static str,
     /// Computes it on all grids.
     pub checks: fn() -> Result<Vec<Check>>,
@@ -58,28 +58,28 @@ pub struct Case {
 /// One quantity of a [`Case`] on finer and finer grids.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What is compared.
+    /// The compared quantity.
     pub quantity: &'static str,
-    /// What grows: cells per length, steps, a ratio.
+    /// The refined quantity: cells per length, steps, a ratio.
     pub refinement: &'static str,
     /// Values of the refinement, ascending.
     pub sizes: Vec<usize>,
     /// Relative error at each size.
     pub errors: Vec<f64>,
-    /// What theory expects.
+    /// Expected behaviour of the error.
     pub expected: Expected,
 }
 
-/// How an error vanishes.
+/// Expected behaviour of an error.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expected {
-    /// |error| is no more than this at every size.
+    /// |error| is at most this at every size.
     RoundOff(f64),
-    /// |error| × size is no more than this at every size: cells are counted, and one at an edge is in or out.
+    /// |error| × size is at most this at every size: cells are counted, and one at an edge is inside or outside.
     Counted(f64),
-    /// The error falls as a power of the size.
+    /// The error decreases as a power of the size.
     Order {
-        /// The range in which [`Check::order`] lies: around the theory's order, as far as staircase edges scatter it.
+        /// Accepted range of [`Check::order`]: around the theoretical order, with the scatter from staircase edges.
         order: RangeInclusive<f64>,
         /// The largest |error| at the last size.
         finest: f64,
@@ -87,8 +87,8 @@ pub enum Expected {
 }
 
 impl Check {
-    /// Order k of |error| ∝ size^(−k): the least squares fit to the logarithms over all sizes. NaN where an error
-    /// is 0 or there is a single size.
+    /// Order k of |error| ∝ size^(−k), by a least-squares fit to the logarithms over all sizes. NaN if an error is 0 or if
+    /// there is a single size.
     pub fn order(&self) -> f64 {
         let points = || self.sizes.iter().zip(&self.errors).map(|(n, e)| ((*n as f64).ln(), e.abs().ln()));
         let count = self.sizes.len() as f64;
@@ -98,7 +98,7 @@ impl Check {
         -above / below
     }
 
-    /// Whether the errors are as expected; never with a NaN among them.
+    /// Whether the errors are as expected; false if one is NaN.
     pub fn passed(&self) -> bool {
         let all_within = |bound: &dyn Fn(usize) -> f64| {
             self.sizes.iter().zip(&self.errors).all(|(n, error)| error.abs() <= bound(*n))
@@ -114,7 +114,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then what is solved with them; without friction, then with it; last what friction heats.
+/// All cases: operators first, then solutions without and with friction, and last frictional heating.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -177,7 +177,7 @@ pub const CASES: &[Case] = &[
     in_place::BALL,
 ];
 
-/// The `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.
+/// Creates the `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.
 fn study<const N: usize>(
     refinement: &'static str,
     sizes: &[usize],
@@ -210,12 +210,12 @@ fn relative_max(computed: &Field, exact: &Field) -> f64 {
     largest(&(computed - exact)) / largest(exact)
 }
 
-/// Largest magnitude; NaN if there is one, which `f64::max` would pass over.
+/// Largest magnitude; NaN if there is one, which `f64::max` would ignore.
 fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |m: f64, v| if v.abs() > m || v.is_nan() { v.abs() } else { m })
 }
 
-/// Far below the error of any grid here.
+/// A tolerance far below the error of any grid here.
 const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, method: Method::Auto };
 
 fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {

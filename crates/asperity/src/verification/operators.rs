@@ -1,4 +1,4 @@
-//! Pressure in, displacement out: exact but for round-off.
+//! Pressure to displacement: exact except for round-off.
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,9 +16,8 @@ fn displacement(mut operator: impl Operator, pressure: &Field) -> Field {
     displacement
 }
 
-/// A rectangle under uniform pressure, made of n × n cells: superposition gives the displacement of every cell
-/// without error. Its mean is that of the cells' centres, the midpoint rule, of order 2 but for the
-/// logarithmic slope at the edges: Δx² ln Δx.
+/// A rectangle of n × n cells under uniform pressure: superposition gives the displacement of every cell without error. Its
+/// mean over the cell centres is the midpoint rule, of order 2 except for the logarithmic slope at the edges: Δx² ln Δx.
 pub(super) const LOADED_RECTANGLE: Case = Case {
     name: "Love: uniformly loaded rectangle",
     source: "Love (1929); Johnson (1985), eq. 3.25",
@@ -52,7 +51,7 @@ pub(super) const LOADED_RECTANGLE: Case = Case {
     },
 };
 
-/// Zero padding makes the circular convolution the free one, on grids of any shape.
+/// With zero padding the circular convolution becomes the free one, on grids of any shape.
 pub(super) const FREE_TRANSFORM: Case = Case {
     name: "free FFT: the direct sum",
     source: "convolution theorem",
@@ -88,8 +87,8 @@ fn oblique_sinusoid() -> Result<Vec<Check>> {
     })
 }
 
-/// An endless strip under uniform pressure, made of cells that repeat themselves along it: superposition gives the
-/// displacement of every cell without error, against the distance r₀, the width of the grid.
+/// An infinite strip under uniform pressure, made of cells repeated along it. Superposition gives the displacement of every
+/// cell without error, relative to the distance r₀, the width of the grid.
 pub(super) const LOADED_STRIP: Case = Case {
     name: "Flamant: uniformly loaded strip",
     source: "Flamant (1892); Johnson (1985), section 2.4",

@@ -1,4 +1,4 @@
-//! A sphere of the plane's material, pushed sideways: pressure and shear do not displace each other.
+//! A sphere on a plane of the same material, pushed tangentially: pressure and shear are uncoupled.
 
 use std::f64::consts::PI;
 
@@ -14,10 +14,10 @@ use crate::units::Newton;
 
 const MODULUS: f64 = 5.0;
 const FRICTION: f64 = 0.3;
-/// The direction of the push, off the axes.
+/// Direction of the push, off the axes.
 const DIRECTION: [f64; 2] = [0.8, 0.6];
 
-/// The sphere on the plane, both of Poisson's ratio `poisson`.
+/// The sphere on the plane, both with Poisson's ratio `poisson`.
 struct Pushed {
     contact: CattaneoMindlin,
     grid: Grid,
@@ -26,8 +26,7 @@ struct Pushed {
 }
 
 impl Pushed {
-    /// A contact with `n` cells along the radius of the contact, under the load 7 and `share` of the force at which
-    /// it slides.
+    /// Creates a contact with `n` cells along its radius, under the load 7 and a `share` of the friction limit.
     fn new(poisson: f64, share: f64, n: usize) -> Result<Self> {
         let body = Material::elastic(2.0 * MODULUS * (1.0 - poisson * poisson), poisson)?;
         let normal = HertzSphere { radius: smooth::RADIUS, modulus: MODULUS, load: 7.0 };
@@ -54,13 +53,13 @@ impl Pushed {
         hold(self.operator.as_mut(), &self.gap, &Friction::coulomb(friction)?, loading, before)
     }
 
-    /// The values of `f` at each cell's distance from the axis.
+    /// Evaluates `f` at each cell's distance from the axis.
     fn around(&self, f: impl Fn(f64) -> f64) -> Field {
         self.gap.mapv(|h| f((2.0 * smooth::RADIUS * h).sqrt()))
     }
 }
 
-/// The shear along the push.
+/// Shear along the push.
 fn along(shear: &[Field; 2]) -> Field {
     DIRECTION[0] * &shear[0] + DIRECTION[1] * &shear[1]
 }
@@ -69,8 +68,8 @@ fn travel(solution: &FrictionalSolution) -> f64 {
     DIRECTION[0] * solution.rigid_displacement[0] + DIRECTION[1] * solution.rigid_displacement[1]
 }
 
-/// With ν = 0 the slip is along the push, and the closed form exact. With ν = 0.3 the displacement would be 5e-4 less, and
-/// shear across the push come to a twentieth of the largest.
+/// With ν = 0 the slip is along the push, and the closed form is exact. With ν = 0.3 the displacement would be 5e-4
+/// smaller, and the shear across the push a twentieth of the largest.
 pub(super) const CATTANEO: Case = Case {
     name: "Cattaneo–Mindlin: Q = 0.6 μW",
     source: "Cattaneo (1938); Mindlin (1949); Johnson (1985), eqs. 7.39–7.42",
@@ -94,7 +93,7 @@ pub(super) const CATTANEO: Case = Case {
     },
 };
 
-/// A flat punch that does not slip: the closed form holds for any ν. The shear is infinite at the edge, and the edge a
+/// A flat punch without slip: the closed form holds for any ν. The shear is infinite at the edge, and the edge is a
 /// staircase: order 1.
 pub(super) const MINDLIN: Case = Case {
     name: "Mindlin: no slip, ν = 0.3",
@@ -118,9 +117,9 @@ pub(super) const MINDLIN: Case = Case {
     },
 };
 
-/// The push is taken back and given again, in `a/Δx` increments: neither the states nor what friction takes depends on
-/// them. The force does that work over the closed cycle, summed by its chords, which cut the loop short by the square of
-/// the increments. In displacement and loss the order 3, of the edges of stick and slip, is still the larger.
+/// The push is removed and applied again, in `a/Δx` increments; neither the states nor the frictional energy depend on
+/// them. The work of the force over the closed cycle is summed by chords, which shorten the loop by the square of the
+/// increments. For displacement and loss the order 3, from the edges of stick and slip, still dominates.
 pub(super) const HYSTERESIS: Case = Case {
     name: "hysteresis: Q = ±0.9 μW",
     source: "Mindlin & Deresiewicz (1953); Johnson (1985), section 7.4",

@@ -1,4 +1,4 @@
-//! Bodies that flow.
+//! Elasto-plastic bodies.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -25,10 +25,10 @@ fn at(stress: &TensorField, [layer, ix, iy]: [usize; 3]) -> Stress {
     Stress::from_components(std::array::from_fn(|component| stress[[layer, component, ix, iy]]))
 }
 
-/// A sphere on a body, both of one modulus, of so many cells and layers, down to a depth.
+/// A sphere on a body of the same modulus, with this number of cells and layers, down to a depth.
 struct Sphere {
     cells: usize,
-    /// Where its axis stands, in cells along both axes, 0 at the middle of the first.
+    /// Position of its axis, in cells along both axes, 0 at the middle of the first.
     middle: f64,
     pitch: f64,
     radius: f64,
@@ -59,8 +59,9 @@ impl Sphere {
     }
 }
 
-/// A sphere is pressed in, taken back, and pressed in further, on a body that hardens both ways: the work of the pressure is what
-/// is stored elastically, what the residual stress stores, and the plastic work, by the trapezoidal rule to round-off.
+/// A sphere is pressed in, withdrawn, and pressed in further, on a body with isotropic and kinematic hardening. The work of
+/// the pressure is the elastic energy plus that stored in the residual stress plus the plastic work, to round-off with the
+/// trapezoidal rule.
 pub(super) const ENERGY: Case = Case {
     name: "plastic flow: work over load, unload, reload",
     source: "W = ½ ΔA Σ p Cp − ½ ∫ ε:Kε + ∫ σ:dε",
@@ -99,13 +100,13 @@ fn energy(cells: usize, boundary: Boundary) -> Result<f64> {
     Ok((elastic + stored + plastic - work) / work)
 }
 
-/// The load at which a sphere first yields on a body of E = 1.
+/// Load of first yield under a sphere on a body with E = 1.
 fn first_yield(radius: f64, yield_stress: f64) -> f64 {
     let modulus = 1.0 / (1.0 - POISSON * POISSON);
     PI.powi(3) * radius * radius * (1.6 * yield_stress).powi(3) / (6.0 * modulus * modulus)
 }
 
-/// The peak pressure at which a sphere first yields, at 12 cells a radius, and the depth where it does so.
+/// Peak pressure at first yield under a sphere, with 12 cells per radius, and the depth of first yield.
 pub(super) const ONSET: Case = Case {
     name: "plastic flow: onset under a sphere",
     source: "Johnson (1985), section 3.4; Hill (1950)",
@@ -143,8 +144,9 @@ pub(super) const ONSET: Case = Case {
     },
 };
 
-/// A sphere on a periodic body, pressed in by several loads in turn: largest pressure, plastic strain and range of r, the worst of
-/// four loads. What the layers leave out falls with their number; at 64 the layers are those of the other program.
+/// A sphere on a periodic body, pressed in by several loads in turn: largest pressure, plastic strain and range of r, each
+/// as the worst of four loads. The error of the layers decreases with their number; with 64 the layers are those of the
+/// other program.
 pub(super) const SPHERE: Case = Case {
     name: "plastic flow: sphere, load by load",
     source: "an independent program at 64 layers",
@@ -173,7 +175,7 @@ pub(super) const SPHERE: Case = Case {
                 let r = body.displacement();
                 let range =
                     r.iter().fold(f64::MIN, |m, v| m.max(*v)) - r.iter().fold(f64::MAX, |m, v| m.min(*v));
-                // The strain has hardly begun at the first load: a tenth of its error counts.
+                // The strain at the first load is very small: a tenth of its error counts.
                 let first = if times < 2.0 { 0.1 } else { 1.0 };
                 let errors = [
                     relative(bearing as f64, f64::from(cells)),
@@ -206,7 +208,8 @@ fn period_of_spheres(layers: usize) -> Result<PlasticContact> {
     sphere.contact(J2::new(Hardening::perfect(YIELD)?), FlowParams::new().with_tolerance(1e-6))
 }
 
-/// The same to 8 times its first yield in equal steps: the largest pressure is of the first order in them.
+/// The same sphere to 8 times its load of first yield in equal steps: the error of the largest pressure is of first order
+/// in them.
 pub(super) const STEPS: Case = Case {
     name: "plastic flow: steps of the load",
     source: "an independent program",
@@ -226,7 +229,7 @@ pub(super) const STEPS: Case = Case {
     },
 };
 
-/// A sphere is pressed deep into a body that yields without hardening: mean pressure where E*a/σY R has passed 50.
+/// A sphere is pressed deep into a body that yields without hardening: mean pressure for E*a/σY R beyond 50.
 pub(super) const FULLY_PLASTIC: Case = Case {
     name: "plastic flow: fully plastic sphere",
     source: "Johnson (1985), section 6.3: 3.0 σY; finite elements: 2.84 … 3.0",
@@ -237,7 +240,7 @@ pub(super) const FULLY_PLASTIC: Case = Case {
     },
 };
 
-/// Mean pressure over the yield stress, in the mean of the loads at which E*a/σY R is 50 to 70.
+/// Mean pressure over the yield stress, averaged over the loads for which E*a/σY R is 50 to 70.
 pub(super) fn fully_plastic(cells: usize, growth: f64) -> Result<f64> {
     let (yield_stress, end, ratio) = (0.003, 0.2, 75.0);
     let modulus = 1.0 / (1.0 - POISSON * POISSON);
@@ -269,14 +272,14 @@ pub(super) fn fully_plastic(cells: usize, growth: f64) -> Result<f64> {
     Ok(found.iter().sum::<f64>() / found.len() as f64)
 }
 
-/// A stress that moves over the body by a cell at a time.
+/// A stress that moves over the body by one cell at a time.
 struct Travelling {
     stress: TensorField,
     at: usize,
 }
 
 impl Travelling {
-    /// That of a pressure, with the limits of waves that are ever longer in place of the mean, which would hold the body.
+    /// Creates the stress of a pressure. The limits for ever longer waves replace the mean, which would constrain the body.
     fn under(volume: &mut Volume, pressure: Field, [xx, yy]: [f64; 2]) -> Self {
         let mean = pressure.mean().unwrap_or(0.0);
         let mut stress = volume.elastic(&Tractions::frictionless(pressure));
@@ -299,11 +302,11 @@ impl Loading for Travelling {
     }
 }
 
-/// A pass of a load over a body that repeats itself.
+/// A pass of a load over a periodic body.
 struct Pass {
-    /// Means of the accumulated strain that the pass has added, over x, largest of the layers and y.
+    /// Means over x of the accumulated strain added by the pass, as the largest over layers and y.
     flow: f64,
-    /// G times the displacement of the surface along the travel, +x, against the depths.
+    /// G times the displacement of the surface along the direction of travel, +x, relative to the deep material.
     shift: f64,
 }
 
@@ -325,7 +328,7 @@ fn roll(body: &mut PlasticBody, load: &mut Travelling) -> Result<Pass> {
     Ok(Pass { flow, shift })
 }
 
-/// A line contact of half-width 12 cells, E = 1000 k, on a ring of 8 of them, in units of b and k.
+/// A line contact with a half-width of 12 cells, E = 1000 k, on a ring of 8 half-widths, in units of b and k.
 fn line(peak: f64, law: J2, passes: usize) -> Result<(Vec<Pass>, PlasticBody)> {
     let (b, widths) = (12, 8);
     let grid = Grid::new([b * widths, 1], [1.0 / b as f64, 1.0])?;
@@ -348,9 +351,9 @@ fn perfect() -> Result<J2> {
     Ok(J2::new(Hardening::perfect(3f64.sqrt())?))
 }
 
-/// A Hertzian line load rolls again and again over a body that does not harden: below 4 k it shakes down, above it ratchets.
-/// The limit is the theory's; the rates, against the travel of the
-/// load, are those of an independent program at the same cells and steps.
+/// A Hertzian line load rolls repeatedly over a body without hardening: below 4 k it shakes down, above it ratchets. The
+/// limit is that of the theory. The rates, relative to the travel of the load, are those of an independent program with the
+/// same cells and steps.
 pub(super) const LINE: Case = Case {
     name: "plastic flow: rolling line contact",
     source: "Johnson (1962); Merwin & Johnson (1963)",
@@ -378,7 +381,7 @@ pub(super) const LINE: Case = Case {
     },
 };
 
-/// The residual stress along x half a half-width below the surface after three passes at the shakedown limit.
+/// Residual stress along x at half a half-width below the surface, after three passes at the shakedown limit.
 pub(super) const RESIDUAL: Case = Case {
     name: "plastic flow: residual stress of rolling",
     source: "Johnson (1962): −0.134 p₀ at the limit",
@@ -395,7 +398,7 @@ pub(super) const RESIDUAL: Case = Case {
     },
 };
 
-/// The same at 5 k on a body with Prager's hardening of 100 k: ratchetting ends, what is left is cyclic.
+/// The same load at 5 k on a body with Prager's hardening of 100 k: ratchetting ends, and cyclic flow remains.
 pub(super) const KINEMATIC: Case = Case {
     name: "plastic flow: rolling, kinematic hardening",
     source: "an independent program",
@@ -409,7 +412,7 @@ pub(super) const KINEMATIC: Case = Case {
     },
 };
 
-/// A Hertzian point load rolls again and again: the limit lies between 4.4 k, where flow dies out, and 5.5 k, where it goes on.
+/// A Hertzian point load rolls repeatedly: the limit lies between 4.4 k, where flow ceases, and 5.5 k, where it continues.
 pub(super) const POINT: Case = Case {
     name: "plastic flow: rolling point contact",
     source: "Ponter, Hearle & Johnson (1985): 4.68 k",

@@ -9,12 +9,12 @@ use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Control, Creep, Friction, Params, Rolling, RollingSolution, solve_rolling};
 
-/// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact less that of a
-/// line of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images
-/// as the contact of [`smooth::LINE`] is, and ξ = μd/R is left, R that of the cylinder: the difference of their strains
-/// where it sticks. Across the rolling all is the same but for a compliance of 1/E* + 1/N*.
+/// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact minus that of a line
+/// of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images like the
+/// contact of [`smooth::LINE`], so that ξ = μd/R remains, with the R of the cylinder: the difference of their strains in
+/// the stick area. A creepage across the rolling direction gives the same with a compliance of 1/E* + 1/N*.
 ///
-/// Material is strained from cell to cell in a step, against the shear in one of the two: order 1.
+/// Per step, material is strained from cell to cell, against the shear in one of the two: order 1.
 pub(super) const CARTER: Case = Case {
     name: "Carter: cylinder, period 32 a, c = 5/8 a",
     source: "Carter (1926); Johnson (1985), section 8.3",
@@ -74,14 +74,14 @@ fn carter() -> Result<Vec<Check>> {
     })
 }
 
-/// Infinite friction: nothing slips, and force and moment are linear in creepage and spin, c = √(ab) with the semi-axes a
-/// along the rolling and b across it:
+/// Infinite friction: without slip, force and moment are linear in creepage and spin, with c = √(ab) and the semi-axes a
+/// along the rolling direction and b across it:
 ///
 /// ```text
 /// Q_x = c² G C11 ξx      Q_y = c² G (C22 ξy + c C23 φ)      M = c³ G (−C23 ξy + c C33 φ)
 /// ```
 ///
-/// Their work per length of rolling is the energy that friction takes, all of it at the trailing edge. The work of C23 cancels:
+/// Their work per length of rolling is the frictional energy, all of it at the trailing edge. The work of C23 cancels:
 ///
 /// ```text
 /// ξ·Q + φM = c² G (C11 ξx² + C22 ξy² + c² C33 φ²)
@@ -116,19 +116,19 @@ fn kalker() -> Result<Vec<Check>> {
     })
 }
 
-/// Creepage along x and y, and spin times c, of which the energy is looked at.
+/// Creepage along x and y, and spin times c, for the energy.
 const CREEPS: [f64; 3] = [1.0, 0.5, 0.7];
 
-/// The energy per length over c²G under [`CREEPS`], of C11, C22 and C33.
+/// Energy per length over c²G with [`CREEPS`], from C11, C22 and C33.
 fn energy(coefficients: [f64; 3]) -> f64 {
     coefficients.iter().zip(CREEPS).map(|(c, creep)| c * creep * creep).sum()
 }
 
-/// C11, C22, C23, C33, −C32 and [`energy`] of an ellipse of semi-axes as a/b = `ratio`, `n` cells along each.
+/// C11, C22, C23, C33, −C32 and [`energy`] of an ellipse with semi-axes a/b = `ratio`, `n` cells along each.
 fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
     let semi_axes = [ratio.sqrt(), 1.0 / ratio.sqrt()];
     let body = Material::elastic(2.0 * (1.0 + poisson), poisson)?;
-    // A column ahead of the contact, where the bodies are not strained yet.
+    // One column ahead of the contact, where the bodies are not strained yet.
     let grid = Grid::new([2 * n + 2, 2 * n], semi_axes.map(|a| a / n as f64))?;
     let inside = |i: usize, j: usize| {
         let [x, y] = [i as f64 + 0.5 - n as f64 - 1.0, j as f64 + 0.5 - n as f64];
@@ -147,7 +147,7 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
     let [c11, _] = roll([1.0, 0.0], 0.0)?.contact.force();
     let across = roll([0.0, 1.0], 0.0)?.contact;
     let spun = roll([0.0, 0.0], 1.0)?.contact;
-    // Over those of an ellipse of the area that the cells have.
+    // Relative to an ellipse with the area of the cells.
     let cells = gap.iter().filter(|h| **h == 0.0).count() as f64;
     let c = (cells * grid.cell_area() / PI).sqrt();
     let [xi_x, xi_y, turned] = CREEPS;
@@ -166,7 +166,8 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
 mod tests {
     use super::*;
 
-    /// What falls as the cells is taken away: the rest is the scatter of the edge, and the table's third digit.
+    /// The error of first order in the cells is subtracted. The remainder is the scatter of the edge, and the third digit
+    /// of the table.
     #[test]
     fn other_ellipses_have_kalkers_coefficients_too() {
         #[rustfmt::skip]

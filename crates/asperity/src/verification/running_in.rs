@@ -1,4 +1,4 @@
-//! Bodies that wear and grow films while they slide.
+//! Running-in: bodies that wear and grow films.
 
 use std::f64::consts::PI;
 
@@ -15,14 +15,14 @@ use crate::solver::{Control, Params};
 use crate::surface::Form;
 use crate::units::Metre;
 
-/// The amplitude of grooves along the sliding direction that are pressed flat falls as a power of e.
+/// The amplitude of grooves along the sliding direction that are pressed flat decays exponentially.
 pub(super) const GROOVES: Case = Case {
     name: "grooves wear: A₀ e^(−(k₁+k₂)E*πs/L)",
     source: "decay of a harmonic by Archard's law",
     checks: grooves,
 };
 
-/// A film under an even pressure tends to its steady thickness as a power of e.
+/// A film under a uniform pressure approaches its steady thickness exponentially.
 pub(super) const FILM_GROWTH: Case =
     Case {
         name: "a film grows", source: "f_e (1 − e^(−(G/f_max + R)t)), exact over any jump", checks: film
@@ -40,7 +40,7 @@ fn grooves() -> Result<Vec<Check>> {
     Ok([all, jumps].concat())
 }
 
-/// Relative error of the depth that is left after so many passes, of which one stands for up to `jump`.
+/// Relative error of the remaining depth after `passes` passes, with extrapolation over up to `jump` passes.
 fn depth(passes: usize, jump: usize) -> Result<f64> {
     const CELLS: usize = 16;
     const AMPLITUDE: Metre = 20e-9;
@@ -51,7 +51,7 @@ fn depth(passes: usize, jump: usize) -> Result<f64> {
     let pair = Pair::new(waves, Form::Flat.on(&grid)?, [&steel, &steel])?;
     let modulus = pair.modulus();
     let control = Control::Load(1.5 * PI * modulus * AMPLITUDE / length * grid.area());
-    // One position a pass, from which the bodies slide over the length of the grid.
+    // One position per pass, from which the bodies slide over the length of the grid.
     let motion =
         Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
     let distance = passes as f64 * grid.extent()[0];
@@ -76,7 +76,7 @@ fn film() -> Result<Vec<Check>> {
     study("jump", &[1, 32, 1024], [("thickness", Expected::RoundOff(1e-6))], |jump| Ok([thickness(jump)?]))
 }
 
-/// Relative error of the thickness of a film after passes of which one stands for up to `jump`.
+/// Relative error of the thickness of a film with extrapolation over up to `jump` passes.
 fn thickness(jump: usize) -> Result<f64> {
     const PASSES: usize = 2000;
     let (pressure, speed, growth, removal, max_thickness) = (1e9, 1.0, 2e-6, 1e-7, 10e-9);

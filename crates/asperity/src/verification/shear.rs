@@ -1,4 +1,4 @@
-//! Traction in all directions in, displacement in all directions out: exact but for round-off.
+//! Tractions to displacements, each in all directions: exact except for round-off.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,14 +13,13 @@ use crate::units::Metre;
 
 const PITCH: [Metre; 2] = [1e-6, 0.7e-6];
 
-/// Polymer on steel: none of the coefficients is small.
+/// Polymer on steel: no coefficient is small.
 fn dissimilar() -> Result<Compliances> {
     Compliances::new(&Material::elastic(3e9, 0.35)?, &Material::elastic(210e9, 0.3)?)
 }
 
-/// Displacement is f(θ)/r under each of the point loads, so that in polar coordinates about the place where it is
-/// wanted ∬ f(θ)/r r dr dθ is ∫ f(θ) ℓ(θ) dθ, with ℓ the length of the ray in the loaded cell: nothing is singular,
-/// on the cell itself neither.
+/// The displacement under a point load is f(θ)/r. In polar coordinates around the evaluated place, ∬ f(θ)/r r dr dθ is ∫
+/// f(θ) ℓ(θ) dθ, with the length ℓ of the ray in the loaded cell. Nothing is singular, not even on the cell itself.
 pub(super) const COEFFICIENTS: Case = Case {
     name: "nine coefficients: quadrature",
     source: "Boussinesq, Cerruti: Johnson (1985), sections 3.2 and 3.6",
@@ -67,7 +66,7 @@ fn coefficients() -> Result<Vec<Check>> {
     )
 }
 
-/// ∫ f(cos θ, sin θ) ℓ(θ) dθ about the point `at`, over the cell at the origin; θ is the direction from source to point.
+/// ∫ f(cos θ, sin θ) ℓ(θ) dθ around the point `at`, over the cell at the origin; θ is the direction from source to point.
 fn over_rays(at: [Metre; 2], f: fn(f64, f64) -> f64) -> f64 {
     let half = PITCH.map(|pitch| 0.5 * pitch);
     let length = |direction: [f64; 2]| {
@@ -77,7 +76,7 @@ fn over_rays(at: [Metre; 2], f: fn(f64, f64) -> f64) -> f64 {
         });
         (ends[0][1].min(ends[1][1]) - ends[0][0].max(ends[1][0]).max(0.0)).max(0.0)
     };
-    // ℓ is smooth between the directions of the corners, which are counted from that of the centre.
+    // ℓ is smooth between the directions of the corners, relative to that of the centre.
     let centre = at[1].atan2(at[0]);
     let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
     let mut angles = corners.map(|[x, y]| {
@@ -96,7 +95,7 @@ fn over_rays(at: [Metre; 2], f: fn(f64, f64) -> f64) -> f64 {
     .sum()
 }
 
-/// Tractions on all axes, as patchy as the displacements between them are different.
+/// Tractions on all axes, scattered like the sizes of the displacements between them.
 fn patchy(shape: [usize; 2]) -> [Field; 3] {
     std::array::from_fn(|axis| {
         Field::from_shape_fn(shape, |(i, j)| {
@@ -111,7 +110,7 @@ fn displacement(operator: &mut dyn CoupledOperator, traction: &[Field; 3]) -> [F
     displacement
 }
 
-/// Largest difference on each axis over the largest exact displacement on any.
+/// Largest difference on each axis over the largest exact displacement on any axis.
 fn differences(computed: &[Field; 3], exact: &[Field; 3]) -> [f64; 3] {
     let scale = largest(exact.iter().flatten());
     std::array::from_fn(|axis| largest(&(&computed[axis] - &exact[axis])) / scale)
@@ -123,7 +122,7 @@ const AXES: [(&str, Expected); 3] = [
     ("displacement along z", Expected::RoundOff(1e-13)),
 ];
 
-/// Zero padding for nine coefficients as for one.
+/// Zero padding, for nine coefficients as for one.
 pub(super) const FREE_TRANSFORM: Case = Case {
     name: "coupled free FFT: the direct sum",
     source: "convolution theorem",

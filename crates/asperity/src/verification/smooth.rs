@@ -1,4 +1,4 @@
-//! One smooth body on a plane.
+//! A smooth body on a plane.
 
 use std::f64::consts::PI;
 
@@ -16,11 +16,11 @@ pub(super) const RADIUS: Metre = 4.0;
 pub(super) const MODULUS: f64 = 5.0;
 pub(super) const PUNCH_RADIUS: Metre = 1.0;
 pub(super) const LINE_HALF_WIDTH: Metre = 0.5;
-/// The period of the cylinders, in [`LINE_HALF_WIDTH`].
+/// Period of the cylinders, in [`LINE_HALF_WIDTH`].
 const PERIOD: usize = 32;
 
-/// The apex stands where four cells meet, and the peak pressure is that of a cell beside it: of its error, about
-/// (Δx/2a)² is the distance to the apex. In the energy, under a given load, the orders 2 and 3 are alike in size.
+/// The apex is where four cells meet, and the peak pressure is that of an adjacent cell. Of its error, about (Δx/2a)² is
+/// due to the distance to the apex. In the energy at a given load the contributions of orders 2 and 3 have similar size.
 pub(super) const SPHERE: Case =
     Case { name: "Hertz: sphere", source: "Hertz (1882); Johnson (1985), eqs. 4.22–4.24", checks: sphere };
 
@@ -56,7 +56,8 @@ pub(super) fn sphere_gap(grid: &Grid) -> Result<Field> {
     Ok(-Form::Sphere { radius: RADIUS }.on(grid)?.into_heights())
 }
 
-/// An ellipsoid whose radii of curvature are as 1 to 4, cells as long along each semi-axis of the contact.
+/// An ellipsoid with radii of curvature in the ratio 1 to 4, with equal numbers of cells along each semi-axis of the
+/// contact.
 pub(super) const ELLIPSOID: Case = Case {
     name: "Hertz: ellipsoid, radii 1 : 4",
     source: "Hertz (1882); Johnson (1985), eqs. 4.25–4.32",
@@ -91,8 +92,8 @@ fn ellipsoid() -> Result<Vec<Check>> {
     })
 }
 
-/// A cylinder on a boundary that is periodic along it and free across: a line of contact without ends or neighbours. The
-/// approach is that against r₀, the width of the grid, and along the line all is the same.
+/// A cylinder on a boundary that is periodic along its axis and free across: a line contact without ends or neighbours. The
+/// approach is relative to r₀, the width of the grid. Everything is uniform along the line.
 pub(super) const LINE_ALONE: Case = Case {
     name: "Hertz: cylinder, periodic along it alone",
     source: "Johnson (1985), eqs. 4.43–4.45",
@@ -132,11 +133,11 @@ fn line_alone() -> Result<Vec<Check>> {
     })
 }
 
-/// A cylinder on a periodic grid one cell wide, whose neighbours it feels.
+/// A cylinder on a periodic grid one cell wide, with the influence of its neighbours.
 ///
-/// The other lines of contact, a period L away, are felt as a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, and
-/// the second term is linear in x whatever the pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), but for
-/// terms of (a/L)⁴ = 1e-6.
+/// The other lines of contact, a period L away, act like a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, where the second
+/// term is linear in x for any pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), apart from terms of (a/L)⁴ =
+/// 1e-6.
 pub(super) const LINE: Case =
     Case { name: "Hertz: cylinder, period 32 a", source: "Johnson (1985), eqs. 4.43–4.45", checks: line };
 
@@ -161,19 +162,19 @@ fn line() -> Result<Vec<Check>> {
     })
 }
 
-/// The contact of that cylinder, of the half width `a`, which its images curve.
+/// The contact of that cylinder with the half width `a`, curved by its images.
 pub(super) fn line_of(a: Metre) -> HertzLine {
     let radius = RADIUS * (1.0 - (PI * a / (PERIOD as f64 * LINE_HALF_WIDTH)).powi(2) / 6.0);
     HertzLine { radius, modulus: MODULUS, load_per_length: PI * MODULUS * a * a / (4.0 * radius) }
 }
 
-/// The grid and gap of a line contact, `n` cells along [`LINE_HALF_WIDTH`].
+/// Grid and gap of a line contact, `n` cells along [`LINE_HALF_WIDTH`].
 pub(super) fn line_gap(n: usize) -> Result<(Grid, Field)> {
     let grid = Grid::new([PERIOD * n, 1], [LINE_HALF_WIDTH / n as f64; 2])?;
     Ok((grid, -Form::Cylinder { radius: RADIUS, axis: Axis::Y }.on(&grid)?.into_heights()))
 }
 
-/// The pressure is infinite at the edge, and the edge a staircase: order 1.
+/// The pressure is infinite at the edge, and the edge is a staircase: order 1.
 pub(super) const PUNCH: Case =
     Case { name: "flat punch", source: "Boussinesq (1885); Johnson (1985), eqs. 3.34–3.37", checks: punch };
 
@@ -189,7 +190,7 @@ fn punch() -> Result<Vec<Check>> {
     })
 }
 
-/// Grid and gap of a flat punch of [`PUNCH_RADIUS`], `n` cells along it and one in its middle.
+/// Grid and gap of a flat punch of [`PUNCH_RADIUS`], with `n` cells along it and one in its middle.
 pub(super) fn flat_end(n: usize) -> Result<(Grid, Field)> {
     let grid = Grid::new([2 * n + 1; 2], [PUNCH_RADIUS / n as f64; 2])?;
     let inside = |i: usize, j: usize| {

@@ -1,4 +1,4 @@
-//! What the laws make of the bodies after a pass.
+//! Changes of the bodies by the laws after a pass.
 
 use super::Simulation;
 use crate::error::Result;
@@ -15,53 +15,53 @@ use crate::motion::watch::Watch;
 use crate::motion::wear::WEAR;
 use crate::units::CubicMetre;
 
-/// What changes the bodies after a pass, and by how many passes at once.
+/// Laws that change the bodies after a pass, and the extrapolation over passes.
 pub(super) struct Changes {
     /// The laws, in their order.
     pub(super) laws: Vec<Box<dyn Law>>,
     pub(super) acceleration: Acceleration,
-    /// How far single cells give way; known once a law repeats.
+    /// Compliance of single cells; set once a law repeats.
     softness: Option<Softness>,
-    /// The flash temperature over a pass, where it is wanted.
+    /// The flash temperature over a pass, if requested.
     pub(super) heat: Option<PassHeat>,
 }
 
 impl Changes {
-    /// Plastic flow alone.
+    /// Plastic deformation alone.
     pub(super) fn new() -> Self {
         let laws: Vec<Box<dyn Law>> = vec![Box::new(PlasticFlow)];
         Self { laws, acceleration: Acceleration::NONE, softness: None, heat: None }
     }
 
-    /// Adds a law to those that there are.
+    /// Adds a law.
     pub(super) fn add(&mut self, law: Box<dyn Law>, softness: impl FnOnce() -> Softness) {
         if law.repeats() {
             self.softness.get_or_insert_with(softness);
             self.laws.push(law);
         } else {
-            // What a pass does once comes first: how many passes it stands for depends on it.
+            // Laws that act once per computed pass come first, because the extrapolation depends on their results.
             self.laws.insert(self.once(), law);
         }
     }
 
-    /// How many of the laws, the first, act once in a computed pass; the others do again in the passes that it stands for.
+    /// Number of laws, the first ones, that act once per computed pass. The others also act in the extrapolated passes.
     fn once(&self) -> usize {
         self.laws.iter().take_while(|law| !law.repeats()).count()
     }
 }
 
-/// How much the laws that repeat take in a pass.
+/// Wear in a pass by the laws that repeat.
 pub(super) struct PassWear {
     softness: Softness,
-    /// Passes of such wear at which a chequered pattern of pressures would not decay if each were solved without it.
+    /// Number of passes of such wear at which a checkerboard mode of the pressures would not decay with explicit steps.
     stable: f64,
-    /// The depths that the pass would have taken without its wear, where it was solved with that.
+    /// The depths that an explicit step would have removed, if the pass was solved implicitly.
     explicit: Option<Vec<[Field; 2]>>,
 }
 
 impl Simulation {
-    /// Solves a pass again, with its wear, that takes more off the bodies than single cells bear without swinging: its contacts take
-    /// the place of those of the `outcome`. None where no law repeats.
+    /// Solves a pass again, with its wear, if it wears too much for an explicit step. The new contacts replace those of the
+    /// `outcome`. Returns `None` if no law repeats.
     pub(super) fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<PassWear>> {
         let Some(softness) = self.changes.softness.filter(|_| !outcome.has_changed) else { return Ok(None) };
         let passage = self.motion.passage(self.pair.pitch()[0]);
@@ -73,7 +73,7 @@ impl Simulation {
             return Ok(Some(PassWear { softness, stable, explicit: None }));
         }
         let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
-        // The way back wears as much again under the same pressures.
+        // The return stroke wears as much again at the same pressures.
         let distance = passage.distance * (self.positions.len() / self.distinct) as f64;
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
         let explicit = Some(law::tried(laws, &outcome.pair, &sums, 1));
@@ -83,7 +83,7 @@ impl Simulation {
         Ok(Some(PassWear { softness, stable, explicit }))
     }
 
-    /// Lets the laws change the bodies of a pass that is solved, by as many passes as it stands for.
+    /// Lets the laws change the bodies after a solved pass, by the number of passes of its extrapolation.
     pub(super) fn advance(
         &self,
         pass: &mut Pass,
@@ -116,7 +116,7 @@ impl Simulation {
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
         let Leap { passes, mean, error } = match wear {
-            // Euler's implicit and explicit steps err by as much, to either side.
+            // Implicit and explicit Euler steps have equal errors of opposite sign.
             Some(PassWear { explicit: Some(explicit), .. }) => {
                 let taken = law::tried(laws, &pass.pair, &repeated, 1);
                 Leap { error: 0.5 * law::difference(explicit, &taken), ..Leap::ONE }
@@ -159,7 +159,7 @@ impl Simulation {
         Ok((Some(running), jump))
     }
 
-    /// How many passes a solved one stands for, by what its `laws` have summed and the volume that has flown.
+    /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
     fn jump(
         &self,
         pass: &Pass,

@@ -1,8 +1,8 @@
 //! The motion itself: pass after pass.
 
-mod changes; // what laws make of the bodies
+mod changes; // changes of the bodies by laws
 mod search; // the approach of a pass
-mod solved; // a pass that is solved
+mod solved; // a solved pass
 
 use std::borrow::Cow;
 
@@ -43,33 +43,33 @@ pub struct Simulation {
     params: Params,
     /// The positions of the next pass.
     positions: Vec<Position>,
-    /// How many of them, the first ones, are solved; the others are the same contacts on the way back.
+    /// Number of positions, the first ones, that are solved. The others are the same contacts on the return stroke.
     distinct: usize,
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
-    /// What changes the bodies after a pass.
+    /// Laws that change the bodies after a pass.
     changes: Changes,
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
-    /// What gives the upper body of each pass after the first, where they are not the same.
+    /// Source of the upper body of each pass after the first, if it differs from pass to pass.
     counter: Option<Counter>,
-    /// What flows below the surfaces, where bodies do.
+    /// The volumes below the surfaces of elasto-plastic bodies.
     volumes: Option<Volumes>,
-    /// Passes that are computed.
+    /// Number of computed passes.
     passes_done: usize,
     /// The state in which the next pass begins.
     warm: WarmStart,
 }
 
-/// What gives the upper body of a pass.
+/// Source of the upper body of a pass.
 type Counter = Box<dyn Fn(usize) -> Result<Body> + Send + Sync>;
 
 impl Simulation {
-    /// A motion from its beginning.
+    /// Creates a motion at its beginning.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], [`Error::Unsupported`] or [`Error::GridMismatch`] for input without meaning,
+    /// [`Error::OutOfRange`], [`Error::Unsupported`] or [`Error::GridMismatch`] for invalid input,
     /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
@@ -102,11 +102,13 @@ impl Simulation {
         })
     }
 
-    /// The same motion with so many computed `passes` already done; the pair has the heights after them and the hardness of
-    /// before, and `warm` is what they left ([`PassReport::warm`](crate::motion::PassReport::warm)). It goes on as if it had not stopped, to the last bit.
+    /// Resumes the motion after `passes` computed passes. The pair must have the heights after them and the hardness before
+    /// them. `warm` is the state that they left ([`PassReport::warm`](crate::motion::PassReport::warm)). The motion
+    /// continues as if it had not stopped, to the last bit.
     ///
     /// # Panics
-    /// If `warm` has not as many positions as are solved of a pass, or any where passes do not repeat.
+    /// If the number of positions in `warm` differs from that of the solved positions of a pass, or if it has any although
+    /// passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
         let kept = if self.repeats() && self.volumes.is_none() { self.distinct } else { 0 };
         assert_eq!(warm.positions.len(), kept, "positions of the warm start");
@@ -115,14 +117,14 @@ impl Simulation {
         resumed
     }
 
-    /// The same motion, in which each pass after the first has an upper body of its own: the one that the `counter` gives for the
-    /// number of the pass, on the grid of the first and prepared as that one is, with the states that laws keep of it. The upper body
-    /// of [`Simulation::pair`] is that of the last pass.
+    /// Sets a new upper body for each pass after the first. `counter` returns it for the number of the pass, on the grid of
+    /// the first body, and prepared in the same way, with the states that laws store with it. The upper body of
+    /// [`Simulation::pair`] is that of the last pass.
     ///
-    /// Passes do not repeat then. What a pass does to an upper body is gone with it.
+    /// Passes then do not repeat. Changes of an upper body are lost after its pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] where a computed pass stands for others.
+    /// [`Error::Unsupported`] together with extrapolation over passes.
     pub fn with_counter(
         self,
         counter: impl Fn(usize) -> Result<Body> + Send + Sync + 'static,
@@ -132,18 +134,18 @@ impl Simulation {
         simulation.with_acceleration(acceleration)
     }
 
-    /// Whether the next pass meets what this one does.
+    /// Whether the next pass has the same positions and bodies as this one.
     fn repeats(&self) -> bool {
         self.motion.repeats() && self.counter.is_none()
     }
 
-    /// The positions of the pass after those that are done.
+    /// Returns the positions of the next pass.
     fn next_positions(&self) -> Vec<Position> {
         let columns = [self.pair.lower.columns(), self.pair.upper.columns()];
         self.motion.positions(columns, self.pair.lower.width(), self.represented() + 1)
     }
 
-    /// The bodies of the next pass.
+    /// Returns the bodies of the next pass.
     fn next_pair(&self) -> Result<Cow<'_, Pair>> {
         let (Some(counter), pass @ 2..) = (&self.counter, self.represented() + 1) else {
             return Ok(Cow::Borrowed(&self.pair));
@@ -156,8 +158,8 @@ impl Simulation {
         Ok(Cow::Owned(pair))
     }
 
-    /// The same motion, whose records tell what is in the interior of the bodies: farther than the part `rim` of their
-    /// length, 0 ≤ rim < ½, from their free ends. Without it, the interior is the whole body.
+    /// Restricts records to the interior of the bodies: cells farther than the fraction `rim` of the body length from free
+    /// ends, 0 ≤ rim < ½. Without it, the interior is the whole body.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -166,19 +168,20 @@ impl Simulation {
         Ok(Self { interiors: interiors(&self.pair, self.boundary, &self.motion, rim), ..self })
     }
 
-    /// The same motion, after whose passes a `law` changes the bodies, too: after those that do already, of which plastic flow
-    /// is the first; a law that does not repeat before those that do. The contacts of a pass are solved on the bodies as they
-    /// were before it, or under [`crate::motion::PlasticUpdate::Step`] before its position.
+    /// Adds a `law` that changes the bodies after each pass. It acts after the existing laws, of which plastic deformation
+    /// is the first, but a law that does not repeat acts before those that do. The contacts of a pass are solved on the
+    /// bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`], before the position.
     pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
         self.changes.add(Box::new(law), || Softness::of(&self.pair, self.boundary));
         self
     }
 
-    /// The same motion, whose computed passes stand for several.
+    /// Enables extrapolation of computed passes over several passes.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], and [`Error::Unsupported`] where passes do not repeat, or change the bodies position by position.
+    /// [`Error::OutOfRange`], and [`Error::Unsupported`] if passes do not repeat, or if they change the bodies position by
+    /// position.
     pub fn with_acceleration(mut self, acceleration: Acceleration) -> Result<Self> {
         let acceleration = acceleration.checked()?;
         if acceleration.max_jump > 1 {
@@ -201,16 +204,16 @@ impl Simulation {
         by_laws || self.volumes.is_some()
     }
 
-    /// The same motion of bodies that flow below their surfaces: those that are given, lower one first. Plastic strain stays with the
-    /// material, position after position; each pass ends with the load taken off. No other law changes such bodies, and
-    /// [`Simulation::pair`] has their surfaces as flow has left them.
+    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first. Plastic strain moves with the material
+    /// from position to position, and each pass ends with unloading. No other law changes such bodies. [`Simulation::pair`]
+    /// has their surfaces with the plastic displacement.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for bodies that have a hardness, heat, a pass that stands for others, an upper body that flows and is another
-    /// in each pass, and a shift under a boundary that is free along x.
+    /// [`Error::Unsupported`] for bodies with a hardness, heat, extrapolation over passes, an elasto-plastic upper body
+    /// that differs from pass to pass, and a shift under a boundary that is free along x.
     ///
     /// # Panics
-    /// If none is given, or one has another grid than its surface.
+    /// If no body is given, or if the grid of one differs from that of its surface.
     pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
         let refused = if self.pair.yields() {
             "elasto-plastic bodies do not take a hardness"
@@ -235,37 +238,38 @@ impl Simulation {
         Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
     }
 
-    /// The same motion, in which so much has flowed in the passes that are done, of each body that may flow, lower one first; the
-    /// surfaces of the pair are those that it has left.
+    /// Restores the plastic state of each elasto-plastic body (lower first) after the finished passes. The surfaces of the
+    /// pair already have its displacement.
     ///
     /// # Panics
-    /// If the bodies do not flow.
+    /// If no body is elasto-plastic.
     pub fn with_flowed(self, states: Vec<PlasticState>) -> Self {
         let volumes = self.volumes.expect("bodies that flow").with_states(states);
         Self { volumes: Some(volumes), ..self }
     }
 
-    /// The same motion, whose reports say what has flowed under the load at a position, by its index, of each pass.
+    /// Adds the plastic state under the load at a position, by its index, to the reports of each pass.
     ///
     /// # Panics
-    /// If the bodies do not flow.
+    /// If no body is elasto-plastic.
     pub fn looking_at(self, position: usize) -> Self {
         let volumes = self.volumes.expect("bodies that flow").looked_at(position);
         Self { volumes: Some(volumes), ..self }
     }
 
-    /// What has flowed in the passes that are done; nothing in bodies that do not.
+    /// Returns the plastic state after the finished passes; empty for other than elasto-plastic bodies.
     pub fn flowed(&self) -> Vec<FlowedVolume> {
         self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
     }
 
-    /// The same motion, whose friction heats bodies of these thermal constants, lower one first: laws see the temperature of the
-    /// cells in contact, which begin each pass at that of the bodies. It is computed in the first and in every `every`-th computed
-    /// pass, ≥ 1; in those between the cells are as warm as they were in the mean over their contacts of the last such pass.
+    /// Adds frictional heating of bodies with these thermal constants, lower one first. Laws then see the temperature of
+    /// the cells in contact, which begin each pass at that of the bodies. The temperature is computed in the first and in
+    /// every `every`-th computed pass, ≥ 1. In between, the cells have the mean temperature of their contacts in the last
+    /// such pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, where these change position by position, and
-    /// for a shift under a boundary that is free along x; those of [`FlashTemperature::new`].
+    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, if the bodies change position by
+    /// position, and for a shift under a boundary that is free along x; also the errors of [`FlashTemperature::new`].
     pub fn with_heat(mut self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
         check("every", every as f64, every > 0, "at least each computed pass")?;
         let time = self.motion.step_time(self.pair.pitch()[0]);
@@ -290,7 +294,7 @@ impl Simulation {
         Ok(self)
     }
 
-    /// Passes of the motion that are done: those that the computed ones stand for.
+    /// Number of finished passes of the motion, extrapolated ones included.
     pub fn represented(&self) -> usize {
         self.warm.represented
     }
@@ -300,12 +304,12 @@ impl Simulation {
         &self.interiors
     }
 
-    /// The bodies as they are now.
+    /// The bodies in their present state.
     pub fn pair(&self) -> &Pair {
         &self.pair
     }
 
-    /// How the bodies move.
+    /// The parameters of the motion.
     pub fn motion(&self) -> &Motion {
         &self.motion
     }
@@ -315,18 +319,19 @@ impl Simulation {
         &self.positions
     }
 
-    /// Runs the passes that are left.
+    /// Runs the remaining passes.
     ///
     /// # Errors
-    /// Returns the errors of [`Simulation::solve`], and the errors of the outputs.
+    /// The errors of [`Simulation::solve`] and of the outputs.
     pub fn run(&mut self, watch: &dyn Watch, outputs: &mut [&mut dyn Output]) -> Result<()> {
         course::run(self, watch, outputs)
     }
 
-    /// Solves the next pass and lets the laws change its bodies. It counts once it is [finished](Simulation::finish).
+    /// Solves the next pass and lets the laws change its bodies. The pass counts only once it is
+    /// [finished](Simulation::finish).
     ///
     /// # Errors
-    /// Returns the errors of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    /// The errors of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
@@ -370,17 +375,17 @@ impl Simulation {
         })
     }
 
-    /// Adds the contacts of the way back to those that are solved, if they are the same.
+    /// Adds the contacts of the return stroke to the solved ones, if they are the same.
     fn come_back(&self, contacts: &mut Vec<Contact>) {
         let back = self.positions[self.distinct..].iter().zip(contacts.iter().rev());
         let back: Vec<Contact> = back.map(|(position, contact)| contact.back(*position)).collect();
         contacts.extend(back);
     }
 
-    /// Finishes a pass that this motion has solved: the outputs take it, and the next one begins on the bodies that it left.
+    /// Finishes a solved pass of this motion: passes it to the outputs, and uses its bodies for the next one.
     ///
     /// # Errors
-    /// Returns the errors of the outputs; the pass then does not count.
+    /// The errors of the outputs; the pass then does not count.
     pub fn finish(
         &mut self,
         pass: SolvedPass,
@@ -391,13 +396,13 @@ impl Simulation {
         course::finish(self, finished, watch, outputs)
     }
 
-    /// A solved pass with what it leaves to the next one.
+    /// Returns a solved pass with the state that it leaves to the next one.
     fn finished(&self, pass: SolvedPass) -> FinishedPass {
         let record = pass.record();
         let SolvedPass { outcome, hardness, steps, guess, jump, represented, .. } = pass;
-        // Bodies that meet elsewhere begin anew.
+        // Without repetition the next pass begins from zero.
         let (guess, again) = match self.repeats() {
-            // Each pass in which they flow begins with bodies that are apart.
+            // Each pass of elasto-plastic bodies begins with separated bodies.
             true if self.volumes.is_some() => (guess, &[][..]),
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),
@@ -406,7 +411,7 @@ impl Simulation {
         FinishedPass { record, outcome, hardness, steps, warm }
     }
 
-    /// The solver of the next pass.
+    /// Creates the solver of the next pass.
     fn solver<'a>(&'a self, watch: &'a dyn Watch) -> Solver<'a> {
         let progress = Progress {
             pass: self.represented() + 1,
@@ -498,7 +503,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     Ok(motion.positions([lower, upper], pair.lower.width(), 1))
 }
 
-/// The most load that the cells at a position bear together.
+/// Largest load that the cells at a position can carry together.
 fn bearable(pair: &Pair, motion: &Motion, position: &Position) -> Newton {
     let bounds = pair.bounds(position, motion.friction.as_ref());
     pair.cell_area() * bounds.upper().sum(pair.grid(position.columns).cells())

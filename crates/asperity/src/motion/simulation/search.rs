@@ -1,4 +1,4 @@
-//! The approach of a pass.
+//! Search for the approach of a pass.
 
 use super::{Simulation, bearable};
 use crate::error::{Error, LoadLimit, Result};
@@ -15,7 +15,8 @@ use crate::solver::{Control, Params};
 use crate::units::{Metre, Newton};
 
 impl Simulation {
-    /// One pass from the present geometry, the guess with which the search of the next one begins, and the approaches tried.
+    /// Solves one pass on the present geometry. Returns it with the initial guess of the next search and the number of
+    /// approaches tried.
     pub(super) fn solve_pass(&self, pair: &Pair, watch: &dyn Watch) -> Result<(Pass, Option<Guess>, usize)> {
         let positions = &self.positions[..self.distinct];
         let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
@@ -27,7 +28,7 @@ impl Simulation {
             }
             (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
-        // Flow takes most of the time of a trial: no contact is solved roughly beside it.
+        // Plastic flow takes most of the time of a trial, so rough contacts would save nothing.
         let roughest = if self.volumes.is_some() { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;
         let mut guess = self.warm.guess;
@@ -41,7 +42,7 @@ impl Simulation {
                     earlier = vec![contacts];
                     residual = self.params.tolerance;
                 }
-                // The search that follows does without.
+                // The search then runs without it.
                 Err(Error::NotConverged { .. }) => {}
                 Err(other) => return Err(other),
             }
@@ -73,7 +74,7 @@ impl Simulation {
             Ok((outcome.mean_load(), outcome))
         });
         let found = found.map_err(|error| match error {
-            // A load that jumps where a position comes into full contact with the pressure below the hardness.
+            // The load jumps where a position comes into full contact at pressures below the hardness.
             Error::LoadNotReached { load, below: most, approach, .. } if most > 0.0 && closed => {
                 Error::BeyondPass { load, most, approach, cause: LoadLimit::FullContact }
             }
@@ -82,13 +83,14 @@ impl Simulation {
         Ok((found.outcome, Some(found.guess), found.trials))
     }
 
-    /// Whether the pressure of a contact determines no approach: all cells touch elastically, and their mean displacement is free.
+    /// Whether the pressure of a contact determines no approach, because all cells touch elastically and their mean
+    /// displacement is free.
     fn leaves_mean_free(&self, contact: &Contact) -> bool {
         let cells = self.pair.grid(contact.position.columns).cells();
         self.boundary.leaves_mean_free() && contact.pressure.len() == cells && contact.plastic.is_empty()
     }
 
-    /// The position with the most columns, at two loads near its share of the pass-mean load.
+    /// Makes a guess from the position with the most columns, at two loads near its share of the pass-mean load.
     fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
@@ -105,7 +107,7 @@ impl Simulation {
             solve(less, None).and_then(|first| Ok((first.approach, solve(more, Some(&first))?.approach)));
         let (approach, further) = match solved {
             Ok(approaches) => approaches,
-            // A guess that cannot be had is no guess: from the first touch.
+            // Without a solution, the guess starts at first touch.
             Err(Error::NotConverged { .. }) => {
                 return Ok(Guess { approach: self.touch(pair) + scale, slope: 1.0 / scale });
             }
@@ -115,15 +117,15 @@ impl Simulation {
         Ok(Guess { approach, slope: if slope > 0.0 && slope.is_finite() { slope } else { 1.0 / scale } })
     }
 
-    /// The approach at which some position of the pass first touches.
+    /// Approach at which some position of the pass first touches.
     fn touch(&self, pair: &Pair) -> Metre {
         let lowest = |position| pair.initial_gap(position).iter().copied().fold(f64::INFINITY, f64::min);
         self.positions[..self.distinct].iter().map(lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// The approach beyond which a pass of the bodies as they are bears no more: at which every cell would be at the hardness
-    /// at every position, if none had yielded before; of elastic bodies that continue over their edges the mean gap, at which
-    /// they are in full contact at all positions. Where some cells yield and others never do, there is none.
+    /// Approach beyond which a pass of the present bodies carries no more load. It is the approach at which every cell
+    /// would be at the hardness at every position if none had yielded before. For periodic elastic bodies it is the mean
+    /// gap, at which all positions are in full contact. If some cells yield and others never do, there is no limit.
     fn limit(&self, pair: &Pair) -> Limit {
         let cap = |hardness| self.motion.friction.map_or(hardness, |friction| friction.sliding_cap(hardness));
         let hardness = cap(pair.max_hardness());
@@ -134,13 +136,13 @@ impl Simulation {
         if hardness.is_finite() {
             let highest = largest(|gap| gap.iter().copied().fold(f64::NEG_INFINITY, f64::max));
             let columns = self.positions.iter().map(|p| p.columns).max().unwrap_or(1);
-            // Of the hardness on all that faces; the shear of what slides adds less than μ times as much.
+            // Displacement under the hardness on the whole overlap. The shear in sliding adds less than μ times as much.
             let sinks = self.operators.most_under_uniform([columns, pair.lower.width()]);
             let coefficient = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
             let approach = highest + (1.0 + coefficient) * hardness * sinks;
             Limit { approach, cause: LoadLimit::Yielded }
         } else if self.boundary.leaves_mean_free() && !pair.yields() {
-            // Closer to it the load is less certain than the residual.
+            // Closer to the limit the load is less certain than the residual.
             let least = -largest(|gap| -gap.mean().unwrap_or(0.0));
             let rough = largest(|gap| gap.std(0.0));
             Limit { approach: least - self.params.tolerance * rough, cause: LoadLimit::FullContact }
@@ -150,13 +152,13 @@ impl Simulation {
     }
 }
 
-/// The rounding of the heights, as a length.
+/// Rounding error of the heights, as a length.
 fn resolution(pair: &Pair) -> Metre {
     let highest = |heights: &Field| heights.iter().fold(0.0, |most, z| f64::max(most, z.abs()));
     f64::EPSILON * highest(&pair.lower.heights).max(highest(&pair.upper.heights))
 }
 
-/// The length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
+/// Length over which the load changes by a factor of about e, for a first guess: a tenth of the roughness.
 fn height_scale(pair: &Pair) -> Metre {
     let roughness = pair.lower.heights.std(0.0).hypot(pair.upper.heights.std(0.0));
     if roughness > 0.0 { 0.1 * roughness } else { pair.pitch()[0] }

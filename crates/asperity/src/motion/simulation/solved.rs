@@ -1,4 +1,4 @@
-//! A pass that is solved.
+//! A solved pass.
 
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
@@ -14,7 +14,7 @@ use crate::motion::rim::Interior;
 use crate::motion::warm_start::{Guess, WarmStart};
 use crate::units::Second;
 
-/// A pass that is solved, and not yet [finished](super::Simulation::finish).
+/// A solved pass that is not yet [finished](super::Simulation::finish).
 pub struct SolvedPass {
     pub(super) outcome: Pass,
     /// The hardness of the bodies in the pass, lower one first.
@@ -26,7 +26,7 @@ pub struct SolvedPass {
     pub(super) interiors: [Interior; 2],
     pub(super) running: Option<RunningRecord>,
     pub(super) jump: Option<Jump>,
-    /// Passes of the motion that are done with this one.
+    /// Finished passes of the motion, this one and its extrapolation included.
     pub(super) represented: usize,
 }
 
@@ -36,22 +36,22 @@ impl SolvedPass {
         &self.outcome.contacts
     }
 
-    /// The positions of the pass in numbers.
+    /// The records of the positions.
     pub fn steps(&self) -> &[StepRecord] {
         &self.steps
     }
 
-    /// What has flowed below the surfaces, once the load is taken off; nothing in bodies that do not flow.
+    /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
     pub fn flowed(&self) -> &[FlowedVolume] {
         self.outcome.flowed.as_ref().map_or(&[], |flowed| &flowed.volumes)
     }
 
-    /// The bodies as the pass leaves them.
+    /// The bodies after the pass.
     pub fn pair(&self) -> &Pair {
         &self.outcome.pair
     }
 
-    /// The pass in numbers, as they are now.
+    /// Returns the record of the pass in its present state.
     pub fn record(&self) -> PassRecord {
         let record = summarise(&self.outcome, &self.interiors, &self.steps);
         PassRecord {
@@ -63,11 +63,11 @@ impl SolvedPass {
         }
     }
 
-    /// Takes a `depth` off each cell of the lower and of the upper body, m, below 0 where a cell grows; its volume is lost to
-    /// the law of that name, in snake case.
+    /// Removes a `depth` from each cell of the lower and of the upper body, m, below 0 if a cell grows. The volume is
+    /// attributed to the law of this name, in snake case.
     ///
     /// # Panics
-    /// If a depth has another shape than its body.
+    /// If the shape of a depth differs from that of its body.
     pub fn remove(&mut self, law: &str, depth: &[Field; 2]) {
         let Pass { pair, lost, .. } = &mut self.outcome;
         let known = lost.iter().position(|lost| lost.law == law).unwrap_or_else(|| {
@@ -78,7 +78,7 @@ impl SolvedPass {
     }
 }
 
-/// A solved pass with what it leaves to the next one.
+/// A solved pass with the state that it leaves to the next one.
 pub(in crate::motion) struct FinishedPass {
     pub(super) record: PassRecord,
     pub(super) outcome: Pass,
@@ -88,7 +88,7 @@ pub(in crate::motion) struct FinishedPass {
 }
 
 impl FinishedPass {
-    /// What outputs take of it.
+    /// Returns the report for the outputs.
     pub(super) fn report<'a>(&'a self, motion: &'a Motion) -> PassReport<'a> {
         let Self { record, outcome, hardness: [lower, upper], steps, warm } = self;
         let flowed = outcome.flowed.as_ref();
@@ -106,7 +106,7 @@ impl FinishedPass {
     }
 }
 
-/// The record of a pass, a row of `passes.csv`, but for the number of approaches tried and the time.
+/// Creates the record of a pass, a row of `passes.csv`, without the number of approaches tried and the time.
 fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) -> PassRecord {
     let pair = &outcome.pair;
     let mean_columns = steps.iter().map(|s| s.overlap_columns as f64).sum::<f64>() / steps.len() as f64;

@@ -56,7 +56,7 @@ fn cells_that_never_yield_bear_what_those_that_do_leave_them() {
         let mut simulation = Simulation::new(pair.clone(), Boundary::PERIODIC, motion, params).unwrap();
         let mut reports = Reports(Vec::new());
         simulation.run(&(), &mut [&mut reports]).unwrap();
-        // The planes of the mean heights are 0: pressed beyond full contact.
+        // The planes of the mean heights are at 0: pressed beyond full contact.
         assert!(reports.0[0].approach > 0.0, "{method:?}: {:e}", reports.0[0].approach);
         assert!((reports.0[0].mean_load / load - 1.0).abs() < 1e-4, "{method:?}");
     }

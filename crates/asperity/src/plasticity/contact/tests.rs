@@ -7,8 +7,8 @@ use crate::operator::{Boundary, PeriodicFft};
 use crate::plasticity::{Hardening, J2, Layers, Volume};
 use crate::solver::solve_normal;
 
-/// A rigid sphere on a body of E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an independent
-/// program.
+/// A rigid sphere on a body with E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an
+/// independent program.
 const RADIUS: f64 = 14.0;
 const YIELD: f64 = 0.003;
 
@@ -16,7 +16,7 @@ fn steel() -> Material {
     Material::elastic(1.0, 0.3).unwrap()
 }
 
-/// The load at which it begins to yield by Hertz, at p₀ = 1.6 σY.
+/// Load of first yield by Hertz, at p₀ = 1.6 σY.
 fn first_yield() -> f64 {
     std::f64::consts::PI.powi(3) * RADIUS * RADIUS * (1.6 * YIELD).powi(3)
         / (6.0 * steel().plane_strain_modulus().powi(2))
@@ -47,7 +47,7 @@ fn contact(n: usize, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Plas
     PlasticContact::new(facing, bodies, flow, params)
 }
 
-/// Bodies of the grid of the contact, on which it begins in these cells.
+/// Placement on bodies with the grid of the contact, which begins at these cells.
 fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> Facing {
     let seats = first.map(|first| Seat::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
     Facing { interface: Interface::Frictionless(Box::new(operator)), initial_gap, seats }
@@ -68,7 +68,7 @@ fn range(field: &Field) -> f64 {
 
 #[test]
 fn a_sphere_on_a_body_that_yields_is_that_of_an_independent_program() {
-    // Times the load of first yield: largest pressure over σY, cells in contact, p̄, range of r; products.
+    // Load over that of first yield: largest pressure over σY, cells in contact, p̄, range of r; operator applications.
     let found = [
         (0.9, 1.57117, 29, 0.0, 0.0, 0),
         (1.2, 1.69291, 37, 2.77958e-4, 1.69970e-6, 4),
@@ -94,7 +94,7 @@ fn a_sphere_on_a_body_that_yields_is_that_of_an_independent_program() {
         assert_eq!(increment.products == 0, increment.flowing_cells() == 0);
     }
     assert!(contact.approach().is_none());
-    // Flow keeps the volume.
+    // Plastic flow preserves volume.
     let strain = contact.bodies()[0].strain();
     for layer in strain.outer_iter() {
         for cell in ndarray::indices([32, 32]) {
@@ -149,7 +149,7 @@ fn an_approach_comes_to_what_its_load_does() {
 fn bodies_that_are_equal_flow_equally() {
     let pair = [(); 2].map(|()| Some(body(24, 8, perfect())));
     let mut contact = contact(24, pair, FlowParams::new());
-    // E* is half: twice as wide a contact for the same pressure takes four times the load.
+    // E* is halved: a contact twice as wide at the same pressure takes four times the load.
     let increment = contact.go_to(Control::Load(8.0 * first_yield())).unwrap();
     assert!(increment.products > 0 && increment.bodies[0] == increment.bodies[1]);
     let [lower, upper] = contact.bodies() else { panic!("two bodies") };
@@ -209,7 +209,7 @@ fn threads_do_not_change_a_bit() {
     assert_eq!(one, answer(7));
 }
 
-/// A ball whose axis stands at `x`, in cells, over 64 × 32 of them.
+/// A ball with its axis at `x`, in cells, over 64 × 32 of them.
 struct Ball {
     radius: f64,
     grid: Grid,
@@ -217,7 +217,7 @@ struct Ball {
 }
 
 impl Ball {
-    /// Of a contact radius of 6 cells at p₀ = 4.5 k, k = σY/√3.
+    /// Contact radius of 6 cells at p₀ = 4.5 k, k = σY/√3.
     fn new() -> Self {
         let (a, peak) = (6.0, 4.5 * YIELD / 3f64.sqrt());
         let radius = 2.0 * a * steel().plane_strain_modulus() / (std::f64::consts::PI * peak);
@@ -245,7 +245,8 @@ impl Ball {
         PlasticBody::new(volume, Arc::new(perfect()))
     }
 
-    /// Presses it in at `from` and rolls it to `to`; the products of each position after the first.
+    /// Presses the ball in at `from` and rolls it to `to`; returns the operator applications of each position after the
+    /// first.
     fn pass(&self, contact: &mut PlasticContact, from: usize, to: usize) -> Vec<usize> {
         contact.move_to(self.facing(from as f64), [[0; 2]; 2]);
         for share in [0.5, 0.7, 0.85, 1.0] {
@@ -283,7 +284,7 @@ fn a_ball_that_rolls_again_deepens_its_groove_as_an_independent_program_has_it()
 
 #[test]
 fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
-    // A bump on one of two bodies that both flow, and moves over the other by a cell at a time; and the other way round.
+    // A bump on one of two elasto-plastic bodies moves over the other by one cell at a time, and the other way round.
     let n = 24;
     let bump = |x: f64| {
         Field::from_shape_fn([n, n], |(i, j)| {
@@ -296,7 +297,7 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
         let mut contact = contact(n, pair, FlowParams::new().with_tolerance(1e-8));
         contact.contact = Params::default().with_tolerance(1e-11);
         for step in 0..3 {
-            // The contact is looked at from the body without the bump, whose cells stand still; the other's go round.
+            // The contact is fixed to the body without the bump; the cells of the other shift cyclically.
             let by = if forth { step } else { n - step };
             let at = if forth { 10.0 + step as f64 } else { 13.0 - step as f64 };
             let operator = PeriodicFft::new(*contact.grid(), steel().plane_strain_modulus() / 2.0);
@@ -317,11 +318,11 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
         let apart = one.iter().zip(&mirrored).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
         assert!(range(one) > 1e-6 && apart < 1e-7 * range(one), "{apart:e} of {:e}", range(one));
     }
-    // What rolls over leaves a groove along its way, what is rolled on one spot none.
+    // A rolling contact leaves a groove along its path, and none in a body that it loads at one spot.
     assert!(forth[0] != forth[1]);
 }
 
-/// Two bodies of different stiffness that both flow, pressed together and pushed, so that they stick here and slip there.
+/// Two elasto-plastic bodies of different stiffness, pressed together and pushed into partial slip.
 #[test]
 fn the_work_of_pressure_and_friction_is_stored_and_spent() {
     use crate::kernel::response;

@@ -14,7 +14,7 @@ fn volume(shape: [usize; 2], pitch: [f64; 2], faces: &[f64], boundary: Boundary,
     Volume::new(grid, Layers::between(faces).unwrap(), boundary, &material).unwrap()
 }
 
-/// Traceless numbers between −1 and 1.
+/// Random traceless components between −1 and 1.
 fn strain(volume: &Volume, seed: u64) -> TensorField {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut strain = volume.zeros();
@@ -41,7 +41,7 @@ fn most(field: &TensorField) -> f64 {
 
 const FACES: [f64; 5] = [0.0, 0.05, 0.13, 0.23, 0.38];
 
-/// Grids odd and even, wide and narrow.
+/// Odd and even, wide and narrow grids.
 const GRIDS: [([usize; 2], [f64; 2]); 4] =
     [([9, 11], [0.1, 0.13]), ([8, 6], [0.1, 0.1]), ([12, 1], [0.05, 0.2]), ([1, 4], [1.0, 0.07])];
 
@@ -56,7 +56,8 @@ fn residual_stress_is_symmetric_takes_work_and_is_bounded() {
             let scale = body.inner_product(&a, &a);
             assert!((one - other).abs() < 1e-13 * scale, "{shape:?}, ν = {poisson}: {one} is {other}");
             assert!(body.inner_product(&ka, &a) < 0.0);
-            // The largest eigenvalue of −K on deviators is 2μ at the most: by powers, and of 2μ + K, whose smallest is 0.
+            // The largest eigenvalue of −K on deviators is at most 2μ, found by power iteration on −K and on 2μ + K, whose
+            // smallest is 0.
             let bound = YOUNG / (1.0 + poisson);
             let mut vectors = [a.clone(), b.clone()];
             for (n, vector) in vectors.iter_mut().enumerate() {
@@ -124,7 +125,7 @@ fn betti_holds_between_tractions_and_plastic_strain() {
 
 #[test]
 fn stress_under_tractions_is_that_of_the_planes() {
-    // The mean over a layer, by three points of Gauss, which are right to order 6; two points are to order 4.
+    // The mean over a layer by three Gauss points, of order 6; two points are of order 4.
     for (boundary, tolerance) in [(Boundary::PERIODIC, 1e-6), (Boundary::FREE, 5e-4)] {
         let faces = [0.0, 0.04, 0.1, 0.16];
         let mut body = volume([10, 9], [0.2, 0.2], &faces, boundary, 0.3);
@@ -151,7 +152,7 @@ fn stress_under_tractions_is_that_of_the_planes() {
 
 #[test]
 fn the_surface_bears_no_traction() {
-    // In a layer that is thinner than any other length.
+    // In a layer much thinner than any other length.
     let faces = [0.0, 1e-13, 0.05, 0.13, 0.3];
     let mut body = volume([9, 8], [0.1, 0.13], &faces, Boundary::PERIODIC, 0.3);
     let stress = body.residual(&strain(&body, 6));
@@ -232,7 +233,7 @@ fn it_is_in_equilibrium_and_compatible_to_the_second_order() {
 
 #[test]
 fn deep_below_the_surface_it_is_that_of_cuboids() {
-    // A Gaussian of 1.5 cells in an endless body, cuboid by cuboid; the mean over a layer by Gauss.
+    // A Gaussian of 1.5 cells in an infinite body, cuboid by cuboid; the mean over a layer by Gauss.
     let strain = [[0.3, 0.1, -0.2], [0.1, -0.5, 0.25], [-0.2, 0.25, 0.2]];
     let mut faces = vec![0.0];
     faces.extend((0..=11).map(|i| 16.0 + f64::from(i)));
@@ -259,7 +260,7 @@ fn deep_below_the_surface_it_is_that_of_cuboids() {
             let mut exact = Stress::default();
             for (shift, weight) in [(-0.3873, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.3873, 5.0 / 18.0)] {
                 for (from, share) in &sources {
-                    // Off the planes of the faces and edges.
+                    // Away from the planes of faces and edges.
                     let at = [
                         ix as f64 + 1e-9 - from[0],
                         iy as f64 + 1e-9 - from[1],
@@ -282,7 +283,7 @@ fn a_free_body_is_a_period_of_eight_times_its_size() {
         let faces: Vec<f64> = (0..=8).map(|i| 1.5 * f64::from(i)).collect();
         let mut free = volume([n, n], [1.0; 2], &faces, Boundary::FREE, 0.3);
         let mut wide = volume([8 * n, 8 * n], [1.0; 2], &faces, Boundary::PERIODIC, 0.3);
-        // As below a contact: flattened under it, a bell over so many cells, and one shear.
+        // As below a contact: compressed under it, bell-shaped over this number of cells, and one shear.
         let middle = 0.5 * (n as f64 - 1.0);
         let mut plastic = free.zeros();
         for ((layer, component, ix, iy), value) in plastic.indexed_iter_mut() {

@@ -30,7 +30,7 @@ pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
         None if is_upper => Some(Mount::TurnedOver),
         None => Some(Mount::AsIs),
     };
-    // Checked above, entry by entry: this can find nothing new.
+    // Checked above, entry by entry, so this cannot fail.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
     let thermal = running::thermal(table)?;
     Ok(Body { material, hardness, plasticity, thermal, wear, film, topography, mount })
@@ -42,12 +42,12 @@ fn coating(table: &Table<'_>) -> Result<Coating> {
     Coating::new(thickness, young, coating_keys::POISSON.of(table)?)
 }
 
-/// Whether a file of results would hold the underside of a body there.
+/// Whether a results file there may contain the underside of a body.
 fn may_be_an_underside(source: &Source) -> bool {
     matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
 }
 
-/// The hardness in the table of a body, a file in the folder of the case.
+/// Reads the hardness from the table of a body; files are relative to the folder of the case.
 fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
     Ok(match both::HARDNESS.of(table)? {
         Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),

@@ -1,4 +1,4 @@
-//! `[contact]`: what presses the bodies together, and how the contact is solved.
+//! `[contact]`: the load of the bodies, and the solver of the contact.
 
 use super::Contact;
 use super::cursor::Table;

@@ -1,4 +1,4 @@
-//! A table and an entry of a case file: each knows its place, so that each mistake is shown where it stands.
+//! A table and an entry of a case file, each with its place, to report mistakes there.
 
 use std::ops::Range;
 
@@ -32,7 +32,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// All entries, in the order of the file.
+    /// Returns all entries, in the order of the file.
     pub(in crate::study) fn entries(&self) -> Vec<(&'a str, Entry<'a>)> {
         let mut entries: Vec<_> = self
             .entries
@@ -43,7 +43,7 @@ impl<'a> Table<'a> {
         entries
     }
 
-    /// An entry that must exist; `example` is a value for it.
+    /// Returns a required entry; `example` is a value for it.
     pub(in crate::study) fn required(&self, key: &str, example: &str) -> Result<Entry<'a>> {
         let hint = || Some(format!("for example `{key} = {example}`"));
         self.get(key).ok_or_else(|| self.error(format!("missing key '{key}' in {}", self.name()), hint()))
@@ -61,7 +61,7 @@ impl<'a> Table<'a> {
         self.table(key)?.ok_or_else(missing)
     }
 
-    /// An error unless every key is among `known`. `elsewhere` explains a key that has its place in another table.
+    /// Returns an error unless every key is among `known`. `elsewhere` explains a key that belongs to another table.
     pub(in crate::study) fn known(
         &self,
         known: &[&str],
@@ -77,7 +77,7 @@ impl<'a> Table<'a> {
         Err(self.document.error(&join(&self.path, name), key.span(), message, hint))
     }
 
-    /// Which one of `keys` is given.
+    /// Returns the one of `keys` that is given.
     pub(super) fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str> {
         let mut given: Vec<_> =
             keys.iter().filter_map(|key| self.get(key).map(|entry| (*key, entry))).collect();
@@ -122,12 +122,12 @@ impl<'a> Entry<'a> {
         self.document.error(&self.path, self.span.clone(), message, hint)
     }
 
-    /// `'passes' is 0, expected …`, the value as it is written.
+    /// Error `'passes' is 0, expected …`, with the value as written in the file.
     pub(in crate::study) fn unexpected(&self, expected: &str, hint: Option<String>) -> Error {
         self.error(format!("'{}' is {}, expected {expected}", self.key(), self.written()), hint)
     }
 
-    /// The value as the file writes it.
+    /// The value as written in the file.
     pub(super) fn written(&self) -> String {
         match self.value {
             DeValue::Table(_) => "a table".to_owned(),
@@ -135,20 +135,20 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The dotted name.
+    /// Dotted name of the key.
     pub(super) fn path(&self) -> &str {
         &self.path
     }
 
-    /// Where the value stands.
+    /// Place of the value.
     pub(in crate::study) fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
-    /// The value as it stands, of any type.
+    /// Returns the value as it is, of any type.
     ///
     /// # Errors
-    /// A whole number beyond ±2⁶³.
+    /// If it is a whole number beyond ±2⁶³.
     pub(in crate::study) fn literal(&self) -> Result<toml::Value> {
         literal(self.value).ok_or_else(|| self.unexpected("whole numbers within ±2⁶³", None))
     }
@@ -178,7 +178,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The tables of an array of tables.
+    /// Returns the tables of an array of tables.
     pub(in crate::study) fn tables(&self) -> Result<Vec<Table<'a>>> {
         let expected = format!("tables [[{}]]", self.path);
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(&expected)) };
@@ -206,7 +206,7 @@ impl<'a> Entry<'a> {
         self.value.as_str().ok_or_else(|| self.wrong_type("a string"))
     }
 
-    /// The number of a TOML number, infinities and all.
+    /// Returns the number of a TOML number, infinities included.
     fn plain(&self) -> Option<Result<f64>> {
         let not_finite = || self.unexpected("a finite number", None);
         match self.value {
@@ -223,12 +223,12 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A number without a unit.
+    /// Returns a number without a unit.
     pub(in crate::study) fn number(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
         self.number_or_infinite(|value| value.is_finite() && good(value), expected)
     }
 
-    /// A number of a magnitude within `range`, of a constant whose unit has no name; 0 only if `zero`.
+    /// Returns a number with a magnitude within `range`, for a constant whose unit has no name; 0 only if `zero`.
     pub(super) fn number_within(&self, range: units::Range, zero: bool) -> Result<f64> {
         let expected = format!("{}a magnitude of {range}", if zero { "0, or " } else { "" });
         let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(&expected)))?;
@@ -236,7 +236,7 @@ impl<'a> Entry<'a> {
         if good { Ok(value) } else { Err(self.unexpected(&expected, None)) }
     }
 
-    /// A number without a unit, or infinity.
+    /// Returns a number without a unit, or infinity.
     pub(super) fn number_or_infinite(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
         let value = match self.value.as_str() {
             Some("inf") => f64::INFINITY,
@@ -249,7 +249,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A quantity, SI: a number or a string with a unit. Infinities are left to the caller.
+    /// Returns a quantity, SI, from a number or a string with a unit. Infinities are left to the caller.
     fn any_quantity(&self, dimension: Dimension) -> Result<f64> {
         if let Some(number) = self.plain() {
             return number;
@@ -264,7 +264,7 @@ impl<'a> Entry<'a> {
         units::parse(text, dimension).map_err(|error| self.error(error.for_key(self.key()), error.hint()))
     }
 
-    /// A finite quantity.
+    /// Returns a finite quantity.
     pub(in crate::study) fn quantity(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
         if !value.is_finite() {
@@ -273,7 +273,7 @@ impl<'a> Entry<'a> {
         if dimension.range().holds_signed(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
-    /// A finite quantity above 0.
+    /// Returns a finite quantity above 0.
     pub(in crate::study) fn positive(&self, dimension: Dimension) -> Result<f64> {
         let value = self.any_quantity(dimension)?;
         if !(value.is_finite() && value > 0.0) {
@@ -282,7 +282,7 @@ impl<'a> Entry<'a> {
         if dimension.range().holds(value) { Ok(value) } else { Err(self.beyond(dimension.range())) }
     }
 
-    /// A finite quantity of a magnitude within `range`; 0 only if `zero`. The hint has the `example`.
+    /// Returns a finite quantity with a magnitude within `range`; 0 only if `zero`. The hint contains the `example`.
     pub(super) fn within(
         &self,
         dimension: Dimension,
@@ -303,7 +303,7 @@ impl<'a> Entry<'a> {
         Err(self.unexpected(&expected, hint))
     }
 
-    /// What a 1 stands for: a unit by its name, or a quantity above 0.
+    /// Returns the size of a unit, given by its name or as a quantity above 0.
     pub(super) fn unit(&self, dimension: Dimension) -> Result<f64> {
         match self.value.as_str() {
             Some(word) if word.starts_with(char::is_alphabetic) => {
@@ -314,7 +314,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A quantity above 0, or infinity, whose meaning is `infinite`.
+    /// Returns a quantity above 0, or infinity, which means `infinite`.
     pub(super) fn positive_or_infinite(&self, dimension: Dimension, infinite: &str) -> Result<f64> {
         let value = match self.value.as_str() {
             Some("inf") => f64::INFINITY,
@@ -331,12 +331,12 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The error of a magnitude that no contact has.
+    /// Error for a magnitude outside the accepted range.
     fn beyond(&self, range: units::Range) -> Error {
         self.unexpected(&format!("a magnitude of {range}"), None)
     }
 
-    /// A whole number of at least `least`.
+    /// Returns a whole number of at least `least`.
     pub(in crate::study) fn whole(&self, least: u64) -> Result<u64> {
         let expected = format!("a whole number of at least {least}");
         match self.value {
@@ -349,7 +349,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// [`whole`](Self::whole), as a number of things in memory.
+    /// [`whole`](Self::whole) as a `usize`.
     pub(in crate::study) fn count(&self, least: usize) -> Result<usize> {
         match usize::try_from(self.whole(least as u64)?) {
             Ok(count) if count <= MAX_COUNT => Ok(count),
@@ -364,7 +364,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// An array of exactly `N` entries; `expected` says what they are.
+    /// Returns an array of exactly `N` entries; `expected` describes them.
     pub(super) fn array<T, const N: usize>(
         &self,
         expected: &str,
@@ -373,12 +373,12 @@ impl<'a> Entry<'a> {
         self.list(expected, read)?.try_into().map_err(|_| self.unexpected(expected, None))
     }
 
-    /// An array of any number of entries; `expected` says what they are.
+    /// Returns an array of any number of entries; `expected` describes them.
     pub(super) fn list<T>(&self, expected: &str, read: impl Fn(&Entry<'a>) -> Result<T>) -> Result<Vec<T>> {
         self.items(expected)?.iter().map(read).collect()
     }
 
-    /// The entries of an array; `expected` says what they are.
+    /// Returns the entries of an array; `expected` describes them.
     pub(in crate::study) fn items(&self, expected: &str) -> Result<Vec<Entry<'a>>> {
         let DeValue::Array(items) = self.value else { return Err(self.wrong_type(expected)) };
         let entry = |item: &'a toml::Spanned<DeValue<'a>>| Entry {
@@ -390,7 +390,7 @@ impl<'a> Entry<'a> {
         Ok(items.iter().map(entry).collect())
     }
 
-    /// One value for x and y, or an array of the two.
+    /// Returns one value for both x and y, or an array of the two.
     pub(super) fn pair<T: Copy>(
         &self,
         expected: &str,
@@ -402,17 +402,17 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A component along x, or an array of two along x and y.
+    /// Returns a component along x, or an array of two along x and y.
     pub(super) fn vector(&self, expected: &str, read: impl Fn(&Self) -> Result<f64>) -> Result<[f64; 2]> {
         if self.is_array() { self.array(expected, read) } else { read(self).map(|x| [x, 0.0]) }
     }
 
-    /// The choice of a word.
+    /// Returns the choice for a word.
     pub(super) fn choice<T: Choice>(&self) -> Result<T> {
         self.word(T::WORDS)
     }
 
-    /// What one of several words stands for.
+    /// Returns the value that belongs to one of several words.
     pub(in crate::study) fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
         let words = || choices.iter().map(|(word, _)| *word);
         let expected =
@@ -426,7 +426,7 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// A value with its places taken off; none of a whole number that is too large.
+/// Returns a value without its places; `None` for a whole number that is too large.
 fn literal(value: &DeValue<'_>) -> Option<toml::Value> {
     Some(match value {
         DeValue::String(text) => toml::Value::String(text.to_string()),
@@ -449,7 +449,7 @@ fn literal(value: &DeValue<'_>) -> Option<toml::Value> {
     })
 }
 
-/// What a quantity is called here that textbooks write as `symbol`, if the table knows it.
+/// Returns the key for a quantity that textbooks write as `symbol`, if the table knows it.
 fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
     const KEYS: [(&[&str], &str); 12] = [
         (&["E", "Y", "youngs_modulus", "modulus"], "young"),
@@ -472,7 +472,7 @@ fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
     KEYS.iter().find(named).map(|(_, key)| format!("did you mean `{key}`?"))
 }
 
-/// The nearest of `words`, if it is near.
+/// Returns the most similar of `words`, if it is similar enough.
 pub(in crate::study) fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
     let likeness = |candidate: &str| strsim::jaro_winkler(candidate, &word.to_lowercase());
     let nearest = words.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;

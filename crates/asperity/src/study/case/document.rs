@@ -1,4 +1,4 @@
-//! The text of a case file and where its keys stand in it.
+//! Text of a case file and the places of its keys.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -9,14 +9,14 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::error::{CaseError, Error};
 
-/// What an error needs in order to show its place.
+/// The text and the places that an error needs to show its own place.
 #[derive(Debug, Clone, Default)]
 pub(in crate::study) struct Document {
-    /// What the file is: "the case".
+    /// Name of the kind of file: "the case".
     noun: &'static str,
     file: PathBuf,
     text: String,
-    /// The places of values and of headers of tables, by dotted key.
+    /// Places of values and of headers of tables, by dotted key.
     spans: BTreeMap<String, Range<usize>>,
 }
 
@@ -25,7 +25,7 @@ impl Document {
         Self::of("the case", file, text)
     }
 
-    /// The text of a file that is called `noun` in messages.
+    /// Creates the document of a file called `noun` in messages.
     pub(in crate::study) fn of(noun: &'static str, file: PathBuf, text: &str) -> Self {
         Self { noun, file, text: text.to_owned(), spans: BTreeMap::new() }
     }
@@ -34,7 +34,7 @@ impl Document {
         self.noun
     }
 
-    /// Parses the text; the document then knows where each key stands.
+    /// Parses the text, and stores the place of each key.
     pub(in crate::study) fn parse<'i>(&mut self, text: &'i str) -> Result<Spanned<DeTable<'i>>, Error> {
         let root = DeTable::parse(text).map_err(|error| {
             let quotes = error.message().contains("must be quoted");
@@ -57,7 +57,7 @@ impl Document {
         }
     }
 
-    /// The tables of an array of tables: `path.0`, `path.1`, …
+    /// Stores the tables of an array of tables: `path.0`, `path.1`, …
     fn note_items(&mut self, items: &DeArray<'_>, path: &str) {
         for (n, item) in items.iter().enumerate() {
             if let DeValue::Table(table) = item.get_ref() {
@@ -73,7 +73,7 @@ impl Document {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// The place of a key or, where the file does not name it, of the table that would hold it.
+    /// Returns the place of a key or, if the file does not contain it, of the table that would.
     pub(super) fn place(&self, key: &str) -> Range<usize> {
         let mut key = key;
         loop {
@@ -87,7 +87,7 @@ impl Document {
         }
     }
 
-    /// An error at a dotted key, or at the table that would hold it.
+    /// Creates an error at a dotted key, or at the table that would contain it.
     pub(in crate::study) fn error_at(
         &self,
         key: &str,

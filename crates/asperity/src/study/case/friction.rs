@@ -1,4 +1,4 @@
-//! `[friction]` and `[[history]]`: friction, and how a static contact comes to bear what it bears.
+//! `[friction]` and `[[history]]`: friction, and the loading history of a static contact.
 
 use serde::{Serialize, Serializer};
 
@@ -12,80 +12,80 @@ use crate::motion::{Point, Stage};
 use crate::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use crate::units::SquareMetre;
 
-/// Friction, and what it resists.
+/// Friction, and the tangential loading.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FrictionSpec {
     /// The law.
     #[serde(flatten, serialize_with = "with_infinities")]
     pub law: Friction,
-    /// What is prescribed in the plane of a static contact; no force where there is nothing, nor `creepages`.
+    /// Prescribed tangential loading of a static contact; no force if neither it nor `creepages` is given.
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
-    /// Creepages of a contact that rolls, one after the other, each on virgin bodies; none of a contact that is no sweep.
+    /// Creepages of a rolling contact in a sweep, each on virgin bodies; empty without a sweep.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub creepages: Vec<[f64; 2]>,
-    /// Spin of a rolling contact, 1/m; 0 of any other.
+    /// Spin of a rolling contact, 1/m; 0 for any other contact.
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,
-    /// Equal steps in which a static contact is loaded, ≥ 1; of a rolling contact and of a motion 1.
+    /// Number of equal loading steps of a static contact, ≥ 1; 1 for a rolling contact and a motion.
     #[serde(skip_serializing_if = "is_one")]
     pub increments: usize,
 }
 
-/// What is prescribed in the plane, along x and y.
+/// Prescribed tangential loading, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum InPlane {
     /// Force of the upper body on the lower one.
     Force([f64; 2]),
-    /// Displacement of the upper body against the lower one.
+    /// Displacement of the upper body relative to the lower one.
     Displacement([f64; 2]),
-    /// The upper body slides in this direction, a unit vector.
+    /// Sliding of the upper body in this direction, a unit vector.
     Sliding([f64; 2]),
-    /// Rolling along x, with the velocity of the upper body against the lower one over the rolling velocity.
+    /// Rolling along x, with the velocity of the upper body relative to the lower one over the rolling velocity.
     Creepage([f64; 2]),
     /// Rolling along x, with the force of the upper body on the lower one.
     RollingForce([f64; 2]),
 }
 
-/// A further stage of the loading: what it does not name stays.
+/// A further stage of the loading. Quantities not given stay as they are.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StageSpec {
-    /// What is prescribed in the normal direction.
+    /// Prescribed load, mean pressure or approach.
     #[serde(flatten)]
     pub normal: Option<Prescribed>,
-    /// What is prescribed in the plane: force, displacement or sliding.
+    /// Prescribed tangential loading: force, displacement or sliding.
     #[serde(flatten)]
     pub in_plane: Option<InPlane>,
-    /// Equal steps, ≥ 1.
+    /// Number of equal steps, ≥ 1.
     pub increments: usize,
 }
 
-/// The loading path of a static contact: what is prescribed, one state after another.
+/// Loading path of a static contact: the sequence of prescribed states.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadingPath {
-    /// Loaded stage after stage.
+    /// Loading stage after stage.
     Stages(Vec<Stage>),
     /// One contact in steady rolling.
     Rolling(Rolling),
-    /// One load after another, each on virgin bodies.
+    /// Load sweep, each load on virgin bodies.
     Sweep(Vec<Point>),
 }
 
 impl FrictionSpec {
-    /// Whether the contact rolls.
+    /// Whether the contact is rolling.
     pub(super) fn rolls(&self) -> bool {
         self.rolling().next().is_some()
     }
 
-    /// Whether any shear makes the bodies slip.
+    /// Whether any shear causes slip.
     pub(super) fn slips(&self) -> bool {
         self.law.shear_limit(1.0).is_finite()
     }
 
-    /// How the contact rolls: at each of `creepages`, or once.
+    /// Returns the rolling states: one for each of `creepages`, or a single one.
     fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
         let one = self.prescribed.and_then(InPlane::creep);
         let creeps = self.creepages.iter().copied().map(Creep::Creepage).chain(one);
@@ -94,7 +94,7 @@ impl FrictionSpec {
 }
 
 impl LoadingPath {
-    /// What rolls steadily.
+    /// Returns the states of steady rolling.
     pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
         let (one, points) = match self {
             Self::Stages(_) => (None, &[][..]),
@@ -106,10 +106,10 @@ impl LoadingPath {
 }
 
 impl Case {
-    /// The loading path of a static contact on so large an apparent area: `[contact]`, then each `[[history]]`; none with a
-    /// `[motion]` or `[sliding]`.
+    /// Returns the loading path of a static contact on this apparent area: `[contact]`, then each `[[history]]`; `None`
+    /// with a `[motion]` or `[sliding]`.
     ///
-    /// Without friction a first stage is a single increment, unless bodies flow below their surfaces: pressed for the first time, a
+    /// Without friction the first stage is a single increment, except for elasto-plastic bodies. The first loading of a
     /// contact does not depend on its steps.
     pub fn loading_path(&self, apparent_area: SquareMetre) -> Option<LoadingPath> {
         if self.motion.is_some() || self.sliding.is_some() {
@@ -148,14 +148,14 @@ impl Case {
         Some(LoadingPath::Stages(stages))
     }
 
-    /// Whether it is a static contact at one point after another.
+    /// Whether the contact is solved at several points, one after another.
     pub fn is_swept(&self) -> bool {
         matches!(self.loading_path(1.0), Some(LoadingPath::Sweep(_)))
     }
 }
 
 impl InPlane {
-    /// What is prescribed to bodies that do not roll.
+    /// Returns the tangential loading of bodies that do not roll.
     fn tangential(self) -> Option<Tangential> {
         match self {
             Self::Force(force) => Some(Tangential::Force(force)),
@@ -165,7 +165,7 @@ impl InPlane {
         }
     }
 
-    /// What is prescribed to bodies that roll.
+    /// Returns the tangential loading of rolling bodies.
     fn creep(self) -> Option<Creep> {
         match self {
             Self::Creepage(creepage) => Some(Creep::Creepage(creepage)),
@@ -175,10 +175,10 @@ impl InPlane {
     }
 }
 
-/// What acts in the plane of a static contact.
+/// Keys of the tangential loading of a static contact.
 pub(super) const IN_PLANE: [&str; 6] =
     ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
-/// What a stage may change: in the normal direction, then in the plane.
+/// Keys that a stage may change: normal, then tangential.
 const STAGE: [&str; 6] = ["load", "mean_pressure", "approach", "force", "displacement", "sliding"];
 
 pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
@@ -198,7 +198,7 @@ pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
     })
 }
 
-/// The stages after the first, each in so many `steps` where it does not say in how many.
+/// Returns the stages after the first; by default each has `steps` steps.
 pub(super) fn stages(
     entry: &Entry<'_>,
     friction: Option<&FrictionSpec>,
@@ -223,7 +223,7 @@ pub(super) fn stages(
     entry.tables()?.iter().map(stage).collect()
 }
 
-/// An error if more than one of `keys` is given.
+/// Returns an error if more than one of `keys` is given.
 fn at_most_one(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
     match keys.iter().any(|key| table.get(key).is_some()) {
         true => table.exactly_one(keys, "give one of them, or none").map(|_| ()),
@@ -231,7 +231,7 @@ fn at_most_one(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
     }
 }
 
-/// What [friction] or a stage prescribes in the plane, of which it names one at most.
+/// Reads the tangential loading of [friction] or of a stage, at most one key of which is given.
 fn in_plane(table: &Table<'_>) -> Result<Option<InPlane>> {
     let force = keys::FORCE.of(table)?.map(InPlane::Force);
     let displacement = keys::DISPLACEMENT.of(table)?.map(InPlane::Displacement);

@@ -1,4 +1,4 @@
-//! What a body bears: one pressure, or a map of its cells.
+//! Hardness of a body: one pressure, or a map of its cells.
 
 use std::path::PathBuf;
 
@@ -10,32 +10,32 @@ use crate::units::Pascal;
 /// Hardness of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hardness {
-    /// The same in every cell, > 0; infinite for an elastic body.
+    /// The same value in every cell, > 0; infinite for an elastic body.
     Uniform(Pascal),
-    /// A value for each cell of the body as it is prepared.
+    /// A value for each cell of the prepared body.
     Map(HardnessMap),
-    /// A value for each cell, which the caller has in memory, see [`Given`](crate::study::Given).
+    /// A value for each cell, supplied in memory by the caller, see [`Given`](crate::study::Given).
     Given(GivenMap),
 }
 
-/// A hardness that the caller has in memory.
+/// A hardness supplied in memory by the caller.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GivenMap {
-    /// The name under which it is given.
+    /// The name under which it is supplied.
     #[serde(rename = "given")]
     pub name: String,
 }
 
-/// A hardness that is read from a file.
+/// A hardness read from a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HardnessMap {
     /// The file.
     #[serde(rename = "file")]
     pub path: PathBuf,
-    /// Its channel; the first one if absent.
+    /// Channel of the file; the first one by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<String>,
-    /// What a 1 in the file stands for, > 0.
+    /// Size of the unit of the values in the file, > 0.
     pub unit: Pascal,
 }
 

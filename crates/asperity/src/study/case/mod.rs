@@ -1,7 +1,7 @@
-//! Case files: one TOML file says which bodies meet, under what, and how they move.
+//! Case files: one TOML file describes the bodies, their loading and their motion.
 //!
-//! Everything is checked that the file alone can tell; each mistake is shown where it stands. A [`Case`] is in SI
-//! and serialises under the keys of the file; it deserialises into the same case.
+//! Everything that the file alone determines is checked, and each mistake is reported at its place. A [`Case`] is in SI and
+//! serialises under the keys of the file, so that a summary contains the computed case.
 
 mod body;
 mod contact;
@@ -57,40 +57,40 @@ use crate::units::SquareMetre;
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Case {
-    /// The file's name where it gives none.
+    /// The title; by default the file name.
     pub title: String,
-    /// The body underneath.
+    /// The lower body.
     pub lower: Body,
-    /// The body above.
+    /// The upper body.
     #[serde(serialize_with = "with_mount")]
     pub upper: Body,
-    /// What presses them together.
+    /// Load, boundary and solver.
     pub contact: Contact,
-    /// Friction of the bodies; none if absent.
+    /// Friction of the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
-    /// Stages of the loading of a static contact after the first, which `contact`, and `friction` if there is any, prescribe.
+    /// Later stages of the loading of a static contact. The first is prescribed by `contact` and, if given, `friction`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<StageSpec>,
-    /// How they move; a static contact if absent.
+    /// Motion of the bodies; `None` for a static contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
-    /// How a static contact slides in place; not at all if absent.
+    /// Wear in place of a static contact; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sliding: Option<SlidingSpec>,
-    /// How many passes a computed one may stand for; each is computed if absent.
+    /// Extrapolation over passes; by default each pass is computed.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "with_jumps")]
     pub acceleration: Option<Acceleration>,
-    /// Temperatures of the bodies; not known if absent.
+    /// Temperatures of the bodies; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureSpec>,
-    /// The volumes of bodies that flow; none if absent.
+    /// The volumes of elasto-plastic bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<PlasticitySpec>,
-    /// What is looked at under the surface; nothing if absent.
+    /// Requested output of the stress under the surface; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
-    /// What is kept.
+    /// Output options.
     pub output: Output,
     #[serde(skip)]
     document: Document,
@@ -100,37 +100,38 @@ pub struct Case {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Body {
-    /// The body's elastic constants; what it bears, [`Body::hardness`] tells.
+    /// Elastic constants of the body. Its hardness is in [`Body::hardness`].
     #[serde(flatten, serialize_with = "with_infinities")]
     pub material: Material,
-    /// The most pressure that the body's cells bear; infinite where the file gives none.
+    /// Largest pressure that the cells of the body can carry; infinite by default.
     pub hardness: Hardness,
-    /// How it flows below its surface; elastic if absent.
+    /// Plastic flow below the surface; elastic if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<FlowSpec>,
-    /// What it conducts and stores of heat; not known if absent.
+    /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
-    /// How it wears; not at all if absent.
+    /// Wear of the body; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearSpec>,
-    /// The tribofilm that grows on it; none if absent.
+    /// Tribofilm on the body; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub film: Option<FilmSpec>,
     /// The body's surface.
     pub topography: TopographySpec,
-    /// How the heights face: always [`Mount::AsIs`] for the lower body. `None` where the file is to tell: as they are if
-    /// they are an underside, see [`Scan::is_underside`](crate::surface::Scan::is_underside), else turned over.
+    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as
+    /// they are if it describes an underside, see [`Scan::is_underside`](crate::surface::Scan::is_underside), else turned
+    /// over.
     #[serde(skip)]
     pub mount: Option<Mount>,
 }
 
-/// How the heights of a body become those of the case.
+/// Conversion of the heights of a body to those of the case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mount {
-    /// Measured material side up, then turned over about y: mirrored in x, the sign of the heights changed.
+    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights changed.
     TurnedOver,
-    /// The heights are those of the case already.
+    /// The heights are already those of the case.
     AsIs,
 }
 
@@ -144,7 +145,7 @@ pub struct Contact {
     pub prescribed: Prescribed,
     /// The points of a sweep, all of one kind, each on virgin bodies; empty without a sweep.
     pub sweep: Vec<Prescribed>,
-    /// What lies beyond the rim of the grid.
+    /// Continuation of the surfaces beyond the grid.
     pub boundary: Boundary,
     /// The solver.
     pub method: Method,
@@ -173,33 +174,33 @@ impl Serialize for Contact {
     }
 }
 
-/// A motion whose load is still that of [`Contact`]; see [`Case::motion`].
+/// A motion without its load, which is in [`Contact`]; see [`Case::motion`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MotionSpec {
     /// Overlap or circular shift.
     #[serde(flatten, serialize_with = "with_speeds")]
     pub strategy: Strategy,
-    /// ≥ 1.
+    /// Number of passes, ≥ 1.
     pub passes: usize,
     /// Cells per step, ≥ 1.
     pub stride: usize,
-    /// What [`Contact::prescribed`] holds: the mean over a pass, or each position.
+    /// Where [`Contact::prescribed`] holds: as the mean over a pass, or at each position.
     pub control: ControlKind,
     /// When plastic deformation is applied.
     pub plastic_update: PlasticUpdate,
-    /// Relative, on the pass-mean load, 0 < tolerance < 1.
+    /// Relative tolerance on the pass-mean load, 0 < tolerance < 1.
     pub load_tolerance: f64,
-    /// Speed of the upper body over the lower one in an overlap, where it is given.
+    /// Speed of the upper body over the lower one in an overlap, if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
-    /// One way, or there and back.
+    /// Forward stroke alone, or forward and return stroke.
     #[serde(skip_serializing_if = "is_one_way")]
     pub path: MotionPath,
-    /// Where along y the passes lie.
+    /// Offset of the passes along y.
     #[serde(flatten, serialize_with = "with_seed")]
     pub offset_y: OffsetY,
-    /// What meets the lower body in the passes after the first.
+    /// The upper body in the passes after the first.
     #[serde(skip_serializing_if = "is_same")]
     pub counter: CounterBody,
 }
@@ -207,21 +208,21 @@ pub struct MotionSpec {
 /// The upper body in the passes after the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CounterBody {
-    /// The same as before.
+    /// The same as in the first pass.
     Same,
-    /// One that is made anew for each, by the same generator from another seed.
+    /// A new one for each pass, from the same generator with another seed.
     Fresh,
 }
 
 choice!(CounterBody: "same" => Same, "fresh" => Fresh);
 
 impl MotionSpec {
-    /// Whether all passes are alike: the same bodies meet at the same positions.
+    /// Whether all passes have the same bodies at the same positions.
     pub fn repeats(&self) -> bool {
         self.counter == CounterBody::Same && self.under(Control::Approach(0.0)).repeats()
     }
 
-    /// The motion under a control.
+    /// Returns the motion under a control.
     fn under(&self, control: Control) -> Motion {
         Motion {
             strategy: self.strategy,
@@ -252,7 +253,7 @@ pub enum ControlKind {
 }
 
 impl ControlKind {
-    /// Where a load holds; of an approach it does not matter.
+    /// Where a load holds; irrelevant for an approach.
     fn load_control(self) -> LoadControl {
         match self {
             Self::StepLoad => LoadControl::Step,
@@ -266,7 +267,7 @@ choice!(ControlKind: "pass-load" => PassLoad, "step-load" => StepLoad, "approach
 /// A [`Strategy`] without its speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StrategyKind {
-    /// Only what faces is solved.
+    /// Only the overlap is solved.
     Overlap,
     /// The surfaces are shifted circularly.
     Shift,
@@ -283,19 +284,19 @@ impl From<&Strategy> for StrategyKind {
     }
 }
 
-/// What is kept of the results.
+/// Output options.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Output {
-    /// The pressure field of every n-th position; 0: of none.
+    /// Interval of the positions whose pressure fields are kept; 0 for none.
     pub pressure_every: usize,
-    /// The part of a body's length at its free ends that is left out of what is told of its interior, 0 ≤ rim < ½.
+    /// Fraction of the body length at its free ends that is excluded from its interior, 0 ≤ rim < ½.
     pub rim: f64,
-    /// Whether all fields are written for ParaView, too.
+    /// Whether all fields are also written for ParaView.
     pub paraview: bool,
 }
 
-/// The largest case file that is read.
+/// Largest accepted case file.
 pub(in crate::study) const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
@@ -304,7 +305,7 @@ impl Case {
         [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
     }
 
-    /// Reads a case file; the files it names are looked for in its folder.
+    /// Reads a case file. Paths of files are relative to its folder.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
@@ -317,7 +318,7 @@ impl Case {
         Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
     }
 
-    /// Reads a case from its text. `file` is the name for its errors, `folder` where the files it names lie.
+    /// Reads a case from its text. `file` is its name in errors; paths of files are relative to `folder`.
     ///
     /// # Errors
     /// [`Error::Case`] if it has a mistake.
@@ -325,23 +326,23 @@ impl Case {
         parse::case(text, file, folder)
     }
 
-    /// An error that the case shows only once it is put to work, at the place of a dotted `key`
-    /// (`upper.topography.file`), or of the table that would hold it.
+    /// Creates an error that appears only when the case is used, at the place of a dotted `key` (`upper.topography.file`),
+    /// or of the table that would contain it.
     pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
         self.document.error_at(key, message, hint)
     }
 
-    /// The text of the case, with its places.
+    /// Text of the case, with its places.
     pub(in crate::study) fn document(&self) -> &Document {
         &self.document
     }
 
-    /// What the file says at a dotted `key`, as it is written there.
+    /// Returns the text of the file at a dotted `key`.
     pub(in crate::study) fn written(&self, key: &str) -> String {
         self.document.written(self.document.place(key))
     }
 
-    /// The motion with its load. A mean pressure acts on `apparent_area`, that of all cells when all faces all.
+    /// Returns the motion with its load. A mean pressure acts on `apparent_area`, the area of all cells at full overlap.
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),
@@ -350,7 +351,7 @@ impl Case {
         })
     }
 
-    /// The files that the case names.
+    /// Iterates over the files named in the case.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.lower, &self.upper].into_iter().flat_map(|body| {
             let surface = match &body.topography.source {
@@ -366,12 +367,12 @@ impl Case {
     }
 }
 
-/// The topography of a table `[topography]` that stands alone, and the document that it stands in.
+/// Reads the topography of a separate table `[topography]`; also returns its document.
 pub(in crate::study) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
     parse::topography_alone(text, folder)
 }
 
-/// A number of the case as it is written out: JSON has no infinities, the case file has `inf`.
+/// A number of the case in its output: JSON has no infinities, so they are written as `inf`, as in the case file.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Number {
@@ -428,7 +429,7 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
     Keys { body: upper, mount: upper.mount }.serialize(serializer)
 }
 
-// What is as it is by default is left out: cases of before these keys stay known by their digests.
+// Default values are omitted, so that cases from before these keys keep their digests.
 
 fn is_one_way(path: &MotionPath) -> bool {
     *path == MotionPath::OneWay
@@ -454,7 +455,7 @@ fn with_seed<S: Serializer>(offset: &OffsetY, serializer: S) -> std::result::Res
     keys.serialize(serializer)
 }
 
-/// The word for passes that lie anywhere along y.
+/// The word for passes at random offsets along y.
 const RANDOM: &str = "random";
 
 fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {

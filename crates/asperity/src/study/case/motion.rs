@@ -1,4 +1,4 @@
-//! `[motion]`: how the bodies move.
+//! `[motion]`: motion of the bodies.
 
 use super::cursor::Table;
 use super::schema::moving::motion as keys;

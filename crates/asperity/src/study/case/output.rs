@@ -1,4 +1,4 @@
-//! `[output]`: what is kept.
+//! `[output]`: output options.
 
 use super::Output;
 use super::cursor::Table;

@@ -1,4 +1,4 @@
-//! From text to [`Case`]: the tables one by one, each by a function of its own, then what does not go together.
+//! From text to [`Case`]: each table is read by its own function, then combinations are checked.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
 use crate::error::Result;
 
-/// A topography that stands alone, in the table `[topography]`, and the document that it stands in.
+/// Reads a topography in a separate table `[topography]`; also returns its document.
 pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
     let mut document = Document::new(PathBuf::new(), text);
     let entries = document.parse(text)?;
@@ -39,7 +39,7 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     Ok(Case { document, ..case })
 }
 
-/// All tables of a case, which is without its document yet.
+/// Reads all tables of a case, still without its document.
 fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     known_in(root)?;
     let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
@@ -56,7 +56,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         .of(root)?
         .map(|table| plasticity(&table, root, &mut motion, &mut friction))
         .transpose()?;
-    // Bodies that flow go on in the steps in which they have begun.
+    // Later stages of elasto-plastic bodies have as many steps as the first one.
     let steps = match (&plasticity, &friction) {
         (None, _) => 1,
         (Some(_), Some(friction)) => friction.increments,

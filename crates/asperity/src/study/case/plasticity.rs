@@ -1,4 +1,4 @@
-//! `[lower.plasticity]`, `[upper.plasticity]` and `[plasticity]`: bodies that flow below their surfaces.
+//! `[lower.plasticity]`, `[upper.plasticity]` and `[plasticity]`: elasto-plastic bodies.
 
 use serde::Serialize;
 
@@ -13,11 +13,11 @@ use crate::motion::PlasticUpdate;
 use crate::plasticity::{FlowParams, Hardening, J2, Layers};
 use crate::units::{Metre, Pascal};
 
-/// How a body flows: von Mises' yield criterion, with hardening of both kinds.
+/// Flow law of a body: von Mises' yield criterion, with isotropic and kinematic hardening.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FlowSpec {
-    /// The yield stress over the plastic strain.
+    /// Yield stress as a function of the plastic strain.
     #[serde(flatten)]
     pub hardening: HardeningKey,
     /// Prager's modulus of the back stress, ≥ 0.
@@ -26,43 +26,43 @@ pub struct FlowSpec {
     pub recovery: f64,
 }
 
-/// The yield stress over the plastic strain: by two keys, or by a measured curve.
+/// Yield stress as a function of the plastic strain: by two keys, or by a measured curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum HardeningKey {
-    /// A line.
+    /// Linear hardening.
     Linear {
         /// Yield stress of the virgin body in tension, > 0.
         yield_stress: Pascal,
-        /// Its growth with the plastic strain, ≥ 0.
+        /// Its increase per plastic strain, ≥ 0.
         hardening: Pascal,
     },
-    /// Straight lines between measured points, level beyond the last.
+    /// Straight lines between measured points, constant beyond the last.
     Curve {
-        /// Plastic strains, from 0 on, rising, and the stresses there, not falling.
+        /// Plastic strains, from 0, increasing, and the stresses there, not decreasing.
         curve: Vec<(f64, Pascal)>,
     },
 }
 
-/// The volumes that may flow, and how far the plastic strain is to be found.
+/// The plastic volumes, and the tolerance of the plastic strain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PlasticitySpec {
-    /// Depth of the volume that may flow.
+    /// Depth of the plastic volume.
     pub depth: Metre,
     /// Number of its layers, 1 to 512.
     pub layers: usize,
-    /// Thickness of a layer over that of the one above, 1 to 2.
+    /// Ratio of the thickness of a layer to that of the one above, 1 to 2.
     pub growth: f64,
-    /// Equal steps of the load of a static contact, ≥ 1; none with friction, which has them, nor in a motion.
+    /// Number of equal load steps of a static contact, ≥ 1; `None` with friction, which sets them, and in a motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub increments: Option<usize>,
-    /// Largest mismatch of the stress over the yield stress, 0 < tolerance < 1.
+    /// Largest return-mapping residual over the yield stress, 0 < tolerance < 1.
     pub tolerance: f64,
-    /// Whether the load of a static contact is taken off at the end; none in a motion, where it is.
+    /// Whether a static contact is unloaded at the end; `None` in a motion, which always unloads.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unload: Option<bool>,
-    /// Of which passes of a motion the volumes are kept; none of a contact at rest.
+    /// The passes of a motion whose volumes are kept; `None` for a static contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep: Option<Keep>,
 }
@@ -93,7 +93,7 @@ pub(super) fn flow(table: &Table<'_>) -> Result<FlowSpec> {
     Ok(FlowSpec { hardening, kinematic, recovery })
 }
 
-/// `[plasticity]`, with what it changes in the `motion` of the bodies and in their `friction`.
+/// `[plasticity]`, with its effect on the `motion` of the bodies and on their `friction`.
 pub(super) fn plasticity(
     table: &Table<'_>,
     root: &Table<'_>,
@@ -104,12 +104,12 @@ pub(super) fn plasticity(
     let at_rest = motion.is_none();
     let increments = keys::INCREMENTS.of(table)?;
     if let Some(motion) = motion {
-        // Bodies flow at every position.
+        // Plastic flow occurs at every position.
         motion.plastic_update = PlasticUpdate::Step;
     } else if let (Some(friction), Some(of_friction)) = (friction.as_mut(), root.table("friction")?)
         && INCREMENTS.entry(&of_friction).is_none()
     {
-        // The load comes in the steps of the volume.
+        // The load is applied in the steps of the volume.
         friction.increments = increments;
     }
     Ok(PlasticitySpec {
@@ -124,7 +124,7 @@ pub(super) fn plasticity(
 }
 
 impl FlowSpec {
-    /// The flow law.
+    /// Returns the flow law.
     pub(in crate::study) fn law(&self) -> Result<J2> {
         let hardening = match &self.hardening {
             HardeningKey::Linear { yield_stress, hardening } => Hardening::linear(*yield_stress, *hardening)?,
@@ -146,12 +146,12 @@ impl FlowSpec {
 }
 
 impl PlasticitySpec {
-    /// The layers of the volume that may flow.
+    /// Returns the layers of the plastic volume.
     pub(in crate::study) fn layers(&self) -> Result<Layers> {
         Layers::new(self.depth, self.layers, self.growth)
     }
 
-    /// When an increment is done.
+    /// Returns the convergence criteria of an increment.
     pub(in crate::study) fn params(&self) -> FlowParams {
         FlowParams::new().with_tolerance(self.tolerance)
     }

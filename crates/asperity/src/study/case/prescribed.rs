@@ -1,4 +1,4 @@
-//! What presses the bodies together: one of `load`, `mean_pressure`, `approach`, or a list of one of them.
+//! Prescribed normal loading: one of `load`, `mean_pressure`, `approach`.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::solver;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};
 
-/// The load or approach that a case prescribes.
+/// Prescribed normal loading.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Prescribed {
@@ -16,12 +16,12 @@ pub enum Prescribed {
     Load(Newton),
     /// Load over the apparent area, > 0.
     MeanPressure(Pascal),
-    /// Approach from the heights as prepared; of any sign.
+    /// Approach relative to the prepared heights; positive or negative.
     Approach(Metre),
 }
 
 impl Prescribed {
-    /// What the solver is given, on this apparent area.
+    /// Returns the control of the solver, on this apparent area.
     pub fn control(&self, apparent_area: SquareMetre) -> solver::Control {
         match *self {
             Self::Load(load) => solver::Control::Load(load),

@@ -1,4 +1,4 @@
-//! `[lower.wear]`, `[lower.film]`, `[acceleration]` and `[temperature]`: how bodies run in.
+//! `[lower.wear]`, `[lower.film]`, `[acceleration]` and `[temperature]`: running-in of the bodies.
 
 use serde::Serialize;
 
@@ -20,21 +20,21 @@ use crate::units::{Kelvin, Metre, Pascal, PerPascal};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WearSpec {
-    /// Volume lost, per load and distance slid or per energy of friction.
+    /// Volume lost, per load and distance slid or per frictional energy.
     #[serde(flatten)]
     pub coefficient: WearKey,
-    /// The coefficient where the film is at its thickest; that of the bare body if absent.
+    /// The coefficient under a film of largest thickness; by default that of the bare body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub under_film: Option<PerPascal>,
 }
 
-/// One of the keys `coefficient`, `dimensionless` and `energy`, the second of which is resolved to the first.
+/// One of the keys `coefficient`, `dimensionless` and `energy`. The second is resolved to the first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WearKey {
     /// Per load and distance slid.
     Coefficient(PerPascal),
-    /// Per energy of friction.
+    /// Per frictional energy.
     Energy(PerPascal),
 }
 
@@ -42,12 +42,12 @@ pub enum WearKey {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FilmSpec {
-    /// How it grows and is removed.
+    /// Law of its growth and removal.
     #[serde(flatten)]
     pub law: FilmLaw,
-    /// The thickness that it cannot exceed.
+    /// Largest thickness.
     pub max_thickness: Metre,
-    /// What its cells bear where it is at its thickest; what the body bears if absent.
+    /// Hardness of its cells at the largest thickness; by default that of the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Pascal>,
 }
@@ -58,11 +58,11 @@ pub struct FilmSpec {
 pub struct TemperatureSpec {
     /// Temperatures of the lower and of the upper body far from the contact.
     pub bulk: [Kelvin; 2],
-    /// Computed passes from one of which the flash temperature is computed to the next; 0 if in none.
+    /// Interval of the computed passes with a computed flash temperature; 0 for none.
     pub every: usize,
 }
 
-/// Wear in the table of a body.
+/// Reads the wear from the table of a body.
 pub(super) fn wear(table: &Table<'_>, hardness: &Hardness) -> Result<WearSpec> {
     known_in(table)?;
     let keys = ["coefficient", "dimensionless", "energy"];
@@ -93,7 +93,7 @@ pub(super) fn wear(table: &Table<'_>, hardness: &Hardness) -> Result<WearSpec> {
     Ok(WearSpec { coefficient, under_film })
 }
 
-/// The film in the table of a body.
+/// Reads the film from the table of a body.
 pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
     known_in(table)?;
     let law = film::LAW.of(table)?;
@@ -144,7 +144,7 @@ pub(super) fn acceleration(table: &Table<'_>) -> Result<Acceleration> {
         .with_max_wear(acceleration::MAX_WEAR.of(table)?))
 }
 
-/// The thermal constants of a body, all of them or none.
+/// Reads the thermal constants of a body, all of them or none.
 pub(super) fn thermal(table: &Table<'_>) -> Result<Option<Thermal>> {
     let keys = [body::CONDUCTIVITY, body::HEAT_CAPACITY, body::DENSITY];
     if keys.iter().all(|key| key.entry(table).is_none()) {
@@ -154,7 +154,7 @@ pub(super) fn thermal(table: &Table<'_>) -> Result<Option<Thermal>> {
     Thermal::new(conductivity?, heat_capacity?, density?).map(Some)
 }
 
-/// `[temperature]`, with the flash temperature at each position where the bodies are `heated`.
+/// `[temperature]`, with the flash temperature at each position if the bodies are `heated`.
 pub(super) fn temperature(table: &Table<'_>, heated: bool) -> Result<TemperatureSpec> {
     known_in(table)?;
     let bulk = temperature::BULK.of(table)?;
@@ -162,10 +162,10 @@ pub(super) fn temperature(table: &Table<'_>, heated: bool) -> Result<Temperature
 }
 
 impl Case {
-    /// The motion with the laws by which its bodies wear and grow films.
+    /// Adds to a motion the laws of wear and film growth of its bodies.
     ///
     /// # Errors
-    /// What the library has against them.
+    /// The errors of the library.
     pub(in crate::study) fn running(&self, simulation: Simulation) -> Result<Simulation> {
         let (wear, films) = self.laws(simulation.pair())?;
         let mut simulation = simulation;
@@ -184,10 +184,10 @@ impl Case {
         }
     }
 
-    /// A contact that slides in place with the same laws.
+    /// Adds the same laws to a contact that wears in place.
     ///
     /// # Errors
-    /// What the library has against them.
+    /// The errors of the library.
     pub(in crate::study) fn wearing(&self, contact: InPlace) -> Result<InPlace> {
         let (wear, films) = self.laws(contact.pair())?;
         let mut contact = contact;
@@ -203,7 +203,7 @@ impl Case {
         }
     }
 
-    /// The laws by which the bodies of a `pair` wear and grow films.
+    /// Creates the laws of wear and film growth of the bodies of a `pair`.
     fn laws(&self, pair: &Pair) -> Result<(Option<Wear>, Option<Films>)> {
         let bodies = [&self.lower, &self.upper];
         let films = bodies.map(|body| body.film.as_ref().map(FilmSpec::film).transpose());
@@ -218,7 +218,7 @@ impl Case {
         Ok((wear, grows.then(|| Films::new(films, pair)).transpose()?))
     }
 
-    /// The thermal constants of bodies that friction heats; none where that is not computed.
+    /// Returns the thermal constants of bodies heated by friction; `None` if this is not computed.
     fn heated(&self) -> Option<[Thermal; 2]> {
         let wanted = self.temperature.is_some_and(|temperature| temperature.every > 0);
         Some([self.lower.thermal?, self.upper.thermal?]).filter(|_| wanted)
@@ -231,7 +231,7 @@ impl Case {
 }
 
 impl Body {
-    /// The depth that the body loses per pressure and distance slid where shear is `friction` times the pressure, 1/Pa.
+    /// Depth that the body loses per pressure and distance slid, 1/Pa, with shear equal to `friction` times the pressure.
     pub(in crate::study) fn wear_per_pressure(&self, friction: f64) -> PerPascal {
         match self.wear {
             None => 0.0,

@@ -1,4 +1,4 @@
-//! `[sliding]`: a static contact that slides some distance and wears in place.
+//! `[sliding]`: a static contact that slides some distance, with wear in place.
 
 use serde::Serialize;
 
@@ -10,16 +10,16 @@ use crate::error::Result;
 use crate::motion::Slide;
 use crate::units::{Metre, MetrePerSecond, SquareMetre};
 
-/// How a static contact slides in place.
+/// Sliding of a contact that wears in place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SlidingSpec {
-    /// Distance, > 0.
+    /// Distance slid, > 0.
     pub distance: Metre,
-    /// Speed of the upper body over the lower one, > 0; not known if absent.
+    /// Speed of the upper body over the lower one, > 0; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
-    /// Implicit updates, ≥ 1.
+    /// Number of implicit updates, ≥ 1.
     pub updates: usize,
 }
 
@@ -33,7 +33,7 @@ pub(super) fn sliding(table: &Table<'_>) -> Result<SlidingSpec> {
 }
 
 impl Case {
-    /// How a static contact slides in place, on so large an apparent area; none if it does not.
+    /// Returns the sliding of a contact that wears in place, on this apparent area; `None` for others.
     pub fn slide(&self, apparent_area: SquareMetre) -> Option<Slide> {
         let SlidingSpec { distance, speed, updates } = self.sliding?;
         let control = self.contact.prescribed.control(apparent_area);

@@ -1,4 +1,4 @@
-//! Where the heights of a body come from.
+//! Source of the heights of a body.
 
 use std::path::PathBuf;
 
@@ -9,23 +9,24 @@ use crate::grid::Grid;
 use crate::surface::{Form, Generator, Preparation, Topography};
 use crate::units::Metre;
 
-/// A topography as the case file describes it.
+/// A topography as described in the case file.
 ///
-/// Its parts act in this order: the source; the steps of [`Preparation`], where `pitch` may stand for `resample`; `plus`.
+/// Its parts act in this order: the source; the steps of [`Preparation`], with `pitch` in place of `resample` if given;
+/// `plus`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TopographySpec {
-    /// File, generator or form.
+    /// File, generator, form, or heights in memory.
     #[serde(flatten)]
     pub source: Source,
-    /// Size of a cell along x and y. It is the pitch of a generated surface, of a form (by default the other body's), and of
-    /// a file that carries none (npy, text); to a file that carries one it is resampled.
+    /// Size of a cell along x and y. It is the pitch of a generated surface, of a form (by default that of the other body),
+    /// and of a file without a pitch (npy, text). A file with a pitch is resampled to it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<[Metre; 2]>,
-    /// What is done with the heights; `despike` and `fill` belong to what is measured alone.
+    /// Preparation steps of the heights. `despike` and `fill` are for measured heights only.
     #[serde(flatten)]
     pub preparation: Preparation,
-    /// What is added on the grid that all this leads to.
+    /// Layers added on the final grid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub plus: Vec<Layer>,
 }
@@ -39,16 +40,16 @@ pub enum Source {
         /// Resolved against the folder of the case file.
         #[serde(rename = "file")]
         path: PathBuf,
-        /// The channel to take; the height channel if absent.
+        /// Channel of the file; the height channel by default.
         #[serde(skip_serializing_if = "Option::is_none")]
         channel: Option<String>,
-        /// What a 1 stands for in a file without units.
+        /// Size of the unit in a file without units.
         #[serde(skip_serializing_if = "Option::is_none")]
         unit: Option<Metre>,
     },
-    /// Heights that the caller has in memory, see [`Given`](crate::study::Given).
+    /// Heights supplied in memory by the caller, see [`Given`](crate::study::Given).
     Given {
-        /// The name under which they are given.
+        /// The name under which they are supplied.
         #[serde(rename = "given")]
         name: String,
     },
@@ -57,10 +58,10 @@ pub enum Source {
         /// The method, with its parameters.
         #[serde(flatten)]
         generate: Generator,
-        /// Number of cells along x and y; the other body's if absent.
+        /// Number of cells along x and y; by default that of the other body.
         #[serde(skip_serializing_if = "Option::is_none")]
         shape: Option<[usize; 2]>,
-        /// The seed of the random numbers: the same seed gives the same heights.
+        /// Random seed: the same seed gives the same heights.
         seed: u64,
     },
     /// A smooth body; its `pitch` is in [`TopographySpec::pitch`].
@@ -68,20 +69,20 @@ pub enum Source {
         /// The form, with its parameters.
         #[serde(flatten, serialize_with = "with_infinities")]
         form: Form,
-        /// Number of cells along x and y; the other body's if absent.
+        /// Number of cells along x and y; by default that of the other body.
         #[serde(skip_serializing_if = "Option::is_none")]
         shape: Option<[usize; 2]>,
     },
 }
 
 impl TopographySpec {
-    /// The grid on which a surface is made: what it lacks is that of the `other` body, as prepared.
+    /// Returns the grid of a generated surface. Missing values are those of the `other` body, as prepared.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`].
     ///
     /// # Panics
-    /// If the other body does not tell either.
+    /// If the other body does not provide them either.
     pub(in crate::study) fn made_on(&self, other: Option<Grid>) -> crate::error::Result<Grid> {
         let shape =
             self.source.shape().or(other.map(|grid| grid.shape)).expect("one of the bodies has a shape");
@@ -89,7 +90,7 @@ impl TopographySpec {
         Grid::new(shape, pitch)
     }
 
-    /// The keys that a surface that is made takes from the other body.
+    /// Returns the keys that a generated surface takes from the other body.
     pub(in crate::study) fn lacks(&self) -> impl Iterator<Item = &'static str> {
         let is_made = matches!(self.source, Source::Generate { .. } | Source::Form { .. });
         let keys = [("shape", self.source.shape().is_none()), ("pitch", self.pitch.is_none())];
@@ -98,7 +99,7 @@ impl TopographySpec {
 }
 
 impl Source {
-    /// Number of cells along x and y of what is made, where it is given.
+    /// Number of cells along x and y of a generated surface, if given.
     pub(in crate::study) fn shape(&self) -> Option<[usize; 2]> {
         match self {
             Self::File { .. } | Self::Given { .. } => None,
@@ -107,7 +108,7 @@ impl Source {
     }
 }
 
-/// Heights that are added: a random topography or a form, made on the grid of what they are added to.
+/// Additional heights: a random topography or a form, generated on the grid of the heights below it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Layer {
@@ -116,7 +117,7 @@ pub enum Layer {
         /// The method, with its parameters.
         #[serde(flatten)]
         generate: Generator,
-        /// The seed of the random numbers: the same seed gives the same heights.
+        /// Random seed: the same seed gives the same heights.
         seed: u64,
     },
     /// A smooth body.
@@ -128,10 +129,10 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// The layer's heights on `grid`.
+    /// Returns the heights of the layer on `grid`.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
+    /// [`crate::Error::OutOfRange`] if a parameter is invalid on this grid.
     pub fn on(&self, grid: &Grid) -> crate::error::Result<Topography> {
         match self {
             Self::Generate { generate, seed } => generate.generate(grid, *seed),

@@ -1,4 +1,4 @@
-//! The table `[subsurface]`: what is wanted of the stress under the surface.
+//! The table `[subsurface]`: requested output of the stress under the surface.
 
 use serde::Serialize;
 
@@ -9,26 +9,27 @@ use super::schema::values::subsurface::Side;
 use crate::error::Result;
 use crate::units::Metre;
 
-/// What is looked at under the surface. Positions x and y count from the corner of the body, depths from its surface.
+/// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
+/// its surface.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SubsurfaceSpec {
-    /// The body that is looked into.
+    /// The requested body.
     pub body: Side,
     /// The deepest plane, > 0.
     pub to: Metre,
-    /// Planes below the surface, evenly spaced down to `to`, ≥ 1. The surface is one more.
+    /// Number of planes below the surface, evenly spaced down to `to`, ≥ 1. The surface is one more.
     pub layers: usize,
-    /// Depths ≥ 0 of the planes that are kept whole.
+    /// Depths ≥ 0 of planes that are stored in full.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub planes: Vec<Metre>,
-    /// The y ≥ 0 at which the section along x lies; through the most stressed point if absent.
+    /// The y ≥ 0 of the section along x; by default through the most stressed point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Metre>,
-    /// Positions `[x, y]`, each ≥ 0, below which the stress is kept.
+    /// Positions `[x, y]`, each ≥ 0, below which the stress is stored.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<[Metre; 2]>,
-    /// The position of a pass that is looked at, from 1; if absent, the one at which the left edges are flush.
+    /// The requested position of a pass, from 1; by default the one at which the left edges are flush.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
 }

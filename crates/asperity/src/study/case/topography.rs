@@ -1,4 +1,4 @@
-//! `[lower.topography]` and `[upper.topography]`: where heights come from, and what is done with them.
+//! `[lower.topography]` and `[upper.topography]`: source and preparation of heights.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ use crate::surface::{
 
 pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
     known_in(table)?;
-    // Only a program that calls the library can give heights: others are not told of it.
+    // Only a program that calls the library can supply heights, so messages do not mention it otherwise.
     let kinds: &[_] = match given::GIVEN.entry(table) {
         Some(_) => &["file", "given", "generate", "form"],
         None => &["file", "generate", "form"],
@@ -46,7 +46,7 @@ pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographyS
     Ok(TopographySpec { source, pitch, preparation: preparation(table)?, plus })
 }
 
-/// An error if both bodies wait for each other's shape or pitch.
+/// Returns an error if both bodies take their shape or pitch from each other.
 pub(super) fn one_tells_the_other(
     lower: &TopographySpec,
     upper: &TopographySpec,
@@ -148,7 +148,7 @@ fn generator(table: &Table<'_>) -> Result<Generator> {
     })
 }
 
-/// Skewness and kurtosis; a skewness needs its kurtosis, which bounds its range.
+/// Reads skewness and kurtosis. A skewness needs a kurtosis, which bounds its range.
 fn heights(table: &Table<'_>) -> Result<HeightDistribution> {
     if low_pass::SSK.entry(table).is_some() {
         low_pass::SKU.demand(table)?;
@@ -188,4 +188,4 @@ fn ideal_form(table: &Table<'_>) -> Result<Form> {
     })
 }
 
-// Values of a form of their own.
+// Values of the forms.

@@ -1,7 +1,6 @@
-//! Contacts that the grid does not hold: cut off at its rim, of too few cells, or none at all.
+//! Contacts that the grid does not resolve: cut off at its boundary, with too few cells, or absent.
 //!
-//! What can be foreseen rests on Hertz' contact of the paraboloid that comes nearest to the gap; what is said of a
-//! result, on its pressures.
+//! Predictions use Hertz' contact of the paraboloid closest to the gap. Warnings about a result use its pressures.
 
 use std::f64::consts::SQRT_2;
 
@@ -12,27 +11,27 @@ use crate::reference::HertzEllipse;
 use crate::solver::Control;
 use crate::units::{self, Dimension, Metre, Pascal};
 
-/// Cells across a contact spot from which on its pressures are those of the spot, to some per cent.
+/// Number of cells across a contact spot from which its pressures are accurate to a few per cent.
 pub(in crate::study) const CELLS_ACROSS: usize = 6;
 
-/// The paraboloid nearest to a gap, by least squares over all cells.
+/// The paraboloid closest to a gap, by least squares over all cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::study) struct Paraboloid {
     /// Principal curvatures, the larger one first; positive where the gap opens outwards.
     curvatures: [f64; 2],
     /// Direction of the larger curvature, (cos φ, sin φ).
     direction: [f64; 2],
-    /// The lowest point, from the corner of the grid; the centre where there is none along a straight line.
+    /// The lowest point, relative to the corner of the grid; along a straight line, the centre.
     apex: [Metre; 2],
     extent: [Metre; 2],
     pitch: [Metre; 2],
 }
 
 impl Paraboloid {
-    /// The paraboloid nearest to `gap`; none where it tells less than nine tenths of the gap's variance about a plane: a
-    /// gap that is rough rather than curved.
+    /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the variance of the gap
+    /// about a plane: such a gap is rough rather than curved.
     pub(in crate::study) fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
-        /// Least share of the gap's variance that a paraboloid explains.
+        /// Smallest fraction of the variance of the gap that a paraboloid must explain.
         const DOMINATES: f64 = 0.9;
         let shape = [gap.nrows(), gap.ncols()];
         // On a full grid these six are orthogonal: 1, x, y, x² − its mean, y² − its mean, xy.
@@ -70,7 +69,7 @@ impl Paraboloid {
         let curvatures = [middle + half, middle - half];
         let angle = 0.5 * xy.atan2(0.5 * (xx - yy));
         let direction = [angle.cos(), angle.sin()];
-        // Along each principal direction the lowest point is where the slope vanishes.
+        // Along each principal direction the slope vanishes at the lowest point.
         let across = [-direction[1], direction[0]];
         let least = 1e-6 * curvatures[0].abs().max(curvatures[1].abs());
         let mut apex = [0, 1].map(|axis| 0.5 * shape[axis] as f64 * pitch[axis]);
@@ -89,13 +88,13 @@ impl Paraboloid {
         self.curvatures[1] <= 1e-6 * self.curvatures[0]
     }
 
-    /// The axis that a line contact lies along: that of the smaller curvature.
+    /// Axis of a line contact: that of the smaller curvature.
     fn line(&self) -> usize {
         usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
     }
 
-    /// Hertz' contact of the paraboloid under `control`, whose approach counts from the gap `touch`; none where the gap
-    /// does not open outwards in all directions, or nothing presses.
+    /// Returns Hertz' contact of the paraboloid under `control`, with the approach relative to the gap `touch`. `None` if
+    /// the gap does not open outwards in all directions, or if nothing presses.
     fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
         if self.is_endless() {
             return None;
@@ -103,19 +102,20 @@ impl Paraboloid {
         let contact = |load: f64| HertzEllipse::new(self.curvatures.map(f64::recip), modulus, load);
         let load = match control {
             Control::Load(load) => load,
-            // δ goes with W^⅔.
+            // δ is proportional to W^⅔.
             Control::Approach(approach) => ((approach - touch).max(0.0) / contact(1.0).approach).powf(1.5),
         };
         (load > 0.0 && load.is_finite()).then(|| contact(load))
     }
 
-    /// Of the free sides of the grid that on which a contact of these semi-axes along the principal directions presses
-    /// hardest at the rim: the axis, how far the contact reaches from the apex, how far the rim is, and the pressure at the
-    /// rim over that at the centre.
+    /// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the
+    /// principal directions. Returns its axis, the reach of the contact from the apex, the distance of the side, and the
+    /// pressure at the side over that at the centre.
     ///
-    /// A contact that would reach a and is cut off at w presses on the last cells, of pitch h, with about
-    /// p₀ (√(h/w) + 1.1 (a/w − 1) √(w/h)): what an edge at w adds to Hertz' pressure grows as the root of the distance
-    /// from it, here averaged over a cell; 1.1 by computations of spheres and ellipsoids on 32 to 128 cells.
+    /// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀ (√(h/w) + 1.1
+    /// (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse root of the distance from
+    /// the edge, here averaged over a cell. The factor 1.1 is from computations of spheres and ellipsoids on 32 to 128
+    /// cells.
     fn hardest_side(&self, semi_axes: [Metre; 2], boundary: Boundary) -> Option<(usize, Metre, Metre, f64)> {
         let [c, s] = self.direction;
         let [along, across] = semi_axes;
@@ -136,8 +136,8 @@ impl Paraboloid {
     }
 }
 
-/// What Hertz' estimate says of the contact of bodies with this initial `gap`: whether the rim cuts it off, and whether
-/// it has too few cells.
+/// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
+/// off, and whether it has too few cells.
 pub(super) fn foreseen(
     gap: &Field,
     pitch: [Metre; 2],
@@ -183,16 +183,16 @@ pub(super) fn foreseen(
     foreseen
 }
 
-/// What Hertz' estimate says of a contact.
+/// Predictions of Hertz' estimate.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Foreseen {
-    /// The warning that the rim of the grid cuts the contact off.
+    /// Warning that the boundary of the grid cuts the contact off.
     pub(super) rim: Option<String>,
-    /// The warning that the contact has too few cells.
+    /// Warning that the contact has too few cells.
     pub(super) coarse: Option<String>,
 }
 
-/// A gap that does not open towards a free rim.
+/// Warns of a gap that does not open towards a free side.
 fn endless(paraboloid: &Paraboloid, boundary: Boundary) -> Option<String> {
     let [large, small] = paraboloid.curvatures;
     let axis = paraboloid.line();
@@ -217,17 +217,17 @@ fn endless(paraboloid: &Paraboloid, boundary: Boundary) -> Option<String> {
     })
 }
 
-/// The boundary of a line contact along an axis, as a case file has it.
+/// Boundary of a line contact along an axis, as written in a case file.
 fn boundary_of_a_line(axis: usize) -> &'static str {
     ["`boundary = [\"periodic\", \"free\"]`", "`boundary = [\"free\", \"periodic\"]`"][axis]
 }
 
-/// The gap at which the bodies first touch, if they do not at this `approach` at any of the `positions`.
+/// Returns the gap at first touch, if the bodies do not touch at this `approach` at any of the `positions`.
 pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Metre) -> Option<Metre> {
     let highest = surfaces[0].iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let lowest = surfaces[1].iter().copied().fold(f64::INFINITY, f64::min);
     let mut touch = f64::INFINITY;
-    // Those that face the most touch first, as a rule: it ends with the first that does.
+    // Positions with the largest overlap usually touch first, and the search ends at the first that touches.
     let mut ordered: Vec<&Position> = positions.iter().collect();
     ordered.sort_by_key(|position| std::cmp::Reverse(position.columns));
     for position in ordered {
@@ -235,7 +235,7 @@ pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Met
         if touch < approach {
             return None;
         }
-        // Nothing comes nearer than what stands out most.
+        // The most prominent heights bound the distance.
         if touch <= lowest - highest {
             break;
         }
@@ -243,7 +243,7 @@ pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Met
     Some(touch)
 }
 
-/// The warning that there is no contact at an approach below `touch`.
+/// Warns that there is no contact at an approach below `touch`.
 pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
     let length = |value| units::format(value, Dimension::Length);
     format!(
@@ -254,7 +254,7 @@ pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
     )
 }
 
-/// The warning that the largest contact spot has too few cells, if it has.
+/// Warns if the largest contact spot has too few cells.
 pub(in crate::study) fn too_few_cells(across: usize) -> Option<String> {
     match across {
         1 => Some(format!(
@@ -269,12 +269,11 @@ pub(in crate::study) fn too_few_cells(across: usize) -> Option<String> {
     }
 }
 
-/// The warning that a free rim of the grid cuts a curved contact off, if the `pressure` shows it: largest in the
-/// outermost cells, or with a
-/// load on a side of them that is not much below that of the fullest line inside.
+/// Warns if a free side of the grid cuts a curved contact off, according to the `pressure`. Either the pressure is largest
+/// in the outermost cells, or the load on one side of them is not much below that on the most loaded line inside.
 ///
-/// A sphere or an ellipsoid whose Hertzian contact reaches a little over the rim has its largest pressure to 1 % still;
-/// from where that of the rim exceeds it, it is wrong by more than 5 % soon.
+/// If the Hertzian contact of a sphere or an ellipsoid extends slightly beyond the side, its largest pressure is still
+/// accurate to 1 %. Once the pressure at the side exceeds it, the error soon exceeds 5 %.
 pub(in crate::study) fn cut_off(
     pressure: &Field,
     gap: impl FnOnce() -> Field,
@@ -306,7 +305,7 @@ pub(in crate::study) fn cut_off(
     ))
 }
 
-/// What the outermost cells of a field at its free sides add up to.
+/// Sums the outermost cells of a field at its free sides.
 fn outermost(field: &Field, boundary: Boundary) -> f64 {
     let shape = [field.nrows(), field.ncols()];
     let is_rim = |axis: usize, i: usize| !boundary.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
@@ -317,11 +316,11 @@ fn outermost(field: &Field, boundary: Boundary) -> f64 {
 struct Sides {
     /// Largest pressure at them.
     rim: Pascal,
-    /// Largest pressure elsewhere, all sides left out.
+    /// Largest pressure elsewhere, without all sides.
     inside: Pascal,
-    /// The larger of their sums.
+    /// The larger of the sums over the two sides.
     line: Pascal,
-    /// Largest sum of a line between them.
+    /// Largest sum over a line between them.
     fullest: Pascal,
 }
 
@@ -343,7 +342,7 @@ impl Sides {
     }
 }
 
-/// Cells across the largest contact spot of a pressure field.
+/// Number of cells across the largest contact spot of a pressure field.
 pub(in crate::study) fn spot(pressure: &Field, boundary: Boundary) -> usize {
     let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
     largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary.wraps())

@@ -1,4 +1,4 @@
-//! Memory and time of a run, told from the numbers of cells alone: before a surface is made.
+//! Memory and time of a run, estimated from the numbers of cells alone, before a surface is made.
 
 use web_time::Instant;
 
@@ -14,36 +14,35 @@ use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
 use crate::units::Second;
 
-/// What a run takes. Memory in bytes.
+/// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Demand {
-    /// The two surfaces, and the making of the larger one.
+    /// Memory of the two surfaces, and of making the larger one.
     pub surfaces: f64,
-    /// One solver; each thread has one, of as many as there are positions.
+    /// Memory of one solver. Each thread has one, up to the number of positions.
     pub solver: f64,
-    /// The positions of a pass together.
+    /// Memory to solve the positions of a pass together.
     pub together: f64,
-    /// The results until they are written.
+    /// Memory of the results until they are written.
     pub results: f64,
-    /// The most at any time.
+    /// Largest memory at any time.
     pub memory: f64,
-    /// Passes that are computed, the others extrapolated; 1 of a contact at rest.
+    /// Number of computed passes, without extrapolated ones; 1 for a static contact.
     pub passes: f64,
-    /// Convolutions of all contacts together, those on coarser grids by their share of cells; none of bodies that flow below their
-    /// surfaces.
+    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells; 0 for
+    /// elasto-plastic bodies.
     pub convolutions: f64,
-    /// The work of solving and writing, in the time that an iteration takes for a cell and a binary digit of their number: about a
-    /// nanosecond.
+    /// Work of solving and writing, in units of the time per cell and log₂ N of one iteration: about a nanosecond.
     pub effort: f64,
-    /// The work of the figures and the page, in the same unit.
+    /// Work of the figures and the page, in the same unit.
     pub drawing: f64,
 }
 
-/// What `case` takes on so many `threads`. Of files only the size is looked at; nothing is made.
+/// Estimates the cost of `case` on `threads` threads. Only the sizes of files are read.
 ///
 /// # Errors
-/// [`Error::Case`] if a file cannot be read, or if a step of its preparation has no meaning on its grid.
+/// [`Error::Case`] if a file cannot be read, or if a step of its preparation is invalid on its grid.
 pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
     let [lower, upper] = grids(case, given)?;
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
@@ -53,7 +52,7 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
     let memory = PROGRAM
         + match case.motion {
-            // What a static contact leaves is written when its solver is gone, and drawn when all is written.
+            // Results of a static contact are written after its solver is freed, and drawn after all are written.
             None => {
                 let drawn = PICTURES + NUMBER * DRAWN * sizes.facing().iter().product::<f64>();
                 surfaces.making.max(surfaces.kept + solvers.max(results)).max(drawn)
@@ -61,7 +60,7 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
             Some(_) => {
                 let working = (solvers + results - volumes).max(together + solver);
                 let drawing = PICTURES + ANIMATION + surfaces.making.max(surfaces.kept + working);
-                // What bodies flow in is large, and is gone before something is drawn.
+                // The volumes of elasto-plastic bodies are large, and are freed before drawing.
                 drawing.max(surfaces.kept + working + volumes)
             }
         };
@@ -74,16 +73,16 @@ pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
 }
 
 impl Demand {
-    /// Estimates the time of solving and writing, and that of figures and page, on this machine as it is now.
+    /// Estimates the time of solving and writing, and that of figures and page, on this machine in its present state.
     ///
-    /// The time of some convolutions is measured, in a few milliseconds. The sum is right within a factor of 1.5 for the examples, and
-    /// of three where the contact is an ordinary one.
+    /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor of 1.5 for
+    /// the examples, and of three for ordinary contacts.
     pub fn times(&self) -> [Second; 2] {
         let unit = unit_of_effort();
         [self.effort * unit, self.drawing * unit]
     }
 
-    /// An error if it takes more memory than there is, in bytes.
+    /// Returns an error if the needed memory exceeds the `available` memory, in bytes.
     ///
     /// # Errors
     /// [`Error::Memory`].
@@ -92,13 +91,13 @@ impl Demand {
     }
 }
 
-/// The program itself and its libraries.
+/// Memory of the program and its libraries.
 const PROGRAM: f64 = 12e6;
-/// Pictures as they are drawn.
+/// Memory of pictures while they are drawn.
 const PICTURES: f64 = 60e6;
-/// The pictures of the animation of a motion.
+/// Memory of the pictures of the animation of a motion.
 const ANIMATION: f64 = 12e6;
-/// Fields of a static contact that are drawn at a time.
+/// Number of fields of a static contact that are drawn at a time.
 const DRAWN: f64 = 7.0;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
@@ -115,7 +114,7 @@ struct Surfaces {
     making: f64,
 }
 
-/// What is held beside the surfaces, bytes.
+/// Memory besides the surfaces, bytes.
 struct Memory {
     /// Memory of one solver.
     solver: f64,
@@ -123,12 +122,12 @@ struct Memory {
     together: f64,
     /// Memory of the results until they are written.
     results: f64,
-    /// What of it are the volumes of bodies that flow below their surfaces.
+    /// Part of it for the volumes of elasto-plastic bodies.
     volumes: f64,
 }
 
 impl Sizes<'_> {
-    /// Cells along x and y of the largest contact.
+    /// Number of cells along x and y of the largest contact.
     fn facing(&self) -> [f64; 2] {
         [self.lower.shape[0].min(self.upper.shape[0]), self.lower.shape[1]].map(|n| n as f64)
     }
@@ -137,7 +136,7 @@ impl Sizes<'_> {
         Compliances::new(&self.case.lower.material, &self.case.upper.material).ok()
     }
 
-    /// Cells that the making of each surface takes, and fields on them.
+    /// Number of cells used to make each surface, and of fields on them.
     fn making(&self) -> [[f64; 2]; 2] {
         let making = |body: &Body, grid: &Grid, other: &Grid| {
             let cells = grid.shape[0] as f64 * grid.shape[1] as f64;
@@ -173,23 +172,23 @@ impl Sizes<'_> {
     fn memory(&self) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
-        // Seven numbers of the iteration for each cell. Of the padded transform half is stored, where that is enough in single
-        // precision; of the real kernel a quarter, and those of the coarse grids.
+        // Seven numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
+        // enough. Of the real kernel a quarter is stored, and the kernels of the coarse grids.
         let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
         let padded = padded_x * nx * (padded_y * ny + 2.0);
         let stored = if matches!(case.contact.method, Method::Auto | Method::ActiveSet) { 0.5 } else { 1.0 };
         let transforms = padded * (stored / padded_x + 1.0 / 3.0);
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
         let normal = 7.0 * nx * ny + transforms + dense;
-        // Six kernels, three transforms; of the tractions, displacements and slips of two increments and of the tangential
-        // iteration some thirty numbers for each cell.
+        // Six kernels, three transforms, and about thirty numbers for each cell: tractions, displacements and slips of two
+        // increments, and the tangential iteration.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         let positions = super::positions(case, [self.lower, self.upper]);
         if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {
             solver += plan.memory();
         }
-        // In a motion what the passes before have left, and what a pass leaves, are held beside the volume.
+        // A motion also stores the results of the passes before, and of the current pass.
         let kept = if case.motion.is_some() { 260.0 } else { 0.0 };
         let volume = |(cells, periodic)| cells * (kept + if periodic { 350.0 } else { 500.0 });
         let volumes: f64 = self.volumes().map(volume).sum();
@@ -200,7 +199,7 @@ impl Sizes<'_> {
                 memory_together(&motion, case.contact.method, yields, self.solved(), self.lower.shape[1])
             })
             .unwrap_or(0.0);
-        // The fields besides the bodies, and one as it is written.
+        // The fields besides the bodies, and one while it is written.
         let statics = if case.friction.is_some() { 16.0 } else { 8.0 };
         let results = case.motion.map_or(statics * nx * ny, |_| {
             let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
@@ -214,7 +213,7 @@ impl Sizes<'_> {
         Memory { solver, together, results: NUMBER * results + volumes, volumes }
     }
 
-    /// Columns that face each other at the positions that are solved.
+    /// Number of overlap columns at the solved positions.
     fn solved(&self) -> &[usize] {
         let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
         let yields = self.case.lower.hardness.yields() || self.case.upper.hardness.yields();
@@ -222,7 +221,7 @@ impl Sizes<'_> {
         &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
     }
 
-    /// Cells of all layers of each body that flows below its surface, and whether its boundary is periodic.
+    /// Number of cells in all layers of each elasto-plastic body, and whether its boundary is periodic.
     fn volumes(&self) -> impl Iterator<Item = (f64, bool)> {
         let layers = self.case.plasticity.map_or(0, |plasticity| plasticity.layers) as f64;
         let periodic = self.case.contact.boundary.repeats(0) && self.case.contact.boundary.repeats(1);
@@ -232,11 +231,11 @@ impl Sizes<'_> {
             .map(move |(_, grid)| (grid.shape[0] as f64 * grid.shape[1] as f64 * layers, periodic))
     }
 
-    /// The work of the products of bodies that flow below their surfaces.
+    /// Work of the operator applications of elasto-plastic bodies.
     fn flow(&self, threads: usize) -> f64 {
-        /// Products of an increment that flows, and those of one that is taken off.
+        /// Operator applications of a plastic increment, and of an unloading increment.
         const PRODUCTS: [f64; 2] = [8.0, 1.0];
-        /// Products of a position of a motion, and approaches tried in a pass.
+        /// Operator applications per position of a motion, and number of approaches tried in a pass.
         const ROLLING: [f64; 2] = [3.5, 4.0];
         let Some(plasticity) = self.case.plasticity else { return 0.0 };
         let products = match self.case.motion {
@@ -258,7 +257,7 @@ impl Sizes<'_> {
         products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
     }
 
-    /// Whether tractions along all directions are computed.
+    /// Whether tangential tractions are computed.
     fn is_coupled(&self) -> bool {
         let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
         let shear_displaces_normally = |friction| {
@@ -272,9 +271,9 @@ impl Sizes<'_> {
         })
     }
 
-    /// How many of so many passes are computed, about: as many as stability and the deepest wear of a jump want.
+    /// Estimates the number of computed passes from the stability limit and the largest wear of an extrapolation.
     fn computed_passes(&self, passes: usize) -> f64 {
-        /// Depth that the cell which wears the most loses, over the mean.
+        /// Wear depth of the most worn cell over the mean.
         const DEEPEST: f64 = 8.0;
         let (case, passes) = (self.case, passes as f64);
         let (Some(acceleration), Some(compliances)) = (case.acceleration, self.compliances()) else {
@@ -298,8 +297,8 @@ impl Sizes<'_> {
         passes.min(passes / jump + jump.log2())
     }
 
-    /// Convolutions of all contacts, and the work of solving them with all that is computed beside, in units of a cell times the
-    /// binary logarithm of the cells of its contact.
+    /// Returns the convolutions of all contacts, and the work of solving them with everything computed besides, in units of
+    /// a cell times the binary logarithm of the cells of its contact.
     fn solving(&self, threads: usize) -> (f64, f64) {
         let case = self.case;
         let [nx, ny] = self.facing();
@@ -307,7 +306,7 @@ impl Sizes<'_> {
         let boundary: f64 =
             case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
         let digits = (0.3 - 0.7 * case.contact.tolerance.log10() / 6.0).max(0.4);
-        // A larger grid takes some more.
+        // A larger grid takes slightly more.
         let size = (nx * ny / LARGE).max(1.0).powf(GROWTH);
         let together = |works: usize| (threads.clamp(1, works.max(1)) as f64).powf(EFFICIENCY);
         let method = match case.contact.method {
@@ -315,7 +314,7 @@ impl Sizes<'_> {
             _ => 1.0,
         };
         let all: f64 = self.solved().iter().map(|columns| work(*columns as f64)).sum();
-        // Convolutions of each contact, and their work with that of the iteration around them.
+        // Convolutions of each contact, and their work including the iteration around them.
         let of = |cost: Cost, contacts: f64| {
             let convolutions = contacts * cost.convolutions * digits;
             [convolutions, boundary * cost.work * convolutions * all]
@@ -332,7 +331,7 @@ impl Sizes<'_> {
                 let positions = self.solved().len();
                 let passes = self.computed_passes(motion.passes);
                 let mut cost = if self.is_coupled() { SLIDING } else { normal };
-                // Later passes start from the pressures of the one before.
+                // Later passes start from the pressures of the pass before.
                 cost.convolutions *= WARM + (1.0 - WARM) / passes.max(1.0);
                 let [convolutions, effort] = of(cost, passes * searches);
                 let effort = effort + POSITION * passes * positions as f64;
@@ -368,7 +367,7 @@ impl Sizes<'_> {
             let planes = spec.layers + spec.planes.len();
             effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
         }
-        // A fresh counter-body is made for each pass.
+        // A new counterbody is made for each pass.
         let times = match case.motion {
             Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
             _ => [1.0; 2],
@@ -379,7 +378,7 @@ impl Sizes<'_> {
         (convolutions, effort + self.flow(threads) + making)
     }
 
-    /// The work of films and flash temperatures in a computed pass.
+    /// Work of films and flash temperatures in a computed pass.
     fn running(&self, passes: usize) -> f64 {
         let films = [&self.case.lower, &self.case.upper].iter().filter(|body| body.film.is_some()).count();
         let heated = match self.case.temperature {
@@ -390,12 +389,12 @@ impl Sizes<'_> {
         cells * (FILM * films as f64 + HEAT * heated)
     }
 
-    /// Cells of the two bodies together.
+    /// Number of cells of both bodies together.
     fn cells(&self) -> f64 {
         [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64).iter().sum()
     }
 
-    /// Positions of a pass whose pressures are kept, and their cells.
+    /// Number of positions of a pass whose pressures are stored, and of their cells.
     fn kept(&self) -> [f64; 2] {
         match self.case.output.pressure_every {
             0 => [0.0; 2],
@@ -406,7 +405,7 @@ impl Sizes<'_> {
         }
     }
 
-    /// The work of writing fields.
+    /// Work of writing fields.
     fn writing(&self) -> f64 {
         let case = self.case;
         let bodies = [&case.lower, &case.upper];
@@ -428,7 +427,7 @@ impl Sizes<'_> {
         FIELD * fields + WRITTEN * cells
     }
 
-    /// The work of figures and page.
+    /// Work of figures and page.
     fn drawing(&self, threads: usize) -> f64 {
         let case = self.case;
         let bodies = [&case.lower, &case.upper];
@@ -458,18 +457,18 @@ impl Sizes<'_> {
 /// The cost of a contact.
 #[derive(Clone, Copy)]
 struct Cost {
-    /// Convolutions to 10⁻⁶, of few cells.
+    /// Convolutions to 10⁻⁶ on a small grid.
     convolutions: f64,
-    /// The work of one, with that of the iteration around it, free, in the unit of effort.
+    /// Work of one, including the iteration around it, with free boundary, in the unit of effort.
     work: f64,
 }
 
-// Each measured (docs/performance.md).
+// Each is measured (docs/performance.md).
 /// A normal contact.
 const NORMAL: Cost = Cost { convolutions: 15.8, work: 2.2 };
-/// A contact whose shear displaces the surface normally, sliding.
+/// A contact in gross slip whose shear displaces the surface normally.
 const SLIDING: Cost = Cost { convolutions: 36.0, work: 6.5 };
-/// An increment with friction of identical bodies, whose pressure is known without the shear.
+/// An increment with friction of identical bodies, whose pressure does not depend on the shear.
 const SHEAR: Cost = Cost { convolutions: 24.0, work: 7.0 };
 /// An increment with friction of dissimilar bodies.
 const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
@@ -477,44 +476,44 @@ const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
 const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
 /// Steady rolling of dissimilar bodies.
 const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
-/// Convolutions of a pass over those of the first.
+/// Convolutions of a later pass relative to the first.
 const WARM: f64 = 0.8;
-/// Cells from which on a contact takes more convolutions, and the power of their number by which it does.
+/// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
 const LARGE: f64 = 16384.0;
 const GROWTH: f64 = 0.09;
-/// A position beside its contact.
+/// Work at a position besides its contact.
 const POSITION: f64 = 3.7e5;
-/// The stiffness of a contact, in the unit of effort for each cell and binary digit.
+/// Work of the stiffness of a contact, in the unit of effort for each cell and log₂ N.
 const STIFFNESS: f64 = 12.0;
-/// The stress on a plane, likewise.
+/// Work of the stress on a plane, in the same unit.
 const STRESS: f64 = 120.0;
-/// A surface: read or made, prepared, its figures for the estimate, likewise.
+/// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.
 const MAKING: f64 = 6.0;
-/// The growth of a film on a cell of a body at a position, in the unit of effort.
+/// Work of the growth of a film on a cell of a body at a position, in the unit of effort.
 const FILM: f64 = 380.0;
-/// The flash temperature of a cell at a position.
+/// Work of the flash temperature of a cell at a position.
 const HEAT: f64 = 90.0;
-/// A field that is written, and each of its cells.
+/// Work of writing a field, and of each of its cells.
 const FIELD: f64 = 4e5;
 const WRITTEN: f64 = 110.0;
-/// A figure, and a picture of an animation.
+/// Work of a figure, and of a picture of an animation.
 const FIGURE: f64 = 3.4e7;
 const FRAME: f64 = 1.4e7;
-/// A cell of a body in the figures.
+/// Work of a cell of a body in the figures.
 const DRAWN_CELL: f64 = 450.0;
-/// A pressure field on the page, and each of its cells.
+/// Work of a pressure field on the page, and of each of its cells.
 const SHOWN: f64 = 4e5;
 const SHOWN_CELL: f64 = 190.0;
-/// The start and the end of the program.
+/// Work of the start and the end of the program.
 const START: f64 = 2.5e7;
-/// The power of the number of threads by which work that is shared out is sooner done.
+/// Exponent of the number of threads in the speed-up of shared work.
 const EFFICIENCY: f64 = 0.85;
 
-/// Seconds for a cell and a bit of the logarithm: the least of some convolutions, on this machine as it is now.
+/// Measures the seconds per cell and log₂ N: the smallest of several convolutions, on this machine in its present state.
 fn unit_of_effort() -> Second {
-    /// Cells along each axis of the convolutions that are timed.
+    /// Number of cells along each axis of the timed convolutions.
     const SIDE: usize = 128;
-    /// What a solve takes of the time of a double convolution, for each of its own.
+    /// Time of a solve relative to that of a double-precision convolution, for each of its own convolutions.
     const SHARE: f64 = 1.4;
     let grid = Grid { shape: [SIDE, SIDE], pitch: [1.0; 2] };
     let mut operator = FreeFft::new(grid, 1.0);

@@ -1,4 +1,4 @@
-//! Quantities that hardly any contact has: most likely another unit was meant.
+//! Implausible quantities, which most likely have a wrong unit.
 
 use super::Estimate;
 use crate::grid::Grid;
@@ -7,12 +7,12 @@ use crate::units::{self, Dimension, Metre, Pascal};
 
 /// Softer than any rubber.
 const SOFT: Pascal = 1e6;
-/// Cells of this size see no roughness.
+/// Cells of this size do not resolve roughness.
 const WIDE: Metre = 1e-3;
-/// Hardness over E*: glass and the hardest ceramics come near it, metals stay below a fifth of it.
+/// Hardness over E*: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
 const HARD: f64 = 0.1;
 
-/// What is implausible about `case`, whose cells are those of `grid`.
+/// Warns of implausible quantities in `case` on `grid`.
 pub(super) fn implausible(case: &Case, grid: &Grid, estimate: &Estimate, warnings: &mut Vec<String>) {
     if estimate.modulus < SOFT && !case.is_coated() {
         warnings.push(soft(case, estimate));
@@ -72,7 +72,7 @@ fn hard(case: &Case, estimate: &Estimate) -> String {
     )
 }
 
-/// The body of the smaller value.
+/// Name of the body with the smaller value.
 fn softer(lower: f64, upper: f64) -> &'static str {
     if lower <= upper { "lower" } else { "upper" }
 }

@@ -1,4 +1,4 @@
-//! An axis of a study: a key of the case, and the values that it takes one after the other.
+//! An axis of a study: a key of the case and its sequence of values.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -11,20 +11,20 @@ use crate::study::case::document::join;
 use crate::study::case::schema::tables::dimension;
 use crate::units::{self, Dimension};
 
-/// A key of the case and the values that it takes.
+/// A key of the case and its values.
 #[derive(Debug, Clone)]
 pub struct Axis {
     key: String,
     values: Vec<Stated>,
-    /// The values in SI, where all of them are numbers or quantities.
+    /// The values in SI, if all of them are numbers or quantities.
     numbers: Option<Vec<f64>>,
     dimension: Option<Dimension>,
-    /// The values as people say them.
+    /// The values as texts for people.
     texts: Vec<String>,
     is_seed: bool,
 }
 
-/// A value, and where it stands.
+/// A value and its place in the file.
 #[derive(Debug, Clone)]
 pub(super) struct Stated {
     pub(super) value: Value,
@@ -32,7 +32,7 @@ pub(super) struct Stated {
 }
 
 impl Axis {
-    /// An axis of at least one value, in the unit of its key.
+    /// Creates an axis of at least one value, in the unit of its key.
     pub(super) fn new(key: String, values: Vec<Stated>) -> Self {
         let dimension = dimension(&key);
         let numbers: Option<Vec<f64>> =
@@ -42,44 +42,44 @@ impl Axis {
         Self { key, values, numbers, dimension, texts, is_seed }
     }
 
-    /// The dotted key of the case: `contact.load`.
+    /// Dotted key of the case: `contact.load`.
     pub fn key(&self) -> &str {
         &self.key
     }
 
-    /// The key with the unit that its numbers are told in: `contact.load (N)`.
+    /// The key with the unit of its numbers: `contact.load (N)`.
     pub fn label(&self) -> String {
         let unit = self.unit();
         if unit.is_empty() { self.key.clone() } else { format!("{} ({unit})", self.key) }
     }
 
-    /// The SI unit of the numbers; empty of pure numbers and of what is no number.
+    /// SI unit of the numbers; empty for pure numbers and texts.
     pub fn unit(&self) -> String {
         self.dimension.filter(|_| self.numbers.is_some()).map(Dimension::si).unwrap_or_default()
     }
 
-    /// What the numbers measure; none of pure numbers and of what is no number.
+    /// Dimension of the numbers; `None` for pure numbers and texts.
     pub fn dimension(&self) -> Option<Dimension> {
         self.dimension
     }
 
-    /// The values in SI; none where a value is neither number nor quantity, such as the name of a file.
+    /// The values in SI; `None` if a value is neither a number nor a quantity, such as a file name.
     pub fn numbers(&self) -> Option<&[f64]> {
         self.numbers.as_deref()
     }
 
-    /// Whether the values are seeds of random numbers: cases that differ in them alone are samples of one thing.
+    /// Whether the values are random seeds: cases that differ only in them are samples of the same problem.
     pub fn is_seed(&self) -> bool {
         self.is_seed
     }
 
-    /// How many values there are.
+    /// Number of values.
     #[expect(clippy::len_without_is_empty, reason = "an axis without values is refused")]
     pub fn len(&self) -> usize {
         self.values.len()
     }
 
-    /// The value of this index as a cell of a table: a number in SI, or the text.
+    /// Returns the value of this index as a cell of a table: a number in SI, or the text.
     pub fn cell(&self, index: usize) -> String {
         match (&self.values[index].value, &self.numbers) {
             (Value::Integer(whole), _) if self.dimension.is_none() => whole.to_string(),
@@ -89,7 +89,8 @@ impl Axis {
         }
     }
 
-    /// The value of this index as people say it: `1 N`; of more than four digits those that tell the values apart, three at least.
+    /// Returns the value of this index for people: `1 N`. Numbers with more than four digits are shortened, to at least
+    /// three digits that still distinguish the values.
     pub fn text(&self, index: usize) -> &str {
         &self.texts[index]
     }
@@ -103,7 +104,7 @@ impl Axis {
     }
 }
 
-/// Values as people say them: with so few digits as tell them apart, but as they are stated where that is short.
+/// Writes values for people, with as few digits as distinguish them. Values that are short in the file stay as they are.
 fn texts(values: &[Stated], numbers: Option<&[f64]>, dimension: Option<Dimension>) -> Vec<String> {
     const LEAST: usize = 3;
     const ALL: usize = 17;
@@ -118,7 +119,7 @@ fn texts(values: &[Stated], numbers: Option<&[f64]>, dimension: Option<Dimension
     (LEAST..ALL).map(with).find(|texts| different(texts) == most).unwrap_or(all)
 }
 
-/// A value, which is a number in SI where it is one, with so many digits if it has more than a few.
+/// Writes a value, a number in SI if it has one, with `digits` digits if it has more than a few.
 fn said(value: &Value, number: Option<f64>, dimension: Option<Dimension>, digits: usize) -> String {
     const FEW: usize = 4;
     let own = |number: f64| {
@@ -139,7 +140,7 @@ fn said(value: &Value, number: Option<f64>, dimension: Option<Dimension>, digits
     }
 }
 
-/// A value in SI, if it is a number or a quantity of the dimension.
+/// Returns a value in SI, if it is a number or a quantity of the dimension.
 pub(super) fn number(value: &Value, dimension: Option<Dimension>) -> Option<f64> {
     match value {
         Value::Integer(whole) => Some(*whole as f64),
@@ -149,7 +150,7 @@ pub(super) fn number(value: &Value, dimension: Option<Dimension>) -> Option<f64>
     }
 }
 
-/// The axes of the table `[axes]`, in the order of the file.
+/// Reads the axes of the table `[axes]`, in the order of the file.
 pub(super) fn axes(table: &Table<'_>) -> Result<Vec<Axis>> {
     let mut axes = Vec::new();
     collect(table, "", &mut axes)?;
@@ -160,7 +161,7 @@ pub(super) fn axes(table: &Table<'_>) -> Result<Vec<Axis>> {
     Ok(axes)
 }
 
-/// A key may be quoted, `"contact.load"`, or not: then there is a table in between.
+/// Collects axes from quoted keys, `"contact.load"`, and from unquoted ones, which are nested tables.
 fn collect(table: &Table<'_>, path: &str, axes: &mut Vec<Axis>) -> Result<()> {
     for (key, entry) in table.entries() {
         let path = join(path, key);
@@ -172,7 +173,7 @@ fn collect(table: &Table<'_>, path: &str, axes: &mut Vec<Axis>) -> Result<()> {
     Ok(())
 }
 
-/// Whether a table holds axes: nothing of a range is a list or a table.
+/// Whether a table contains axes. A range contains no list and no table.
 fn holds_axes(entry: &Entry<'_>) -> Result<bool> {
     let table = entry.clone().table()?;
     let entries = table.entries();
@@ -195,7 +196,7 @@ fn axis(key: String, entry: &Entry<'_>) -> Result<Axis> {
     Ok(Axis::new(key, values))
 }
 
-/// The expected text of an axis.
+/// Expected form of an axis.
 const AXIS: &str = "a list of values or a range";
 const EXAMPLE: &str = r#"{ from = "1 N", to = "5 N", count = 5 }"#;
 
@@ -210,7 +211,7 @@ fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
     Ok(values)
 }
 
-/// `{ from = "1 N", to = "5 N", count = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
+/// Reads `{ from = "1 N", to = "5 N", count = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
 fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
     let table = entry.clone().table()?;
     table.known(&["from", "to", "count", "spacing", "seeds", "first"], |_| None)?;
@@ -267,7 +268,7 @@ enum Spacing {
     Log,
 }
 
-/// So many numbers from one end to the other, both included, of twelve digits between them.
+/// Returns `count` numbers from one end to the other, both included, rounded to twelve digits in between.
 fn spaced([from, to]: [f64; 2], count: usize, spacing: Spacing) -> Vec<f64> {
     let last = count - 1;
     let number = |k: usize| {
@@ -285,7 +286,7 @@ fn spaced([from, to]: [f64; 2], count: usize, spacing: Spacing) -> Vec<f64> {
     (0..count).map(number).collect()
 }
 
-/// The number of an end of a range, in its own unit, and that unit; empty without one.
+/// Returns the number of an end of a range, in its own unit, and that unit; empty without one.
 fn end(entry: &Entry<'_>) -> Result<(f64, String)> {
     let expected = || entry.unexpected("a number, or a quantity such as \"2 N\"", None);
     let (number, unit) = match entry.literal()? {
@@ -300,7 +301,7 @@ fn end(entry: &Entry<'_>) -> Result<(f64, String)> {
     if number.is_finite() { Ok((number, unit)) } else { Err(expected()) }
 }
 
-/// The number that a quantity begins with, and its unit.
+/// Splits a quantity into its number and its unit.
 fn split(text: &str) -> Option<(f64, &str)> {
     let mut ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
     ends.find_map(|end| Some((text[..end].trim().parse().ok()?, text[end..].trim())))
@@ -352,7 +353,7 @@ mod tests {
             (vec!["0.01".into(), "0.0316".into(), "0.1".into()], "0.0316227766017")
         );
         assert_eq!(said("contact.load", &floats(&[0.01, 0.0316227766017])).0, ["10 mN", "31.6 mN"]);
-        // So many that they differ, and none that was stated is lost where it is short.
+        // Enough digits for them to differ; short texts of the file stay unchanged.
         assert_eq!(said("contact.load", &floats(&[1.00001, 1.00002])).0, ["1.00001 N", "1.00002 N"]);
         assert_eq!(
             said("contact.load", &texts(&["1.23456 N", "1.23416 N", "1 N"])).0,

@@ -1,4 +1,4 @@
-//! The case that the cases of a study are made of: values are put in under their keys.
+//! The base case of a study, into which the values of each case are inserted under their keys.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -13,18 +13,18 @@ use crate::study::case::document::{Document, join};
 /// The base case.
 #[derive(Debug)]
 pub(super) struct Base {
-    /// Its keys; files as seen from where the program was called.
+    /// Its keys, with files relative to the working directory of the program.
     table: toml::Table,
-    /// Its text and places.
+    /// Its text, with the places of its keys.
     pub(super) document: Document,
-    /// What its keys begin with in the document: `base` where it stands in the study file itself.
+    /// Prefix of its keys in the document: `base` if it is part of the study file.
     prefix: &'static str,
-    /// Where the files lie that the axes name.
+    /// Folder of the files named on the axes.
     folder: PathBuf,
 }
 
 impl Base {
-    /// A base with the folders of its files and of those that the axes name.
+    /// Creates a base from the folders of its files and of those named on the axes.
     pub(super) fn new(
         mut table: toml::Table,
         [of_base, of_axes]: [&Path; 2],
@@ -35,7 +35,7 @@ impl Base {
         Self { table, document, prefix, folder: of_axes.to_owned() }
     }
 
-    /// What all cases share, without what depends on the folder that it is seen from.
+    /// Returns the digest of the part shared by all cases, independent of the working directory.
     pub(super) fn digest(&self) -> String {
         let mut table = self.table.clone();
         table.remove("title");
@@ -43,10 +43,11 @@ impl Base {
         sha256(table.to_string().as_bytes())
     }
 
-    /// The text of a case with these values. `folder` is where it will lie; without one its files are as seen from here.
+    /// Returns the text of a case with these values. `folder` is its future place; without one, files are relative to the
+    /// working directory.
     ///
     /// # Errors
-    /// The number of the value that has no place, and why.
+    /// The number of a value that cannot be inserted, and the reason.
     pub(super) fn with<'v>(
         &self,
         title: &str,
@@ -67,7 +68,7 @@ impl Base {
         Ok(table.to_string())
     }
 
-    /// An error of a case, where this base has its place.
+    /// Locates an error of a case in this base.
     pub(super) fn error(&self, error: &CaseError) -> Error {
         let key = match (self.prefix, error.key.as_str()) {
             ("", key) => key.to_owned(),
@@ -77,7 +78,7 @@ impl Base {
         self.document.error_at(&key, error.message.clone(), error.hint.clone())
     }
 
-    /// The files that the base names.
+    /// Returns the files named in the base.
     pub(super) fn files(&self) -> Vec<NamedFile> {
         let mut files = Vec::new();
         for (key, value) in &self.table {
@@ -88,7 +89,7 @@ impl Base {
         files
     }
 
-    /// The files that a value of an axis names.
+    /// Returns the files named by a value of an axis.
     pub(super) fn files_of(&self, axis: &Axis, value: &Value) -> Vec<NamedFile> {
         let mut files = Vec::new();
         find_files(axis.key(), value, &mut |key, path| {
@@ -97,7 +98,7 @@ impl Base {
         files
     }
 
-    /// Whether there is something under this dotted key.
+    /// Whether the base has this dotted key.
     pub(super) fn has(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|key| self.table.get(key));
@@ -113,7 +114,8 @@ fn inner<'v>(value: &'v Value, key: &str) -> Option<&'v Value> {
     }
 }
 
-/// Puts a value under a dotted key, through tables, which are made where there are none, and arrays of tables: `history.0.load`.
+/// Inserts a value under a dotted key, through tables, which are created if missing, and arrays of tables:
+/// `history.0.load`.
 fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<(), String> {
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let Some(rest) = rest else {
@@ -137,7 +139,7 @@ fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<
     }
 }
 
-/// Tells of each path of a file in the value of a dotted key, with the key that names it.
+/// Finds each path of a file in the value of a dotted key, with the key that names it.
 fn find_files(key: &str, value: &Value, found: &mut dyn FnMut(String, &str)) {
     match value {
         Value::String(path) if key.rsplit('.').next() == Some("file") => found(key.to_owned(), path),
@@ -154,7 +156,7 @@ fn find_files(key: &str, value: &Value, found: &mut dyn FnMut(String, &str)) {
     }
 }
 
-/// Changes each path of a file that a case names.
+/// Changes each path of a file named in a case.
 fn each_file(table: &mut toml::Table, change: &dyn Fn(&Path) -> PathBuf) {
     table.iter_mut().for_each(|(key, value)| each_file_of(key, value, change));
 }
@@ -173,12 +175,12 @@ fn each_file_of(key: &str, value: &mut Value, change: &dyn Fn(&Path) -> PathBuf)
     }
 }
 
-/// The path of `file` as seen from `folder`, which is there; absolute where there is no way.
+/// Returns the path of `file` relative to the existing `folder`; absolute if there is no relative path.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| absolute(path));
     let from = real(folder);
-    // The name of the file is kept, also where it is a link.
+    // The file name is kept, even if it is a link.
     let file = absolute(file);
     let to = match (file.parent(), file.file_name()) {
         (Some(parent), Some(name)) => real(parent).join(name),

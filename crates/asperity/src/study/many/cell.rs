@@ -1,10 +1,10 @@
-//! Cells of tables of values separated by commas.
+//! Cells of CSV tables.
 
-/// What a spreadsheet takes for the beginning of a formula.
+/// First characters of a formula in a spreadsheet.
 const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// A cell of a table of values separated by commas. A text that begins as a formula, which a spreadsheet would compute, has an
-/// apostrophe before it; a number has none.
+/// Writes a cell of a CSV table. A text that a spreadsheet would compute as a formula gets an apostrophe in front; a number
+/// gets none.
 pub(super) fn quoted(text: &str) -> String {
     match text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
         true => in_quotes(&format!("'{text}")),
@@ -12,12 +12,12 @@ pub(super) fn quoted(text: &str) -> String {
     }
 }
 
-/// The text of a cell without the apostrophe that guards it.
+/// Returns the text of a cell without its protecting apostrophe.
 pub(super) fn unguarded(cell: &str) -> &str {
     cell.strip_prefix('\'').filter(|text| text.starts_with(FORMULAS)).unwrap_or(cell)
 }
 
-/// A cell with its text in quotes, where it needs them.
+/// Returns a cell with its text in quotes, if it needs them.
 pub(super) fn in_quotes(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))

@@ -1,4 +1,4 @@
-//! Computing what is left: so many cases at a time as there are threads, and as find room in memory together.
+//! Computation of the remaining cases of a study: as many at a time as there are threads, and as fit in memory together.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,14 +13,15 @@ use crate::study::case::Case;
 use crate::study::estimate::demand;
 use crate::study::given::Given;
 
-/// Computes the cases of a queue, so many at a time as the pool of the caller has threads; where fewer are left, each gets several.
+/// Computes the cases of a queue, as many at a time as the pool of the caller has threads. If fewer cases are left, each
+/// gets several threads.
 ///
-/// Cases that do not go into `memory`, bytes, at the same time wait for each other. `ended` is told of each case, from 1, once it is
-/// over; `stop`, asked again and again, whether to stop: cases under way are then open again.
+/// Cases that do not fit together in `memory`, bytes, wait for each other. `ended` is called for each case, from 1, once it
+/// is over. `stop` is called repeatedly; if it returns true, the running cases are given up and open again.
 ///
 /// # Errors
-/// [`Error::Interrupted`] where `stop` wants it; [`Error::SurfaceChanged`] where a file of the study has changed since its plan was
-/// made; [`Error::Threads`]; [`Error::File`] where the study cannot be written to.
+/// [`Error::Interrupted`] if `stop` returned true, [`Error::SurfaceChanged`] if a file of the study has changed since its
+/// plan was made, [`Error::Threads`], [`Error::File`] if the study cannot be written to.
 pub fn compute(
     queue: &Queue<'_>,
     memory: f64,
@@ -50,7 +51,7 @@ pub fn compute(
     crew.error.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
-/// One case after the other.
+/// Computes one case after the other.
 fn work(queue: &Queue<'_>, crew: &Crew<'_>) -> Result<()> {
     while !crew.stop() {
         let Some(turn) = queue.take()? else { return Ok(()) };
@@ -61,18 +62,18 @@ fn work(queue: &Queue<'_>, crew: &Crew<'_>) -> Result<()> {
     if (crew.stop)() { Err(Error::Interrupted) } else { Ok(()) }
 }
 
-/// Threads of its own, so many.
+/// Creates a pool of `threads` threads.
 fn pool(threads: usize) -> Result<ThreadPool> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| Error::Threads { reason: error.to_string() })
 }
 
-/// What all that compute have in common.
+/// Data shared by all workers.
 struct Crew<'c> {
     stop: &'c (dyn Fn() -> bool + Sync),
     ended: &'c (dyn Fn(usize, &Computed) + Sync),
     memory: Memory,
-    /// Whether one of them cannot go on, and why.
+    /// Whether a worker has failed.
     is_broken: AtomicBool,
     error: Mutex<Option<Error>>,
 }
@@ -85,21 +86,21 @@ impl Watch for Crew<'_> {
     }
 }
 
-/// Memory of which cases that are computed at the same time take their parts, bytes.
+/// Memory divided among the cases computed at the same time, bytes.
 struct Memory {
     all: f64,
     taken: Mutex<f64>,
     given_back: Condvar,
 }
 
-/// The part of a case.
+/// Memory reserved for a case.
 struct Part<'m> {
     memory: &'m Memory,
     bytes: f64,
 }
 
 impl Memory {
-    /// What the case takes, once it is free; an error if it never will be.
+    /// Reserves the memory of a case, once it is free; an error if it never will be.
     fn take(&self, case: &Case) -> Result<Part<'_>> {
         let demand = demand(case, &Given::default(), rayon::current_num_threads())?;
         demand.fits(self.all)?;

@@ -1,4 +1,4 @@
-//! The study file: base, axes, table, filters.
+//! Study file: base, axes, table, filters.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::Document;
 use crate::study::case::schema::tables::{self as keys, is_of_root};
 
-/// What a study file says.
+/// Content of a study file.
 #[derive(Debug)]
 pub(super) struct StudyFile {
     pub(super) title: String,
@@ -28,21 +28,21 @@ pub(super) struct StudyFile {
     pub(super) exclusions: Vec<Exclusion>,
 }
 
-/// The rows of a table that is given: axes that change together.
+/// Rows of a given table: axes that change together.
 #[derive(Debug)]
 pub(super) struct Rows {
-    /// Its text and places.
+    /// Its text, with the places of its cells.
     pub(super) document: Document,
     /// The first of its axes.
     pub(super) first: usize,
-    /// For each row the index of a value of each of its axes.
+    /// For each row, the index of a value of each of its axes.
     pub(super) rows: Vec<Vec<u32>>,
 }
 
-/// The largest table that is read, bytes.
+/// Largest size of a table, bytes.
 const MAX_TABLE_BYTES: u64 = 1 << 30;
 
-/// Reads a study file; the files that it names are looked for in its folder.
+/// Reads a study file. Paths of files are relative to its folder.
 pub(super) fn load(path: &Path) -> Result<StudyFile> {
     let text = text_of(path, "a study file", MAX_CASE_BYTES)?;
     read(&text, path)
@@ -78,7 +78,7 @@ pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {
     Ok(StudyFile { title, document: document.clone(), base, axes: all, rows, exclusions })
 }
 
-/// A table of a case that stands in a study file by mistake.
+/// Returns a message and a hint for a table of a case that is misplaced in a study file.
 fn belongs(key: &str) -> Option<(String, Option<String>)> {
     let unknown = |hint| Some((format!("unknown key '{key}' in the study"), Some(hint)));
     if key == "stale_after" {
@@ -87,7 +87,7 @@ fn belongs(key: &str) -> Option<(String, Option<String>)> {
     if is_of_root(key) {
         return unknown(format!("a case that stands in the study file is its base: [base.{key}]"));
     }
-    // A key of an axis, or one of a table of a case.
+    // A key of an axis, or a key of a table of a case.
     let hint = keys::belongs(key, "").and_then(|(_, hint)| hint);
     match key.split_once('.').map(|(table, _)| table) {
         Some(table) if is_of_root(table) => unknown(format!("an axis stands in [axes]: `\"{key}\" = [...]`")),
@@ -95,7 +95,7 @@ fn belongs(key: &str) -> Option<(String, Option<String>)> {
     }
 }
 
-/// The base: a case file, or the tables of one.
+/// Reads the base: a case file, or the tables of one.
 fn base(root: &Table<'_>, folder: &Path, document: &Document, text: &str) -> Result<Base> {
     let entry = root.required("base", "\"case.toml\"")?;
     if entry.is_table() {
@@ -112,12 +112,12 @@ fn base(root: &Table<'_>, folder: &Path, document: &Document, text: &str) -> Res
     Ok(Base::new(table, [path.parent().unwrap_or(Path::new("")), folder], document, ""))
 }
 
-/// An error of a file that is named here.
+/// Error of a file named here.
 fn at(entry: &Entry<'_>, error: &Error) -> Error {
     entry.error(error.to_string(), error.hint())
 }
 
-/// The rows of a table in a file. Its columns, keys of the case, become axes; a column `case` is for the reader.
+/// Reads the rows of a table in a file. Its columns, which are keys of the case, become axes. A column `case` is ignored.
 fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> {
     let path: PathBuf = folder.join(entry.text()?);
     let text = text_of(&path, "a table of cases", MAX_TABLE_BYTES).map_err(|error| at(entry, &error))?;
@@ -177,8 +177,8 @@ fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> 
     Ok(Rows { document, first, rows })
 }
 
-/// What a cell stands for: a number, true or false, a list, or a text; none of an empty one. A number under a header with a
-/// unit is a quantity.
+/// Returns the value of a cell: a number, true or false, a list, or a text; `None` for an empty cell. A number under a
+/// header with a unit is a quantity.
 fn value(cell: &str, unit: &str) -> Option<Value> {
     if cell.is_empty() {
         return None;
@@ -198,13 +198,13 @@ fn value(cell: &str, unit: &str) -> Option<Value> {
     })
 }
 
-/// The line that begins at a byte.
+/// Returns the line that begins at a byte.
 fn line_from(text: &str, start: usize) -> std::ops::Range<usize> {
     let start = start.min(text.len());
     start..text[start..].find('\n').map_or(text.len(), |end| start + end)
 }
 
-/// The place of a cell in the line that begins at a byte, or the line.
+/// Returns the place of a cell in the line that begins at a byte, or the whole line.
 fn cell_in(text: &str, start: usize, cell: &str) -> std::ops::Range<usize> {
     let line = line_from(text, start);
     match text[line.clone()].find(cell) {

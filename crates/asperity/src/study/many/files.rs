@@ -1,4 +1,4 @@
-//! The files that a study names, by the digests of what they held when its plan was made.
+//! Digests of the files named in a study, taken when its plan was made.
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -15,14 +15,14 @@ use crate::study::given::Pinned;
 use crate::study::identity::FILES;
 use crate::study::results::Results;
 
-/// Digests by the names of files.
+/// Digests by file name.
 #[derive(Debug, Default)]
 pub(super) struct Files {
     digests: BTreeMap<String, String>,
 }
 
 impl Files {
-    /// The digests that are kept at `path`; none where there is no such file.
+    /// Reads the digests at `path`; `None` if there is no such file.
     pub(super) fn read(path: &Path) -> Result<Option<Self>> {
         let failed = |source| Error::File { path: path.to_owned(), source };
         let text = match regular::read(path, "the digests of a study's files", u64::MAX) {
@@ -33,11 +33,11 @@ impl Files {
         Ok(Some(Self { digests }))
     }
 
-    /// Keeps the digests of the files of a study that have none yet, at `path`. A study that an earlier version has begun has none at
-    /// all: its finished cases, whose results are `done`, say what they were computed from.
+    /// Stores the digests of those files of a study that have none yet, at `path`. A study begun by an earlier version has
+    /// none at all; its finished cases, whose results are `done`, then provide them.
     ///
     /// # Errors
-    /// [`Error::SurfaceChanged`] where a finished case was computed from another content; [`Error::File`].
+    /// [`Error::SurfaceChanged`] if a finished case was computed from other content; [`Error::File`].
     pub(super) fn keep(path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
         let named = study.files();
         loop {
@@ -49,7 +49,7 @@ impl Files {
             let mut paths: Vec<&Path> = unknown.iter().map(|file| file.path.as_path()).collect();
             paths.sort_unstable();
             paths.dedup();
-            // A file that cannot be read has none: its cases will say why.
+            // An unreadable file has no digest, and its cases will report why.
             let digests: BTreeMap<&Path, String> =
                 paths.par_iter().filter_map(|path| Some((*path, sha256_of_file(path).ok()?))).collect();
             let found = unknown
@@ -68,11 +68,11 @@ impl Files {
             if atomic::create(path, &text)? {
                 return Ok(());
             }
-            // Another process was first: what it has read holds.
+            // Another process was first, and its digests are valid.
         }
     }
 
-    /// What the files of a case must hold, of a study in that `directory`.
+    /// Required content of the files of a case, of a study in `directory`.
     pub(super) fn pinned(&self, directory: &Path, study: &Study, case: usize) -> Pinned {
         let digest = |file: NamedFile| {
             let digest = self.digests.get(&file.name())?.clone();
@@ -82,7 +82,7 @@ impl Files {
         Pinned { directory: directory.to_owned(), digests }
     }
 
-    /// An error if a case that is done was computed from files of other contents.
+    /// Returns an error if a finished case was computed from files of other content.
     fn agree(&self, path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
         for (case, results) in (1..=study.len()).filter_map(|case| Some((case, done(case)?))) {
             let Ok(done) = Results::open(&results).and_then(|results| results.case_json()) else { continue };

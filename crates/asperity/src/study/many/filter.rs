@@ -1,4 +1,4 @@
-//! Cases that are left out: those for which all conditions of a table `[[exclude]]` hold.
+//! Excluded cases: those for which all conditions of a table `[[exclude]]` hold.
 
 use toml::Value;
 
@@ -9,17 +9,17 @@ use crate::study::case::cursor::{Entry, Table, did_you_mean};
 /// A table `[[exclude]]`.
 #[derive(Debug)]
 pub(super) struct Exclusion {
-    /// An axis, and which of its values are met.
+    /// Conditions: an axis, and whether each of its values meets the condition.
     conditions: Vec<(usize, Vec<bool>)>,
 }
 
 impl Exclusion {
-    /// Whether it leaves out the case with these values, an index for each axis.
+    /// Whether it excludes the case with these values, given as an index for each axis.
     pub(super) fn holds(&self, case: &[u32]) -> bool {
         self.conditions.iter().all(|(axis, met)| met[case[*axis] as usize])
     }
 
-    /// The exclusion of a table.
+    /// Reads the exclusion from a table.
     pub(super) fn read(table: &Table<'_>, axes: &[Axis]) -> Result<Self> {
         let conditions = table.entries().into_iter().map(|(key, entry)| condition(key, &entry, axes));
         let conditions = conditions.collect::<Result<Vec<_>>>()?;
@@ -58,7 +58,7 @@ fn condition(key: &str, entry: &Entry<'_>, axes: &[Axis]) -> Result<(usize, Vec<
     Ok((n, met))
 }
 
-/// `{ above = "2 N", below = "5 N" }`, both strictly.
+/// Reads `{ above = "2 N", below = "5 N" }`, both strict.
 fn between(axis: &Axis, entry: &Entry<'_>) -> Result<Vec<bool>> {
     let table = entry.clone().table()?;
     table.known(&["above", "below"], |_| None)?;
@@ -75,7 +75,7 @@ fn between(axis: &Axis, entry: &Entry<'_>) -> Result<Vec<bool>> {
     Ok(numbers.iter().map(|number| above < *number && *number < below).collect())
 }
 
-/// Whether a value of an axis is this one, whatever its unit.
+/// Whether a value of an axis equals this one, in any unit.
 fn is(axis: &Axis, index: usize, value: &Value) -> bool {
     match (axis.numbers(), number(value, axis.dimension())) {
         (Some(numbers), Some(number)) => (numbers[index] - number).abs() <= 1e-12 * number.abs(),

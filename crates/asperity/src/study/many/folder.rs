@@ -1,4 +1,4 @@
-//! What is there of a study: its directory and its cases.
+//! The directory of a study: its plan and the states of its cases.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -19,34 +19,34 @@ pub struct Folder {
     path: PathBuf,
 }
 
-/// How a case stands.
+/// State of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum State {
-    /// Nobody computes it.
+    /// No process computes it.
     Open,
     /// A process computes it.
     Running,
-    /// It has no results, for this reason.
+    /// It failed, for this reason.
     Failed(String),
-    /// Its results are there.
+    /// It has results.
     Done,
 }
 
-/// How many cases of a study stand how.
+/// Number of cases of a study in each state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Their results are there.
+    /// Cases with results.
     pub done: usize,
-    /// They have no results, and a reason.
+    /// Failed cases.
     pub failed: usize,
-    /// Processes compute them.
+    /// Cases being computed.
     pub running: usize,
-    /// Nobody computes them.
+    /// Cases without results that no process computes.
     pub open: usize,
 }
 
 impl Tally {
-    /// Counts cases.
+    /// Counts cases by state.
     pub fn of<'s>(states: impl IntoIterator<Item = &'s State>) -> Self {
         let mut tally = Self::default();
         for state in states {
@@ -60,27 +60,27 @@ impl Tally {
         tally
     }
 
-    /// How many there are.
+    /// Total number of cases.
     pub fn all(self) -> usize {
         self.done + self.failed + self.left()
     }
 
-    /// How many are not over.
+    /// Number of unfinished cases.
     pub fn left(self) -> usize {
         self.running + self.open
     }
 }
 
-/// What `study.json` says.
+/// Content of `study.json`.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Identity {
     version: String,
     title: String,
-    /// Of what all cases share.
+    /// Digest of the part shared by all cases.
     digest: String,
 }
 
-/// What `failed.json` says.
+/// Content of `failed.json`.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Failed {
     pub(super) version: String,
@@ -88,13 +88,13 @@ pub(super) struct Failed {
 }
 
 impl Folder {
-    /// The directory of a study, made where it is missing, with its plan.
+    /// Opens the directory of a study with its plan; creates it if missing.
     ///
-    /// A study may have grown since it was begun: cases that come after all others.
+    /// The study may have more cases than when it was begun, after all others.
     ///
     /// # Errors
-    /// [`Error::NotThisStudy`] if there is another study, or something else; [`Error::SurfaceChanged`] if finished cases were computed
-    /// from other contents of a file; [`Error::File`].
+    /// [`Error::NotThisStudy`] if the directory contains another study, or other files; [`Error::SurfaceChanged`] if
+    /// finished cases were computed from other file contents; [`Error::File`].
     pub fn enter(path: &Path, study: &Study) -> Result<Self> {
         let failed = |source| Error::File { path: path.to_owned(), source };
         let folder = Self { path: path.to_owned() };
@@ -104,7 +104,8 @@ impl Folder {
                 _ => source,
             })
         })?;
-        // Nothing is swept: others may be at work here. What they make first says that it is a study: it is looked for last.
+        // Nothing is removed, because other processes may work here. The first file they write identifies the study, so it
+        // is checked last.
         if !is_empty(path).map_err(failed)? && !folder.identity_path().exists() {
             return Err(Error::NotThisStudy {
                 path: path.to_owned(),
@@ -117,7 +118,7 @@ impl Folder {
             digest: study.digest(),
         };
         let text = serde_json::to_vec_pretty(&identity).expect("texts can be written");
-        // Of several processes that begin one study the first writes.
+        // If several processes begin one study, the first one writes it.
         atomic::create(&folder.identity_path(), &text)?;
         folder.admit(study)?;
         let done = |case| folder.is_done(case).then(|| folder.case(case));
@@ -125,10 +126,10 @@ impl Folder {
         Ok(folder)
     }
 
-    /// The directory of a study that has been begun.
+    /// Opens the directory of a study that has been begun.
     ///
     /// # Errors
-    /// [`Error::NotThisStudy`] if there is another study, or none; [`Error::File`].
+    /// [`Error::NotThisStudy`] if the directory contains another study, or none; [`Error::File`].
     pub fn open(path: &Path, study: &Study) -> Result<Self> {
         let folder = Self { path: path.to_owned() };
         if !folder.identity_path().exists() {
@@ -143,12 +144,12 @@ impl Folder {
         &self.path
     }
 
-    /// The folder of a case, from 1, which is there once a process has had it.
+    /// The folder of a case, from 1; it exists once a process has begun the case.
     pub fn case(&self, case: usize) -> PathBuf {
         self.path.join("cases").join(format!("{case:04}"))
     }
 
-    /// How each case stands, in their order.
+    /// Returns the state of each case, in order.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -161,15 +162,15 @@ impl Folder {
         (1..=study.len()).map(state).collect()
     }
 
-    /// Whether the results of a case are there.
+    /// Whether the results of a case exist.
     pub fn is_done(&self, case: usize) -> bool {
         self.case(case).join("summary.json").exists()
     }
 
-    /// Why a case has no results, if it failed.
+    /// Returns the reason of the failure, if the case failed.
     ///
     /// # Errors
-    /// [`Error::File`] if that cannot be read.
+    /// [`Error::File`] if it cannot be read.
     pub fn failure(&self, case: usize) -> Result<Option<String>> {
         let path = self.failure_path(case);
         let failed = |source| Error::File { path: path.clone(), source };
@@ -183,7 +184,7 @@ impl Folder {
         }
     }
 
-    /// When a case failed, by the clock of the file system; none where it did not.
+    /// Returns the time of a failure, by the clock of the file system; `None` without failure.
     pub(super) fn failed_at(&self, case: usize) -> Option<SystemTime> {
         fs::metadata(self.failure_path(case)).and_then(|about| about.modified()).ok()
     }
@@ -192,7 +193,7 @@ impl Folder {
         self.case(case).join("failed.json")
     }
 
-    /// Whether the plan that is there has cases beyond those of `study`: its file is an older one.
+    /// Whether the stored plan has more cases than `study`, whose file is then older.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -202,7 +203,7 @@ impl Folder {
         Ok(is_longer(study.csv()) || is_longer(study.unguarded_csv()))
     }
 
-    /// The plan that is there; nothing before it is written.
+    /// Reads the stored plan; empty before it is written.
     fn plan(&self) -> Result<String> {
         let path = self.path.join("plan.csv");
         let text = match regular::read(&path, "the plan of a study", u64::MAX) {
@@ -214,7 +215,7 @@ impl Folder {
         text.map_err(|source| Error::File { path, source })
     }
 
-    /// The digests of the files that the study names.
+    /// Path of the digests of the files named in the study.
     pub(super) fn files_path(&self) -> PathBuf {
         self.path.join("files.json")
     }
@@ -223,7 +224,7 @@ impl Folder {
         self.path.join("study.json")
     }
 
-    /// An error unless the directory is that of this study; then its plan is the longer one of those that were made.
+    /// Returns an error unless the directory belongs to this study. Then stores the longer of its plan and the stored one.
     fn admit(&self, study: &Study) -> Result<()> {
         let (identity, plan) = (self.identity_path(), self.path.join("plan.csv"));
         let other = |what| Error::NotThisStudy { path: self.path.clone(), what };
@@ -249,12 +250,12 @@ impl Folder {
     }
 }
 
-/// Whether an error says that there is no such file.
+/// Whether an error means that the file does not exist.
 pub(super) fn is_missing(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
 }
 
-/// Whether nothing is in a directory but files that are being written.
+/// Whether a directory contains nothing but files being written.
 fn is_empty(path: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(path)? {
         if !atomic::is_temporary(&entry?.file_name()) {

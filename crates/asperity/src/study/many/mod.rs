@@ -1,4 +1,4 @@
-//! A study: many cases made of one, each in a folder of its own, computed by any number of processes.
+//! A study: many cases made from one, each in its own folder, computed by any number of processes.
 //!
 //! ```text
 //! STUDY/study.json          what the study is known by
@@ -9,20 +9,20 @@
 //!       table.csv table.h5  a row per case: the values of its axes, the numbers of its summary
 //! ```
 //!
-//! A case is done when its `summary.json` is there. Processes share nothing but these files and their locks.
+//! A case is done when its `summary.json` exists. Processes share only these files and their locks.
 
 mod axis; // a key of the case and its values
-mod base; // the case that all others are made of
+mod base; // the base case
 mod cell; // cells of tables
-mod compute; // computing what is left, case beside case
+mod compute; // computation of the remaining cases in parallel
 mod file; // the study file
-mod files; // what the files held that it names
-mod filter; // cases that are left out
-mod folder; // what is there of a study
+mod files; // digests of the files that it names
+mod filter; // excluded cases
+mod folder; // the directory of a study
 mod named; // a file that it names
-mod plan; // which values each case has
-mod table; // what came of the cases
-mod work; // what is left to a process, case after case
+mod plan; // the values of each case
+mod table; // the table of results
+mod work; // the remaining cases of a process
 
 pub use axis::Axis;
 pub use compute::compute;

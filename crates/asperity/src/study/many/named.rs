@@ -2,17 +2,18 @@
 
 use std::path::PathBuf;
 
-/// A file that a study names: its dotted key in the case, the text that names it in the study, where it lies as seen from here.
+/// A file named in a study: its dotted key in the case, the text that names it in the study, and its path from the working
+/// directory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct NamedFile {
     pub(super) key: String,
-    /// As an axis has it; none of a file of the base.
+    /// The text on an axis; `None` for a file of the base.
     pub(super) value: Option<String>,
     pub(super) path: PathBuf,
 }
 
 impl NamedFile {
-    /// What it is called among the digests, wherever the study lies: its key, of an axis with its value.
+    /// Name of the file among the digests, independent of the place of the study: its key, and for an axis its value.
     pub(super) fn name(&self) -> String {
         match &self.value {
             None => self.key.clone(),

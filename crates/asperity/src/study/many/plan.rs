@@ -1,4 +1,4 @@
-//! The plan of a study: which values each of its cases has.
+//! Plan of a study: the values of each of its cases.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -14,22 +14,23 @@ use crate::error::{CaseError, Error, Result};
 use crate::io::sha256;
 use crate::study::case::Case;
 
-/// The most cases that a study has, before those that are left out.
+/// Largest number of cases of a study, before exclusions.
 pub const MAX_CASES: usize = 10_000_000;
 
-/// A study: a base case and the values that its cases have in place of the base's.
+/// A study: a base case, and the values that replace those of the base in each case.
 ///
-/// Cases are known by their number, from 1. The first axis changes slowest.
+/// Cases are numbered from 1. The first axis changes slowest.
 #[derive(Debug)]
 pub struct Study {
     file: StudyFile,
-    /// For each case the index of a value of each axis, case after case.
+    /// Index of a value of each axis, case after case.
     indices: Vec<u32>,
 }
 
 impl Study {
-    /// Reads a study file and makes its plan. Every value of every axis is tried in one case, so that a mistake is shown before
-    /// anything is computed; what depends on several values, or on what files hold, shows when a case runs.
+    /// Reads a study file and makes its plan. Every value of every axis is tried in one case, so that mistakes are reported
+    /// before anything is computed. Mistakes that depend on several values, or on the content of files, are reported when
+    /// the case runs.
     ///
     /// # Errors
     /// [`Error::File`] if a file cannot be read, [`Error::Case`] if the study, its table or its base has a mistake.
@@ -37,10 +38,11 @@ impl Study {
         Self::of(file::load(path)?)
     }
 
-    /// Makes a study of the text of a study file. `path` is its name for errors, in whose folder the files lie that it names.
+    /// Makes a study from the text of a study file. `path` is its name in errors; paths of files are relative to its
+    /// folder.
     ///
     /// # Errors
-    /// As [`Study::load`].
+    /// The errors of [`Study::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
         Self::of(file::read(text, path)?)
     }
@@ -52,7 +54,7 @@ impl Study {
         Ok(study)
     }
 
-    /// The file's name where it gives none.
+    /// The title; by default the file name.
     pub fn title(&self) -> &str {
         &self.file.title
     }
@@ -62,13 +64,13 @@ impl Study {
         &self.file.axes
     }
 
-    /// How many cases there are.
+    /// Number of cases.
     #[expect(clippy::len_without_is_empty, reason = "a study without cases is refused")]
     pub fn len(&self) -> usize {
         self.indices.len() / self.axes().len()
     }
 
-    /// The index of the value of each axis in a case, from 1.
+    /// Returns the index of the value of each axis in a case, from 1.
     ///
     /// # Panics
     /// If there is no such case.
@@ -77,17 +79,18 @@ impl Study {
         &self.indices[(case - 1) * axes..case * axes]
     }
 
-    /// The values of a case, from 1, as people say them: `contact.load = 2 N, friction.coefficient = 0.1`.
+    /// Returns the values of a case, from 1, for people: `contact.load = 2 N, friction.coefficient = 0.1`.
     pub fn text(&self, case: usize) -> String {
         let values = self.axes().iter().zip(self.indices(case));
         let values = values.map(|(axis, index)| format!("{} = {}", axis.key(), axis.text(*index as usize)));
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// The case file of a case, from 1, which will lie in `folder`; without one its files are as seen from here.
+    /// Returns the case file of a case, from 1. `folder` is its future place; without one, files are relative to the
+    /// working directory.
     ///
     /// # Errors
-    /// [`Error::Case`] where a value has no place in the base.
+    /// [`Error::Case`] if a value cannot be inserted in the base.
     pub fn case_file(&self, case: usize, folder: Option<&Path>) -> Result<String> {
         let title = format!("{}, case {case}: {}", self.title(), self.text(case));
         let values = self.axes().iter().zip(self.indices(case));
@@ -98,13 +101,13 @@ impl Study {
             .map_err(|(axis, message)| self.error_at(case, axis, &message, None))
     }
 
-    /// The plan as a table: a row per case, its number, the values of its axes. A text that a spreadsheet would take for a formula
-    /// begins with an apostrophe.
+    /// Writes the plan as CSV: for each case a row with its number and the values of its axes. A text that a spreadsheet
+    /// would read as a formula begins with an apostrophe.
     pub fn csv(&self) -> String {
         self.csv_with(quoted)
     }
 
-    /// The plan as versions wrote it that guarded no text.
+    /// Writes the plan like earlier versions, without protecting apostrophes.
     pub(super) fn unguarded_csv(&self) -> String {
         self.csv_with(in_quotes)
     }
@@ -130,7 +133,7 @@ impl Study {
         csv
     }
 
-    /// The files that the study names, in the base and on its axes.
+    /// Returns the files named in the study, in the base and on its axes.
     pub(super) fn files(&self) -> Vec<NamedFile> {
         let base = &self.file.base;
         let of_axes = self
@@ -140,7 +143,7 @@ impl Study {
         base.files().into_iter().chain(of_axes).collect()
     }
 
-    /// The files that a case names, from 1.
+    /// Returns the files named in a case, from 1.
     pub(super) fn files_of(&self, case: usize) -> Vec<NamedFile> {
         let base = &self.file.base;
         let mut files = base.files();
@@ -151,13 +154,13 @@ impl Study {
         files
     }
 
-    /// What all cases share, by its digest.
+    /// Digest of the part shared by all cases.
     pub(super) fn digest(&self) -> String {
         let keys: Vec<&str> = self.axes().iter().map(Axis::key).collect();
         sha256(format!("{}\n{}", self.file.base.digest(), keys.join("\n")).as_bytes())
     }
 
-    /// The case as it is read from its file; files as seen from here.
+    /// Reads the case from its text, with files relative to the working directory.
     fn case(&self, case: usize) -> Result<Case> {
         Case::parse(&self.case_file(case, None)?, Path::new("case.toml"), Path::new(""))
     }
@@ -184,7 +187,7 @@ impl Study {
         }
     }
 
-    /// A mistake of a case at the place of the study that it comes from: the value of an axis, or the base.
+    /// Locates a mistake of a case in the study: at the value of an axis, or in the base.
     fn located(&self, case: usize, error: &CaseError) -> Error {
         let of_axis = |axis: &Axis| {
             let (axis, key) = (axis.key(), error.key.as_str());
@@ -196,7 +199,7 @@ impl Study {
         }
     }
 
-    /// An error at the value of an axis in a case.
+    /// Error at the value of an axis in a case.
     fn error_at(&self, case: usize, n: usize, message: &str, hint: Option<String>) -> Error {
         let axis = &self.axes()[n];
         let span = axis.span(self.indices(case)[n] as usize);
@@ -213,7 +216,7 @@ fn beneath(key: &str, table: &str) -> bool {
     key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
 }
 
-/// The indices of all cases that are not left out.
+/// Returns the indices of all cases that are not excluded.
 fn indices(file: &StudyFile) -> Result<Vec<u32>> {
     let grid = file.rows.as_ref().map_or(file.axes.len(), |rows| rows.first);
     let lengths: Vec<usize> = file.axes[..grid].iter().map(Axis::len).collect();

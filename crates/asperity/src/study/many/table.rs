@@ -1,4 +1,4 @@
-//! What came of a study: a row per case, the values of its axes and the numbers of its summary.
+//! Results of a study: a row per case, with the values of its axes and the numbers of its summary.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -20,39 +20,39 @@ use crate::study::results::{NO_LOCKS, Results};
 use crate::study::summary::{Outcome, Summary};
 use crate::study::tables;
 
-/// The cases that are done or have failed.
+/// The finished and failed cases of a study.
 ///
-/// It is the same to the last bit whoever computed them, and how often that was interrupted: no times are in it.
+/// It contains no times, so it is the same to the last bit for any number of processes and interruptions.
 #[derive(Debug)]
 pub struct Table {
     axes: Vec<Axis>,
-    /// The numbers of the summaries, in the order in which the cases have them.
+    /// Names of the numbers of the summaries, in the order of the cases that have them.
     columns: Vec<String>,
     rows: Vec<Row>,
 }
 
-/// A case that is over.
+/// A finished or failed case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Its number, from 1.
     pub case: usize,
     /// The index of the value of each axis.
     pub indices: Vec<u32>,
-    /// The numbers of its summary, SI, by column of the table; NaN where it has none. None at all of a case that failed.
+    /// Numbers of its summary, SI, by column of the table; NaN if missing. Empty for a failed case.
     pub numbers: Vec<f64>,
-    /// How many warnings its summary has, without that of a file system that has no locks.
+    /// Number of warnings in its summary, without the one about a file system without locks.
     pub warnings: usize,
-    /// Time that the last process to compute it took; 0 of a case that failed.
+    /// Time spent by the last process that computed it; 0 for a failed case.
     pub wall_time: f64,
-    /// Why it failed, if it did.
+    /// Reason of the failure, if it failed.
     pub failure: Option<String>,
 }
 
 impl Table {
-    /// Collects what is there of a study.
+    /// Collects the finished and failed cases of a study.
     ///
     /// # Errors
-    /// [`crate::Error::File`] where a summary or a failure cannot be read.
+    /// [`crate::Error::File`] if a summary or a failure cannot be read.
     pub fn collect(study: &Study, folder: &Folder) -> Result<Self> {
         let found: Result<Vec<Option<Found>>> =
             (1..=study.len()).into_par_iter().map(|case| found(folder, case)).collect();
@@ -91,12 +91,12 @@ impl Table {
         &self.columns
     }
 
-    /// The cases, in their order.
+    /// The cases, in order.
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// Writes the table as text, atomically: a line per case. What a case has not is an empty cell.
+    /// Writes the table as CSV, atomically: one line per case. Missing values are empty cells.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -132,8 +132,8 @@ impl Table {
         csv
     }
 
-    /// Writes the table as HDF5, atomically: a dataset per column, each with its unit, along the cases. Of values that are no
-    /// numbers the dataset has the index, and an attribute `KEY: words` of the file the words, each in a line.
+    /// Writes the table as HDF5, atomically: one dataset per column, with its unit, along the cases. For values that are
+    /// texts, the dataset contains indices, and a file attribute `KEY: words` the texts, one per line.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -149,7 +149,7 @@ impl Table {
         add(CASE.name, CASE.unit, &|row| row.case as f64);
         add(DONE.name, DONE.unit, &|row| f64::from(u8::from(row.failure.is_none())));
         for (n, axis) in self.axes.iter().enumerate() {
-            // The index of a text has no unit, a pure number has 1.
+            // An index of texts has no unit; a pure number has 1.
             let unit =
                 if axis.numbers().is_some() && axis.unit().is_empty() { "1".to_owned() } else { axis.unit() };
             add(axis.key(), &unit, &|row| {
@@ -176,7 +176,7 @@ impl Table {
     }
 }
 
-/// What is there of a case that is over.
+/// Data of a finished or failed case.
 struct Found {
     numbers: Vec<(String, f64)>,
     warnings: usize,
@@ -190,7 +190,7 @@ impl Found {
     }
 }
 
-/// What there is of a case. One whose summary is damaged has failed: the others have their rows.
+/// Reads the data of a case. A case with a damaged summary counts as failed, so that the others have their rows.
 fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
     if !folder.is_done(case) {
         return Ok(folder.failure(case)?.map(Found::failed));
@@ -198,7 +198,7 @@ fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
     match Results::open(&folder.case(case)).and_then(|results| results.summary()) {
         Ok(summary) => {
             let wall_time = summary.wall_time_s;
-            // A table does not depend on where it was computed.
+            // A table must not depend on where it was computed.
             let warnings = summary.warnings.iter().filter(|warning| *warning != NO_LOCKS).count();
             Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }))
         }
@@ -211,13 +211,13 @@ fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
     }
 }
 
-/// Whether a file was read that is not what it was.
+/// Whether an error means that a file is damaged.
 fn is_damage(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
 }
 
-/// The numbers of a summary: of a static contact its record, of a sweep the last point, of a motion the last pass; then those of sliding
-/// in place, of running in, of the plastic flow that a motion has left, and the last of the most stressed points.
+/// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
+/// motion. Then those of wear in place, of running-in, of the residual plastic flow, and of the last most stressed point.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -240,7 +240,7 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     numbers
 }
 
-/// Adds the numbers of a record, in its order; of several numbers under one key each has its own column.
+/// Adds the numbers of a record, in order. Several numbers under one key have one column each.
 fn add(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
     for (key, text) in tables::Row::of(record).cells() {
         // Neither is a result.

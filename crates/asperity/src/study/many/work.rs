@@ -1,6 +1,6 @@
-//! What is left of a study to a process: it takes one case after the other, and computes it.
+//! The remaining cases of a study for one process, which takes and computes them one after the other.
 //!
-//! A case is a process's as long as it holds the lock of the folder of its results, which dies with the process.
+//! A process owns a case as long as it holds the lock of its results folder, which ends with the process.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -25,9 +25,9 @@ use crate::study::run::run_with;
 /// The cases of a process: every `of`-th, from the `number`-th on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
-    /// From 1.
+    /// Number of the task, from 1.
     pub number: usize,
-    /// How many tasks share the study.
+    /// Number of tasks that share the study.
     pub of: usize,
 }
 
@@ -35,28 +35,28 @@ impl Task {
     /// All cases.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// Whether a case, from 1, is one of them.
+    /// Whether a case, from 1, belongs to the task.
     pub fn has(self, case: usize) -> bool {
         (case - 1) % self.of == self.number - 1
     }
 }
 
-/// The cases that are left to a process, which it takes one after the other.
+/// The remaining cases of a process, which takes them one after the other.
 #[derive(Debug)]
 pub struct Queue<'s> {
     study: &'s Study,
     folder: &'s Folder,
     cases: Vec<usize>,
     next: AtomicUsize,
-    /// Cases that others computed when it was their turn.
+    /// Cases that other processes were computing at their turn.
     others: Mutex<Vec<usize>>,
-    /// What the files of the study held when its plan was made.
+    /// Digests of the files of the study when its plan was made.
     files: Files,
-    /// Failures that are open again: when each was told.
+    /// Failed cases that are open again, with the time of the failure.
     retried: BTreeMap<usize, SystemTime>,
 }
 
-/// A case that this process has.
+/// A case owned by this process.
 #[derive(Debug)]
 pub struct Turn<'s> {
     queue: &'s Queue<'s>,
@@ -64,17 +64,17 @@ pub struct Turn<'s> {
     lock: Lock,
 }
 
-/// What became of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Computed {
-    /// Its results are there.
+    /// It has results.
     Done,
-    /// There are none, for this reason, which `failed.json` tells.
+    /// It failed, for this reason, which is written to `failed.json`.
     Failed(String),
 }
 
 impl<'s> Queue<'s> {
-    /// What is left of a study to a `task`; with `retry` also what has failed before now.
+    /// Creates the queue of the remaining cases of a study for a `task`. With `retry` it includes earlier failures.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -93,17 +93,17 @@ impl<'s> Queue<'s> {
         Ok(Self { cases, ..queue })
     }
 
-    /// How many cases were left when it was made.
+    /// Number of remaining cases when the queue was created.
     pub fn len(&self) -> usize {
         self.cases.len()
     }
 
-    /// Whether none was left when it was made.
+    /// Whether no case remained when the queue was created.
     pub fn is_empty(&self) -> bool {
         self.cases.is_empty()
     }
 
-    /// The next case; none where all are done, or others compute them.
+    /// Takes the next case; `None` if all are done, or if other processes compute the rest.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -115,7 +115,7 @@ impl<'s> Queue<'s> {
                 None => {}
             }
         }
-        // Once more those that others had: some of these may have gone.
+        // Cases of other processes are tried once more, because some of these may have ended.
         let others = std::mem::take(&mut *self.others());
         for (n, case) in others.iter().enumerate() {
             match self.attempt(*case)? {
@@ -141,7 +141,7 @@ impl<'s> Queue<'s> {
         Ok((!self.is_over(case)).then_some(Turn { queue: self, case, lock }))
     }
 
-    /// Whether nothing is left to do of a case.
+    /// Whether a case needs no more work.
     fn is_over(&self, case: usize) -> bool {
         let counts = |at: &SystemTime| self.retried.get(&case) != Some(at);
         self.folder.is_done(case) || self.folder.failed_at(case).as_ref().is_some_and(counts)
@@ -158,15 +158,15 @@ impl Turn<'_> {
         self.case
     }
 
-    /// Reads the case, whose file is written first.
+    /// Reads the case, after writing its file.
     ///
     /// # Errors
-    /// What is wrong with the case; [`Error::File`] where it cannot be written.
+    /// The error of the case; [`Error::File`] if its file cannot be written.
     pub fn load(&self) -> Result<Case> {
         let folder = self.queue.folder.case(self.case);
         let path = folder.join(CASE_FILE);
         let text = self.queue.study.case_file(self.case, Some(&folder))?;
-        // Nobody else writes it, and half of it, after a power cut, is written again.
+        // No other process writes it, and a partial file left by a power cut is written again.
         let there = match path.exists() {
             true => regular::read(&path, "a case file", u64::MAX)
                 .map_err(|source| Error::File { path: path.clone(), source })?,
@@ -178,18 +178,18 @@ impl Turn<'_> {
         Case::load(&path)
     }
 
-    /// Computes the case, from where a process that was stopped has left it, and keeps its results, or why there are none.
-    /// `admit` may refuse it once it is known.
+    /// Computes the case, from where an interrupted process left it, and writes its results, or the reason of its failure.
+    /// `admit` may refuse it once it is read.
     ///
     /// # Errors
-    /// [`Error::Interrupted`] where `watch` asks for it; [`Error::SurfaceChanged`] where a file of the study is no longer the one that
-    /// its plan was made with; [`Error::File`] where the study cannot be written to. Nothing of these is
-    /// kept: the case is open again.
+    /// [`Error::Interrupted`] if `watch` requests it, [`Error::SurfaceChanged`] if a file of the study has changed since
+    /// its plan was made, [`Error::File`] if the study cannot be written to. These are not recorded as failures: the case
+    /// is open again.
     pub fn compute<T>(self, admit: impl FnOnce(&Case) -> Result<T>, watch: &dyn Watch) -> Result<Computed> {
         let folder = self.queue.folder.case(self.case);
         let failure = self.queue.folder.failure_path(self.case);
         let computed = self.load().and_then(|case| {
-            // Of an earlier attempt.
+            // Left by an earlier attempt.
             let _ = fs::remove_file(&failure);
             let _admitted = admit(&case)?;
             let pinned = self.queue.files.pinned(self.queue.folder.path(), self.queue.study, self.case);
@@ -219,11 +219,11 @@ impl Turn<'_> {
     }
 }
 
-/// Whether an error is none of the case: somebody asked to stop, or the study cannot be written to.
+/// Whether an error does not concern the case: a requested stop, or a study that cannot be written to.
 fn is_of_the_place(error: &Error, study: &Path) -> bool {
     match error {
         Error::Interrupted => true,
-        // A table would have rows of both contents.
+        // A table would mix rows of both contents.
         Error::SurfaceChanged { path, .. } => path == study,
         Error::File { path, source } => {
             let full = [

@@ -1,4 +1,4 @@
-//! The surfaces of a case on a grid that is divided among ranks.
+//! The surfaces of a case on a grid that is distributed over ranks.
 
 use std::sync::Arc;
 
@@ -12,15 +12,15 @@ use crate::study::case::{Body, Case, Layer, Mount, Source, TopographySpec};
 use crate::study::given::Given;
 use crate::surface::{Form, Generator, Preparation, Topography};
 
-/// The two surfaces of a case, of which this rank has its rows.
+/// The rows of this rank of the two surfaces of a case.
 pub(in crate::study) struct SlabBodies {
-    /// The grid of both, and the rows.
+    /// The common grid, and the rows of this rank.
     pub(in crate::study) slab: Slab,
     /// The lower and the upper body.
     pub(in crate::study) bodies: [SlabBody; 2],
 }
 
-/// The rows of a surface as it goes into the contact.
+/// The rows of a surface as used in the contact.
 pub(in crate::study) struct SlabBody {
     pub(in crate::study) topography: Topography,
     pub(in crate::study) hardness: CellValues,
@@ -28,11 +28,11 @@ pub(in crate::study) struct SlabBody {
     pub(in crate::study) origin: Option<Origin>,
 }
 
-/// Makes the topographies of a contact at rest by slabs, where both are made and nothing else is done with them; else each rank
-/// reads or makes and prepares them as a whole, of which it keeps its rows.
+/// Generates the topographies of a static contact by slabs, if both are generated without further preparation. Otherwise
+/// each rank reads or generates and prepares them in full, and keeps only its own rows.
 ///
 /// # Errors
-/// As of [`super::bodies`]; [`crate::Error::TooManyRanks`].
+/// The errors of [`super::bodies`]; [`crate::Error::TooManyRanks`].
 pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
     let specs = [&case.lower.topography, &case.upper.topography];
     if !specs.into_iter().all(made_by_slabs) {
@@ -48,7 +48,7 @@ pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Resul
     Ok(SlabBodies { slab, bodies })
 }
 
-/// Whether each rank makes its rows of a topography alone.
+/// Whether each rank generates only its own rows of a topography.
 pub(in crate::study) fn made_by_slabs(spec: &TopographySpec) -> bool {
     let source = match &spec.source {
         Source::Generate { generate, .. } => generate.makes_slabs(),
@@ -62,7 +62,7 @@ pub(in crate::study) fn made_by_slabs(spec: &TopographySpec) -> bool {
     source && spec.preparation == Preparation::default() && spec.plus.iter().all(layer)
 }
 
-/// A body whose rows this rank makes alone.
+/// Generates the rows of a body on this rank.
 fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     let (table, spec) = (topography_of(name), &body.topography);
     let at = Place { document: case.document(), table: &table, spec };
@@ -90,7 +90,7 @@ fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin: None })
 }
 
-/// The rows of a body that is read or made as a whole.
+/// Returns the rows of a body that is read or generated in full.
 fn cut(body: Prepared, slab: &Slab) -> Result<SlabBody> {
     let Prepared { topography, hardness, hardness_sha256, origin, .. } = body;
     let heights = topography.heights().slice(s![slab.rows(), ..]).to_owned();
@@ -98,7 +98,7 @@ fn cut(body: Prepared, slab: &Slab) -> Result<SlabBody> {
     Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin })
 }
 
-/// Of the values of all cells those of this rank.
+/// Selects the values of this rank from those of all cells.
 fn rows_of(values: CellValues, slab: &Slab) -> CellValues {
     match values {
         CellValues::Field(field) => CellValues::Field(field.slice(s![slab.rows(), ..]).to_owned()),

@@ -1,4 +1,4 @@
-//! Bodies in files of fields: their heights, what laws keep of them, what has flowed below their surfaces.
+//! Bodies in field files: heights, state of laws, plastic state below the surfaces.
 
 use super::{BODIES, depths_attribute, state_name, states_attribute, tensor_name};
 use crate::grid::{CellValues, Grid};
@@ -9,7 +9,7 @@ use crate::solver::Friction;
 use crate::stress::Component;
 use crate::units::Pascal;
 
-/// What has flowed below the surfaces, and what of it is `left` once the load is taken off.
+/// Adds the plastic state below the surfaces, and the part `left` after unloading.
 pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
     for FlowedVolume { body, grid, faces, state, displacement, .. } in volumes {
         let body = BODIES[*body];
@@ -29,7 +29,7 @@ pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: 
     }
 }
 
-/// A tensor in the layers of a body: an array for each of its components.
+/// Adds a tensor in the layers of a body, one array per component.
 fn add_tensor(file: &mut FieldFile, name: &str, unit: &str, body: &str, grid: &Grid, tensor: &TensorField) {
     for component in Component::ALL {
         let layers = tensor.index_axis(ndarray::Axis(1), component as usize);
@@ -38,18 +38,18 @@ fn add_tensor(file: &mut FieldFile, name: &str, unit: &str, body: &str, grid: &G
     }
 }
 
-/// `[layer, ix, iy]` as `[ix, iy, layer]`.
+/// Converts `[layer, ix, iy]` to `[ix, iy, layer]`.
 fn layers_last(values: ndarray::ArrayView3<f64>) -> ndarray::Array3<f64> {
     values.permuted_axes([1, 2, 0]).as_standard_layout().into_owned()
 }
 
-/// The hardness, and what the shear of bodies that slide leaves of it to the pressure.
+/// Sets the hardness, and the cap on the pressure that remains with the shear of sliding bodies.
 pub(super) fn set_caps(file: &mut FieldFile, hardness: Pascal, friction: Option<&Friction>) {
     file.set("hardness", hardness);
     file.set("cap", friction.map_or(hardness, |friction| friction.sliding_cap(hardness)));
 }
 
-/// The bodies: heights, and what laws keep of them, whose names stand in an attribute.
+/// Adds the bodies: heights, and the state of laws, whose names are in an attribute.
 pub(in crate::study) fn add_bodies(file: &mut FieldFile, pair: &Pair) {
     let grids = [pair.lower_grid(), pair.upper_grid()];
     for ((name, body), grid) in BODIES.into_iter().zip([&pair.lower, &pair.upper]).zip(grids) {

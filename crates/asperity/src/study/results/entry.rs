@@ -1,4 +1,4 @@
-//! A results directory that a run enters: what it may find there, what it clears, and the lock that keeps others out.
+//! Entry of a run into a results directory: accepted content, clearing, and the lock against other runs.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -18,69 +18,69 @@ use crate::study::identity;
 use crate::study::tables;
 use serde_json::Value;
 
-/// What to do about results that are there already.
+/// Treatment of existing results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
-    /// Refuse.
+    /// Refuse to run.
     Keep,
     /// Replace them.
     Overwrite,
-    /// Go on from the last finished pass.
+    /// Continue after the last finished pass.
     Resume,
 }
 
-/// The name of a case file that may lie beside its own results.
+/// Name of a case file that may lie beside its own results.
 pub(in crate::study) const CASE_FILE: &str = "case.toml";
 
-/// The file that a run locks. It stays when the run is over: only its lock says that there is one.
+/// Lock file of a run. It stays when the run is over; only its lock shows that a run is active.
 const LOCK: &str = ".lock";
 
-/// How long a run waits for another one to end.
+/// How long a run waits for another one to finish.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What is to be known of results on a file system without locks.
+/// Warning for results on a file system without locks.
 pub(in crate::study) const NO_LOCKS: &str =
     "the file system of the results has no locks: a second run in their directory would go unnoticed";
 
-/// Takes the lock of a results directory, held by the run that writes there.
+/// Takes the lock of a results directory, held while a run writes there.
 ///
 /// # Errors
-/// [`Error::InUse`] while another run has it; [`Error::File`].
+/// [`Error::InUse`] if another run holds it; [`Error::File`].
 fn acquire(directory: &Path) -> Result<Lock> {
     let path = directory.join(LOCK);
-    // A process that was just killed may take a moment to be gone.
+    // A process that was just killed may take a moment to disappear.
     let lock = Lock::take(&path, PATIENCE).map_err(|source| Error::File { path, source })?;
     lock.ok_or_else(|| Error::InUse { path: directory.to_owned() })
 }
 
-/// Takes the lock of a results directory that is there, if nobody has it.
+/// Takes the lock of an existing results directory, if it is free.
 ///
 /// # Errors
 /// [`Error::File`].
 pub(in crate::study) fn try_acquire(directory: &Path) -> Result<Option<Lock>> {
-    /// Who only looks has it for a moment.
+    /// A reader holds it only for a moment.
     const MOMENT: Duration = Duration::from_millis(20);
     let path = directory.join(LOCK);
     Lock::take(&path, MOMENT).map_err(|source| Error::File { path, source })
 }
 
-/// Whether a run writes to a results directory.
+/// Whether a run is writing to a results directory.
 pub(in crate::study) fn is_in_use(directory: &Path) -> bool {
     lock::is_taken(&directory.join(LOCK))
 }
 
-/// What a run goes on from.
+/// The existing results from which a run continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kept {
     Nothing,
-    /// A number of finished passes.
+    /// Number of finished passes.
     Passes(usize),
-    /// Increments, updates or points of a contact at rest.
+    /// Increments, updates or points of a static contact.
     Steps,
 }
 
-/// Locks `directory`, made where it is missing, for the results of `case`, unless its `lock` is held already; what is kept of what is
-/// there. Nothing is cleared yet.
+/// Locks `directory`, created if missing, for the results of `case`, unless its `lock` is held already. Returns the results
+/// to keep. Nothing is cleared yet.
 pub(super) fn enter(
     directory: &Path,
     case: &Value,
@@ -96,7 +96,7 @@ pub(super) fn enter(
             source
         })
     })?;
-    // Before the lock too: nothing is left in a directory of something else.
+    // Also before the lock, so that no lock file is left in an unrelated directory.
     admit(directory, existing)?;
     let lock = lock.map_or_else(|| acquire(directory), Ok)?;
     admit(directory, existing)?;
@@ -108,7 +108,7 @@ pub(super) fn enter(
     Ok((lock, kept))
 }
 
-/// An error if `directory` lies within the results of another run, which are cleared as a whole.
+/// Returns an error if `directory` lies within the results of another run, which are cleared as a whole.
 fn outside_others(directory: &Path) -> Result<()> {
     let all = std::path::absolute(directory);
     let all = all.map_err(|source| Error::File { path: directory.to_owned(), source })?;
@@ -120,7 +120,7 @@ fn outside_others(directory: &Path) -> Result<()> {
     }
 }
 
-/// An error if there is something in `directory` that must be kept.
+/// Returns an error if something in `directory` must be kept.
 fn admit(directory: &Path, existing: Existing) -> Result<()> {
     let failed = |source| Error::File { path: directory.to_owned(), source };
     let results = directory.join("case.json").exists();
@@ -132,7 +132,7 @@ fn admit(directory: &Path, existing: Existing) -> Result<()> {
     }
 }
 
-/// Whether there is nothing but what a run leaves that ended before its `case.json`, and a case file.
+/// Whether the directory contains nothing but a case file and the files of a run that ended before its `case.json`.
 fn is_vacant(directory: &Path) -> io::Result<bool> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
@@ -148,7 +148,7 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// What is finished, if the results are those of `case` and whole.
+/// Returns the finished part, if the results belong to `case` and are complete.
 fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     identity::compare(results.directory(), &results.case_json()?, case)?;
     let identity = identity::of(case);
@@ -171,7 +171,7 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     Ok(Kept::Nothing)
 }
 
-/// The finished passes, if they are whole.
+/// Returns the number of finished passes, if they are complete.
 fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<Kept> {
     let passes = results.passes_there()?;
     if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
@@ -198,7 +198,7 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<K
             whole(&results.subsurface_path(Some(pass)), identity, Some(pass))?;
         }
     }
-    // Of bodies that flow the last pass is asked for what it has left, and more passes where all are kept.
+    // For elasto-plastic bodies the last pass must have its plastic state; if all passes are kept, every pass.
     match case.pointer("/plasticity/keep").and_then(Value::as_str) {
         Some("passes") => {
             for pass in 1..=passes.len() {
@@ -208,7 +208,7 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<K
         Some(_) => whole(&results.flow_path(Some(passes.len())), identity, Some(passes.len()))?,
         None => {}
     }
-    // Where nothing is left to do it is not missed.
+    // If no pass is left to compute, it is not needed.
     let wanted = case.pointer("/motion/passes").and_then(Value::as_u64);
     if wanted.is_some_and(|wanted| wanted > passes.len() as u64) {
         whole(&results.state_path(passes.len()), identity, Some(passes.len()))?;
@@ -218,7 +218,7 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<K
     Ok(Kept::Passes(passes.len()))
 }
 
-/// The points of a sweep, if the fields kept of each are whole.
+/// Checks that the kept fields of each point of a sweep are complete.
 fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepRecord]) -> Result<Kept> {
     if !points.iter().map(|point| point.point).eq(1..=points.len()) {
         let path = results.sweep_path();
@@ -235,7 +235,7 @@ fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepR
     Ok(Kept::Steps)
 }
 
-/// An error unless `path` holds the undamaged fields of that run, of a motion those of that pass.
+/// Returns an error unless `path` holds the undamaged fields of this run; for a motion, those of this pass.
 fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     let refused = |reason| Err(Error::NotResumable { path: path.to_owned(), reason });
     if !path.exists() {
@@ -252,10 +252,10 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     fields.verify()
 }
 
-/// An error if the state at `path` was written with rows of another digest; `table` has them, and it or a table beside it was
-/// changed since. States of earlier versions have no digest.
+/// Returns an error if the state at `path` was written with rows of another digest: the `table` of these rows, or a table
+/// beside it, was then changed since. States of earlier versions have no digest.
 fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
-    // One that is needed was read in full; another is not missed.
+    // A required state has been read in full; others may be missing.
     let Ok(attributes) = Fields::open(path).and_then(|fields| fields.attributes()) else { return Ok(()) };
     match attributes.get(ROWS) {
         Some(written) if *written != Attribute::from(digest) => {
@@ -265,9 +265,9 @@ fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
     }
 }
 
-/// An error if a row of a table is not the one that the summary has, where all was done.
+/// Returns an error if a row of a table differs from the summary of a finished computation.
 fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Path) -> Result<()> {
-    // Without a summary that can be read it is made anew.
+    // An unreadable summary is written again.
     let Ok(summary) = results.summary() else { return Ok(()) };
     let told = serde_json::to_value(&summary.outcome).expect("a record is JSON");
     let told = told.as_object().and_then(|outcome| outcome.values().next()).and_then(Value::as_array);
@@ -278,14 +278,15 @@ fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Pa
     }
 }
 
-/// Removes what an earlier computation left but what is kept, of passes in which bodies flow their volumes as told, and nothing else.
+/// Removes the results of an earlier computation, except the kept ones and, for elasto-plastic bodies, the volumes to
+/// `keep`. Nothing else is removed.
 pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
     let at = |name: &str| results.directory.join(name);
-    // It tells of all, or is not there.
+    // It describes the complete results, or is absent.
     results.remove(&at("summary.json"))?;
     match kept {
         Kept::Nothing => {
-            // First what says that something is done, never the file by which the directory is known as ours.
+            // Files that mark something as done go first. The file that marks the directory as results is never removed.
             for name in
                 ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv", "report.html"]
                     .iter()
@@ -304,11 +305,11 @@ pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
     }
 }
 
-/// The fields of a static contact.
+/// Files of fields of a static contact.
 const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurface.vti", "plasticity.h5"];
 
-/// The fields of passes that were not finished, and the states of all but the last that was; of its volumes those that are
-/// to be kept.
+/// Removes the fields of unfinished passes, and the states of all but the last finished one. Volumes that must be kept
+/// stay.
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));

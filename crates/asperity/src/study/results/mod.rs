@@ -1,4 +1,4 @@
-//! A results directory: what a computation leaves, and how it is found again.
+//! A results directory: its content, and how it is read.
 //!
 //! ```text
 //! DIR/case.json            the case as resolved, SI, with the digests that --resume compares
@@ -22,13 +22,13 @@
 //!     .lock                locked while a run writes here
 //! ```
 //!
-//! A step is there once its row stands in its table, which is written last; the state of the step before is then removed.
+//! A step exists once its table has its row, which is written last. The state of the step before is then removed.
 
-mod entry; // what a run may find and clear, the lock
-mod bodies; // bodies in files of fields
-mod state; // what the next step of a course depends on
-mod step; // a course, step after step
-mod write; // what a run leaves
+mod entry; // accepted content, clearing, the lock
+mod bodies; // bodies in field files
+mod state; // state between two steps of a course
+mod step; // the output of a course, step by step
+mod write; // the output of a run
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -59,7 +59,7 @@ use crate::stress::Component;
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 
-/// A results directory, to be read.
+/// A results directory, open for reading.
 #[derive(Debug, Clone)]
 pub struct Results {
     directory: PathBuf,
@@ -84,20 +84,20 @@ impl Results {
         &self.directory
     }
 
-    /// The case as it was computed, in SI.
+    /// Reads the case as it was computed, in SI.
     ///
     /// # Errors
-    /// [`Error::File`], also where the file holds no case, or one with keys that are no longer known.
+    /// [`Error::File`], also if the file contains no case, or one with keys that are no longer known.
     pub fn case(&self) -> Result<Case> {
         let case = identity::without_digests(&self.case_json()?);
         serde_json::from_value(case).map_err(|error| self.failed(&self.case_path(), error.into()))
     }
 
-    /// The content of `case.json`: the case in SI under the keys of the case file, with the digests of its files and the `identity`
+    /// Reads `case.json`: the case in SI under the keys of the case file, with the digests of its files and the `identity`
     /// of the run.
     ///
     /// # Errors
-    /// [`Error::File`], also where the file holds no case.
+    /// [`Error::File`], also if the file contains no case.
     pub fn case_json(&self) -> Result<Value> {
         let path = self.case_path();
         let text = regular::read(&path, "a case", u64::MAX).map_err(|source| self.failed(&path, source))?;
@@ -108,7 +108,7 @@ impl Results {
         }
     }
 
-    /// The summary, which is there once all is done.
+    /// Reads the summary, which exists once the computation is complete.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -116,10 +116,10 @@ impl Results {
         summary::read(&self.summary_path())
     }
 
-    /// The finished passes; none where nothing moved yet.
+    /// Reads the records of the finished passes; empty if nothing has moved yet.
     ///
     /// # Errors
-    /// [`Error::File`], also where the summary has more or fewer.
+    /// [`Error::File`], also if their number differs from that in the summary.
     pub fn passes(&self) -> Result<Vec<PassRecord>> {
         let passes = self.passes_there()?;
         self.agree(&self.passes_path(), passes.len(), |summary| match &summary.outcome {
@@ -129,16 +129,16 @@ impl Results {
         Ok(passes)
     }
 
-    /// The rows of the table of passes, whatever the summary says.
+    /// Reads the rows of the table of passes, whatever the summary says.
     pub(super) fn passes_there(&self) -> Result<Vec<PassRecord>> {
         let path = self.passes_path();
         if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
     }
 
-    /// The positions of the finished passes.
+    /// Reads the positions of the finished passes.
     ///
     /// # Errors
-    /// [`Error::File`], also where a pass has not all of its positions.
+    /// [`Error::File`], also if positions of a pass are missing.
     pub fn steps(&self) -> Result<Vec<StepRecord>> {
         let path = self.steps_path();
         let finished = self.passes()?.len();
@@ -153,7 +153,7 @@ impl Results {
         }
     }
 
-    /// The fields of a motion after so many passes, 0 for those before the first.
+    /// Opens the fields of a motion after `passes` passes; 0 for those before the first.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -161,7 +161,7 @@ impl Results {
         Fields::open(&self.fields_path(passes))
     }
 
-    /// The fields of a static contact.
+    /// Opens the fields of a static contact.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -169,10 +169,10 @@ impl Results {
         Fields::open(&self.static_path())
     }
 
-    /// The increments of a static contact that was loaded in stages; none of other contacts.
+    /// Reads the increments of a static contact loaded in stages; empty for other contacts.
     ///
     /// # Errors
-    /// [`Error::File`], also where a finished contact that was loaded in stages has none.
+    /// [`Error::File`], also if a finished contact that was loaded in stages has none.
     pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
         let path = self.increments_path();
         let increments = self.rows_at_rest(&path)?;
@@ -182,10 +182,10 @@ impl Results {
         Ok(increments)
     }
 
-    /// The updates of a contact that slides in place, the first before it slides; none of other contacts.
+    /// Reads the updates of a contact that wears in place, beginning before it slides; empty for other contacts.
     ///
     /// # Errors
-    /// [`Error::File`], also where the summary has more or fewer.
+    /// [`Error::File`], also if their number differs from that in the summary.
     pub fn updates(&self) -> Result<Vec<UpdateRecord>> {
         let path = self.updates_path();
         let updates: Vec<UpdateRecord> = self.rows_at_rest(&path)?;
@@ -193,10 +193,10 @@ impl Results {
         Ok(updates)
     }
 
-    /// The points of a sweep that are done; none of other contacts.
+    /// Reads the finished points of a sweep; empty for other contacts.
     ///
     /// # Errors
-    /// [`Error::File`], also where the summary has more or fewer.
+    /// [`Error::File`], also if their number differs from that in the summary.
     pub fn sweep(&self) -> Result<Vec<SweepRecord>> {
         let points = self.points_there()?;
         self.agree(&self.sweep_path(), points.len(), |summary| match &summary.outcome {
@@ -206,12 +206,12 @@ impl Results {
         Ok(points)
     }
 
-    /// The rows of the table of a sweep, whatever the summary says.
+    /// Reads the rows of the table of a sweep, whatever the summary says.
     pub(super) fn points_there(&self) -> Result<Vec<SweepRecord>> {
         self.rows_at_rest(&self.sweep_path())
     }
 
-    /// The rows of the table of a contact at rest; those that are whole, where it is under way.
+    /// Reads the rows of the table of a static contact; only complete rows, if it is still running.
     fn rows_at_rest<T: DeserializeOwned>(&self, path: &Path) -> Result<Vec<T>> {
         match (path.exists(), self.summary_path().exists()) {
             (false, _) => Ok(Vec::new()),
@@ -220,7 +220,7 @@ impl Results {
         }
     }
 
-    /// An error unless the table at `path` has so many `rows` as the summary tells, where there is one and it does.
+    /// Returns an error if the number of `rows` in the table at `path` differs from that in the summary, if there is one.
     fn agree(&self, path: &Path, rows: usize, told: impl Fn(&Summary) -> Option<usize>) -> Result<()> {
         if !self.summary_path().exists() {
             return Ok(());
@@ -231,7 +231,7 @@ impl Results {
         }
     }
 
-    /// The fields kept of a point, from 1, of a sweep.
+    /// Opens the kept fields of a point, from 1, of a sweep.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -239,7 +239,7 @@ impl Results {
         Fields::open(&self.point_path(point))
     }
 
-    /// The stress under the surface: of a static contact, or in the pass, from 1, of a motion.
+    /// Opens the stress under the surface of a static contact, or of a pass, from 1, of a motion.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -247,7 +247,7 @@ impl Results {
         Fields::open(&self.subsurface_path(pass))
     }
 
-    /// The surfaces after so many passes.
+    /// Reads the surfaces after `passes` passes.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -262,7 +262,7 @@ impl Results {
         Ok([topography("lower")?, topography("upper")?])
     }
 
-    /// What laws keep of the lower and of the upper body after so many passes, by name.
+    /// Reads the state of laws on the lower and on the upper body after `passes` passes, by name.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -270,7 +270,7 @@ impl Results {
         Self::states_of(&self.fields_after(passes)?)
     }
 
-    /// What laws keep of the lower and of the upper body, by name, in a file of fields.
+    /// Reads the state of laws on the lower and on the upper body, by name, from a field file.
     pub(super) fn states_of(fields: &Fields) -> Result<[BTreeMap<String, State>; 2]> {
         let attributes = fields.attributes()?;
         let states = |body: &str| {
@@ -298,7 +298,7 @@ impl Results {
         self.directory.join("summary.json")
     }
 
-    /// The state in which the pass after so many begins.
+    /// Reads the state in which the pass after `passes` passes begins.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -348,16 +348,16 @@ impl Results {
         self.fields_folder().join(name)
     }
 
-    /// The state from which the step after so many goes on.
+    /// Path of the state from which a run continues after `steps` steps.
     fn state_path(&self, steps: usize) -> PathBuf {
         self.fields_folder().join(format!("state-{steps:04}.h5"))
     }
 
-    /// The number of the last step whose state is there, and which has its row: there are so many `rows`, the first of which has the
-    /// number `first`. None where there is no state.
+    /// Returns the number of the last step with a state and a row; there are `rows` rows, the first with the number
+    /// `first`. `None` if there is no state.
     ///
     /// # Errors
-    /// [`Error::NotResumable`] where the rows up to the state are not there in `table`.
+    /// [`Error::NotResumable`] if rows up to the state are missing in `table`.
     pub(super) fn last_state(&self, rows: usize, first: usize, table: &Path) -> Result<Option<usize>> {
         let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(None) };
         let number = |entry: std::io::Result<fs::DirEntry>| {
@@ -375,10 +375,10 @@ impl Results {
         }
     }
 
-    /// The loading of the `pair` in so many `increments` that was interrupted, if one was.
+    /// Reads the interrupted loading of the `pair` with this total number of `increments`, if there is one.
     ///
     /// # Errors
-    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
+    /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
     pub(super) fn loading_under_way(&self, pair: &Pair, increments: usize) -> Result<Option<LoadingState>> {
         let (mut rows, table) = (self.increments()?, self.increments_path());
         let Some(done) = self.last_state(rows.len(), 1, &table)? else { return Ok(None) };
@@ -393,10 +393,10 @@ impl Results {
         state::increment::read(&stored, pair, rows).map(Some)
     }
 
-    /// The contact of the `pair` that slid in place and was interrupted, if one was.
+    /// Reads the interrupted contact of the `pair` that wears in place, if there is one.
     ///
     /// # Errors
-    /// [`Error::File`] for files that cannot be read, [`Error::NotResumable`] where they do not fit together.
+    /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
     pub(super) fn sliding_under_way(&self, pair: &Pair) -> Result<Option<SlidingState>> {
         let (mut rows, table) = (self.updates()?, self.updates_path());
         let Some(done) = self.last_state(rows.len(), 0, &table)? else { return Ok(None) };
@@ -406,7 +406,7 @@ impl Results {
         state::update::read(&stored, pair, rows).map(Some)
     }
 
-    /// Removes a file if it is there.
+    /// Removes a file if it exists.
     pub(super) fn remove(&self, path: &Path) -> Result<()> {
         match fs::remove_file(path) {
             Err(source) if source.kind() != ErrorKind::NotFound => {
@@ -416,7 +416,7 @@ impl Results {
         }
     }
 
-    /// Removes the state of a static contact, of which all is done, and its folder, unless something else is there.
+    /// Removes the state of a finished static contact, and its folder if it is then empty.
     pub(super) fn forget_state(&self) -> Result<()> {
         let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(()) };
         let states = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -427,7 +427,7 @@ impl Results {
         Ok(())
     }
 
-    /// What has flowed below the surfaces: of a static contact, or after the pass, from 1, of a motion.
+    /// Opens the plastic state below the surfaces, of a static contact, or after a pass, from 1, of a motion.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -435,7 +435,7 @@ impl Results {
         Fields::open(&self.flow_path(pass))
     }
 
-    /// What has flowed in the bodies, lower one first, that may, after so many passes.
+    /// Reads the plastic state of the elasto-plastic bodies, lower one first, after `passes` passes.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -488,7 +488,7 @@ impl Results {
         self.failed(path, std::io::Error::new(ErrorKind::InvalidData, what))
     }
 
-    /// A table that is not there, or has other rows than the summary.
+    /// Error for a missing table, or one that differs from the summary.
     fn incomplete(&self, path: &Path) -> Error {
         match path.exists() {
             true => self.damaged(path, "it is damaged: its rows are not those in summary.json"),
@@ -497,7 +497,7 @@ impl Results {
     }
 }
 
-/// What keeps a JSON value from being a case, as far as the readers of results ask for it; none of a case.
+/// Returns the defect of a JSON value that is not a case, as far as the readers of results need it; `None` for a case.
 fn defect_of_case(case: &Value) -> Option<&'static str> {
     let Some(case) = case.as_object() else { return Some("holds no case, expected an object") };
     let is_text = |key: &str| case.get(key).is_none_or(Value::is_string);
@@ -519,7 +519,7 @@ fn defect_of_case(case: &Value) -> Option<&'static str> {
     }
 }
 
-/// Whether the summary is that of a contact with a row for each increment of its loading.
+/// Whether the summary describes a contact with a row for each increment of its loading.
 fn was_loaded_in_stages(summary: &Summary) -> bool {
     let Outcome::Static(record) = &summary.outcome else { return false };
     let has_history =
@@ -528,22 +528,22 @@ fn was_loaded_in_stages(summary: &Summary) -> bool {
     summary.sliding.is_none() && (record.flow.is_some() || rubs || has_history)
 }
 
-/// Whether so many passes have the same positions each.
+/// Whether `passes` passes have the same positions each.
 pub(super) fn has_every_position(steps: &[StepRecord], passes: usize) -> bool {
     let positions = steps.len() / passes;
     let expected = (1..=passes).flat_map(|pass| (1..=positions).map(move |step| (pass, step)));
     positions > 0 && steps.iter().map(|step| (step.pass, step.step)).eq(expected)
 }
 
-/// Whether a file holds the state of a course.
+/// Whether a file contains the state of a course.
 fn is_state(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("state-"))
 }
 
-/// The bodies, by the names of the fields of their heights.
+/// Names of the bodies in the fields of their heights.
 const BODIES: [&str; 2] = ["lower", "upper"];
 
-/// Name of the field of a state of a body.
+/// Name of the field of a law's state on a body.
 fn state_name(state: &str, body: &str) -> String {
     format!("{state}_{body}")
 }
@@ -553,7 +553,7 @@ fn tensor_name(tensor: &str, component: Component, body: &str) -> String {
     state_name(&format!("{tensor}_{}", component.name()), body)
 }
 
-/// Name of the attribute with the depths of the faces of the layers of a body that may flow.
+/// Name of the attribute with the depths of the layer faces of an elasto-plastic body.
 fn depths_attribute(body: &str) -> String {
     format!("depths_{body}")
 }
@@ -563,27 +563,27 @@ fn states_attribute(body: &str) -> String {
     format!("states_{body}")
 }
 
-/// Name of the pressure field of a position, which is counted from 1.
+/// Name of the pressure field of a position, counted from 1.
 pub fn pressure_name(step: usize) -> String {
     format!("pressure_{step:05}")
 }
 
-/// Name of the field of what the cells of a position bear, which is counted from 1; there where they differ.
+/// Name of the field with the pressure caps at a position, counted from 1; written if they differ from cell to cell.
 pub fn cap_name(step: usize) -> String {
     format!("cap_{step:05}")
 }
 
-/// Name of the temperature of the surfaces in contact at a position, which is counted from 1; there where it is computed.
+/// Name of the surface temperature in contact at a position, counted from 1; written if it is computed.
 pub fn temperature_name(step: usize) -> String {
     format!("temperature_{step:05}")
 }
 
-/// Name of the shear traction along x of a position, which is counted from 1.
+/// Name of the shear traction along x at a position, counted from 1.
 pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")
 }
 
-/// Whether the fields of a point, from 1, are kept, if those of every n-th are.
+/// Whether the fields of a point, from 1, are kept, with those of every n-th.
 pub(super) fn is_kept(point: usize, every: usize) -> bool {
     every > 0 && (point - 1).is_multiple_of(every)
 }

@@ -1,7 +1,8 @@
-//! What keeps a course in a results directory, step after step.
+//! Output of a course to a results directory, step by step.
 //!
-//! The fields of a step are written first, then the state from which the next one goes on, last its row: a step is done when its row
-//! stands. The state of the step before goes then; that of the last step is needed by a motion alone, which may be given more passes.
+//! The fields of a step are written first, then the state from which the next one continues, and last its row. A step is
+//! done once its row is written, and the state of the step before is then removed. The state after the last step is needed
+//! only for a motion, which may be extended by more passes.
 
 use std::path::PathBuf;
 
@@ -20,7 +21,7 @@ use crate::study::subsurface::{Plan, SubsurfaceRecord};
 use crate::study::tables::{self, GrowingTable, Record};
 use crate::subsurface::Tractions;
 
-/// Keeps each step of a course on the disk.
+/// Writes each step of a course to files.
 pub struct StepWriter {
     results: Results,
     identity: String,
@@ -30,11 +31,11 @@ pub struct StepWriter {
     digest: String,
     /// The table of the positions of the passes of a motion.
     positions: Option<GrowingTable>,
-    /// The fields of every n-th point of a sweep, the pressure of every n-th position of a pass; 0: of none.
+    /// Interval of the points of a sweep, or of the positions of a pass, whose fields are kept; 0 for none.
     fields_every: usize,
-    /// The stress under the surface that is wanted of each pass.
+    /// The plan of the stress under the surface in each pass.
     plan: Option<Plan>,
-    /// Of which passes the volumes that flow are kept.
+    /// The passes whose plastic volumes are kept.
     keep: Keep,
 }
 
@@ -73,7 +74,7 @@ impl Output for StepWriter {
 }
 
 impl Writer {
-    /// The output that keeps each increment of a loading here, after those that are `done`.
+    /// Creates the output for the increments of a loading, after those that are `done`.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -81,7 +82,7 @@ impl Writer {
         self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
     }
 
-    /// The output that keeps each update of a contact that slides in place here, after those that are `done`.
+    /// Creates the output for the updates of a contact that wears in place, after those that are `done`.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -89,8 +90,8 @@ impl Writer {
         self.steps(self.results.updates_path(), done.len(), tables::digest("", done))
     }
 
-    /// The output that keeps each point of a sweep here, after those that are `done`, with the fields of every `fields_every`-th (0: of
-    /// none).
+    /// Creates the output for the points of a sweep, after those that are `done`, with the fields of every
+    /// `fields_every`-th (0 for none).
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -99,8 +100,8 @@ impl Writer {
         Ok(StepWriter { fields_every, ..writer })
     }
 
-    /// The output that keeps each pass here, with the pressures of every `pressure_every`-th position (0: none), the stress under the
-    /// surface, where there is a plan for it, and the volumes of bodies that flow.
+    /// Creates the output for passes, with the pressures of every `pressure_every`-th position (0 for none), the stress
+    /// under the surface if there is a `plan`, and the volumes of elasto-plastic bodies.
     ///
     /// # Errors
     /// [`crate::Error::File`] if the results of earlier passes cannot be read.
@@ -113,7 +114,7 @@ impl Writer {
         Ok(StepWriter { positions, fields_every: pressure_every, plan, keep: self.keep(), ..writer })
     }
 
-    /// The output that keeps each step here, after so many `rows` of that digest.
+    /// Creates the output for steps, after `rows` rows with this digest.
     fn steps(&self, table: PathBuf, rows: usize, digest: String) -> Result<StepWriter> {
         Ok(StepWriter {
             results: self.results.clone(),
@@ -129,7 +130,7 @@ impl Writer {
 }
 
 impl StepWriter {
-    /// The stress under the surface in each of so many passes; none without a plan.
+    /// Reads the stress under the surface in each of `passes` passes; empty without a plan.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -138,7 +139,7 @@ impl StepWriter {
         wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
     }
 
-    /// The state after a step; none after the last, which nothing goes on from.
+    /// Creates the file of the state after a step; `None` after the last step.
     fn state(&self, step: &Step<'_>, add: impl FnOnce(&mut FieldFile)) -> Option<FieldFile> {
         (!step.is_last()).then(|| {
             let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(step.number()));
@@ -147,7 +148,7 @@ impl StepWriter {
         })
     }
 
-    /// Writes the state after a step, if another one follows, and adds its rows: those of its `positions`, and its own.
+    /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its own row.
     fn add<T: Record>(
         &mut self,
         number: usize,

@@ -1,4 +1,4 @@
-//! What a run writes into its results directory.
+//! Output of a run to its results directory.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ use crate::study::summary::Summary;
 use crate::study::{identity, summary};
 use crate::subsurface::Tractions;
 
-/// A results directory that one run has for itself: others are refused until this is dropped, or its process is gone.
+/// A results directory owned by one run. Other runs are refused until this is dropped, or until its process ends.
 #[derive(Debug)]
 pub struct Writer {
     pub(super) results: Results,
@@ -33,18 +33,19 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Makes `directory` for the results of `case`, the content of its `case.json`, or enters it again. What is there
-    /// stays until [`Self::begin`].
+    /// Creates `directory` for the results of `case`, the content of its `case.json`, or enters an existing one. Existing
+    /// files stay until [`Self::begin`].
     ///
     /// # Errors
-    /// [`crate::Error::ResultsExist`] where there is something that must be kept, [`crate::Error::WithinResults`], [`crate::Error::InUse`] while another run writes
-    /// there; of results to be resumed [`crate::Error::OtherCase`] (more passes and another title are welcome),
-    /// [`crate::Error::SurfaceChanged`], [`crate::Error::NotResumable`] where a file is missing or of another run; [`crate::Error::File`].
+    /// [`crate::Error::ResultsExist`] if something must be kept, [`crate::Error::WithinResults`], [`crate::Error::InUse`]
+    /// if another run writes there, [`crate::Error::File`]. To resume results, also [`crate::Error::OtherCase`] (more
+    /// passes and another title are allowed), [`crate::Error::SurfaceChanged`], and [`crate::Error::NotResumable`] if a
+    /// file is missing or belongs to another run.
     pub fn enter(directory: &Path, case: &Value, existing: Existing) -> Result<Self> {
         Self::enter_with(directory, case, existing, None)
     }
 
-    /// As [`enter`](Self::enter), where the `lock` of the directory is held already.
+    /// [`enter`](Self::enter) with a `lock` of the directory that is held already.
     pub(in crate::study) fn enter_with(
         directory: &Path,
         case: &Value,
@@ -61,7 +62,7 @@ impl Writer {
         })
     }
 
-    /// Clears what is replaced, and what killed runs have left, and writes `case.json`.
+    /// Clears replaced files and remains of killed runs, and writes `case.json`.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -75,12 +76,12 @@ impl Writer {
         atomic::replace(&self.results.case_path(), &text)
     }
 
-    /// What is there already.
+    /// The existing results.
     pub fn results(&self) -> &Results {
         &self.results
     }
 
-    /// What the user should know of the directory.
+    /// Returns the warning about the directory, if any.
     pub fn warning(&self) -> Option<&'static str> {
         (!self.lock.binds()).then_some(NO_LOCKS)
     }
@@ -106,7 +107,7 @@ impl Writer {
         file.write()
     }
 
-    /// Writes what has flowed below the surfaces of a static contact.
+    /// Writes the plastic state below the surfaces of a static contact.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -117,8 +118,8 @@ impl Writer {
         file.write()
     }
 
-    /// Computes and writes the stress under the surface of a static contact, whose lower body bears `tractions`, and in whose bodies
-    /// this has flowed.
+    /// Computes and writes the stress under the surface of a static contact with these `tractions` on its lower body, and
+    /// with the plastic state of its bodies.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -135,7 +136,7 @@ impl Writer {
         plan.write(self.field_file(&path), &path, None, tractions, flowed)
     }
 
-    /// Writes the bodies before the first pass, which slide under `friction`.
+    /// Writes the bodies before the first pass; they slide under `friction`.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -147,7 +148,7 @@ impl Writer {
         file.write()
     }
 
-    /// Writes each file of fields as image data for ParaView, too, unless that is there.
+    /// Also writes each field file as image data for ParaView, unless that exists.
     ///
     /// # Errors
     /// [`crate::Error::File`].
@@ -162,13 +163,13 @@ impl Writer {
         Ok(())
     }
 
-    /// Of which passes the volumes that flow are kept.
+    /// The passes whose plastic volumes are kept.
     pub(super) fn keep(&self) -> Keep {
         let word = self.case.pointer("/plasticity/keep").and_then(Value::as_str);
         word.and_then(Keep::of_word).unwrap_or(Keep::Last)
     }
 
-    /// A file of fields that says which run it is of.
+    /// Creates a field file with the identity of its run.
     fn field_file(&self, path: &Path) -> FieldFile {
         FieldFile::of_run(&self.identity, path)
     }

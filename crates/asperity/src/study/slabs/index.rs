@@ -1,4 +1,4 @@
-//! `fields/ranks.json`, the list of the ranks' files, and these files themselves.
+//! `fields/ranks.json`, the list of the files of the ranks, and these files.
 
 use std::io::{self, ErrorKind};
 use std::ops::Range;
@@ -19,7 +19,7 @@ use crate::study::fields::{NamedField, RestFields};
 use crate::study::identity;
 use crate::units::{Metre, Pascal};
 
-/// The rows of the fields that each file of a run on ranks holds.
+/// The rows of the fields in each file of a run on ranks.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Index {
     version: String,
@@ -28,7 +28,7 @@ pub(super) struct Index {
     pitch: [Metre; 2],
     pub(super) periodic: [bool; 2],
     pub(super) approach: Metre,
-    /// None where it is infinite.
+    /// `None` if it is infinite.
     pub(super) hardness: Option<Pascal>,
     pub(super) fields: Vec<Named>,
     parts: Vec<Part>,
@@ -54,20 +54,20 @@ impl Part {
     }
 }
 
-/// The name of the index in the folder of the fields.
+/// Name of the index in the folder of the fields.
 const INDEX: &str = "ranks.json";
 
-/// The key of the digest of all other keys.
+/// Key of the digest of all other keys.
 const DIGEST: &str = "digest";
 
-/// Gives an index the digest of its other keys.
+/// Adds to an index the digest of its other keys.
 pub(super) fn sign(index: &mut Value) {
     index[DIGEST] = Value::Null;
     let text = serde_json::to_vec(index).expect("a JSON value can be written");
     index[DIGEST] = sha256(&text).into();
 }
 
-/// Fields that every contact has, and that [`super::collect`] looks at.
+/// Fields of every contact, which [`super::collect`] reads.
 const NEEDED: [&str; 3] = ["pressure", "lower", "upper"];
 
 impl Index {
@@ -98,10 +98,10 @@ impl Index {
         }
     }
 
-    /// The index of the run of this `case` in `directory`.
+    /// Reads the index of the run of this `case` in `directory`.
     ///
     /// # Errors
-    /// [`Error::File`] if it is missing or damaged, [`Error::NotResumable`] if it is that of another case.
+    /// [`Error::File`] if it is missing or damaged, [`Error::NotResumable`] if it belongs to another case.
     pub(super) fn read(directory: &Path, case: &Value) -> Result<Self> {
         let path = directory.join("fields").join(INDEX);
         let failed = |source| Error::File { path: path.clone(), source };
@@ -124,7 +124,7 @@ impl Index {
         }
     }
 
-    /// What is wrong with the index itself: its files must hold each row once, in order.
+    /// Checks the index: its files must contain each row once, in order.
     fn check(&self) -> std::result::Result<(), &'static str> {
         if Grid::new(self.shape, self.pitch).is_err() {
             return Err("its grid has no meaning");
@@ -176,10 +176,11 @@ impl Index {
         file.write()
     }
 
-    /// The files of the ranks, undamaged, of this run, each with the rows that the index gives it.
+    /// Opens the files of the ranks, and checks that they are undamaged, belong to this run, and contain the rows given in
+    /// the index.
     ///
     /// # Errors
-    /// [`Error::File`], [`Error::NotResumable`], [`Error::OtherRows`]: all of them name the file.
+    /// [`Error::File`], [`Error::NotResumable`], [`Error::OtherRows`], each with the name of the file.
     pub(super) fn open_parts(&self, directory: &Path) -> Result<Vec<RankFile>> {
         let open = |part: &Part| {
             let path = directory.join("fields").join(&part.file);
@@ -212,10 +213,10 @@ impl Index {
         self.parts.iter().map(open).collect()
     }
 
-    /// All rows of a field, of which `files` have theirs.
+    /// Joins all rows of a field from the `files`.
     ///
     /// # Errors
-    /// [`Error::NoField`], [`Error::File`] if a file lacks the field, or has it on another grid or in another unit.
+    /// [`Error::NoField`]; [`Error::File`] if the field in a file has another grid or another unit.
     pub(super) fn whole(&self, files: &[RankFile], Named { name, unit }: &Named) -> Result<Field> {
         let mut whole = Field::zeros(self.shape);
         for (part, file) in self.parts.iter().zip(files) {
@@ -225,11 +226,11 @@ impl Index {
     }
 }
 
-/// The file of a rank, opened to be read.
+/// The file of a rank, open for reading.
 pub(super) struct RankFile {
     path: PathBuf,
     fields: Fields,
-    /// Its rows, and the cells of each.
+    /// Number of its rows, and of the cells of each.
     shape: [usize; 2],
     pitch: [Metre; 2],
 }
@@ -247,12 +248,12 @@ impl RankFile {
     }
 }
 
-/// The name of the file of a rank.
+/// Name of the file of a rank.
 fn file_of(rank: usize) -> String {
     format!("rank-{rank:04}.h5")
 }
 
-/// The first and the last of some rows.
+/// First and last of some rows.
 fn ends(rows: &Range<usize>) -> [usize; 2] {
     [rows.start, rows.end.saturating_sub(1)]
 }

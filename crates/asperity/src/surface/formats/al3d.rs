@@ -1,9 +1,9 @@
-//! AL3D: focus variation microscopes of Alicona; only read.
+//! AL3D: focus variation microscopes of Alicona; read only.
 //!
-//! `AliconaImaging`, a zero, CR LF, then tags of 52 bytes: name (20), value as text (30), CR LF. The second, `TagCount`,
-//! is the number of those that follow. The heights are at `DepthImageOffset`: `Rows` of `Cols` f32, little-endian, in
-//! metres, each row filled up to a multiple of 8 bytes. Those of `InvalidPixelValue` are missing. The pitch is
-//! `PixelSizeXMeter`, `PixelSizeYMeter`.
+//! The file starts with `AliconaImaging`, a zero, CR LF, then tags of 52 bytes: name (20), value as text (30), CR LF. The
+//! second tag, `TagCount`, is the number of the following ones. The heights are at `DepthImageOffset`: `Rows` of `Cols`
+//! f32, little-endian, in metres, each row padded to a multiple of 8 bytes. Heights equal to `InvalidPixelValue` are
+//! missing. The pitch is `PixelSizeXMeter`, `PixelSizeYMeter`.
 
 use std::collections::HashMap;
 use std::str::FromStr;
@@ -13,7 +13,7 @@ use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"AliconaImaging\0\r\n";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -35,7 +35,7 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     let width = shape[0].next_multiple_of(2);
     let padded = Raster::new([width, shape[1]], Number::Float32, Order::Little, file.rest())?;
     let invalid: f64 = value(&tags, "InvalidPixelValue").unwrap_or(f64::NAN);
-    // The value is printed, so that the height may differ from it by a rounding.
+    // The value is printed as text, so that heights may differ from it by rounding.
     let is_missing = |height: f64| (height - invalid).abs() <= 1e-6 * invalid.abs();
     let heights = padded.heights(|height| if is_missing(height) { f64::NAN } else { height });
     let heights = heights.slice_move(ndarray::s![..shape[0], ..]);

@@ -1,9 +1,9 @@
-//! BCR-STM and BCRF: SPIP and other scanning probe software; only read.
+//! BCR-STM and BCRF: SPIP and other scanning probe software; read only.
 //!
-//! A header of 2048 characters in ASCII, or in UTF-16 (`_unicode` in the first line), of lines `name = value`, then the
-//! heights, x fastest: i16 (`bcrstm`) or f32 (`bcrf`), little-endian unless `intelmode = 0`. A height is a number times
-//! `bit2nm` in `zunit`; lengths are in `xunit` and `yunit`; without a unit it is nm. 32767, or a float beyond 10³⁸, is
-//! a missing height.
+//! The header has 2048 characters in ASCII, or in UTF-16 (`_unicode` in the first line), with lines `name = value`. The
+//! heights follow, x fastest: i16 (`bcrstm`) or f32 (`bcrf`), little-endian unless `intelmode = 0`. A height is a number
+//! times `bit2nm` in `zunit`. Lengths are in `xunit` and `yunit`; without a unit they are in nm. 32767, or a float beyond
+//! 10³⁸, is a missing height.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::header::Header;
@@ -12,7 +12,7 @@ use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file may begin.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 2] =
     [b"fileformat = bcr", b"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0 \0=\0 \0b\0c\0r\0"];
 

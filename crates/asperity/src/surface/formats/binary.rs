@@ -1,17 +1,17 @@
-//! What binary formats share: numbers in a header, and heights stored as numbers of one kind.
+//! Shared code of binary formats: numbers in a header, and heights stored as numbers of one kind.
 
 use super::{cells, finite, x_fastest};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// Which byte of a number comes first.
+/// Byte order of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Order {
     Little,
     Big,
 }
 
-/// How numbers are stored.
+/// Storage format of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Number {
     Uint8,
@@ -40,7 +40,7 @@ impl Number {
         !matches!(self, Self::Float32 | Self::Float64)
     }
 
-    /// Reads into `numbers` those that have `first` others of their kind before them.
+    /// Reads consecutive numbers into `numbers`, starting at index `first`.
     fn read(self, order: Order, data: &[u8], first: usize, numbers: &mut [f64]) {
         use Order::{Big, Little};
         match (self, order) {
@@ -50,7 +50,7 @@ impl Number {
             (Self::Uint16, Big) => convert(data, first, numbers, |n| f64::from(u16::from_be_bytes(n))),
             (Self::Uint32, Little) => convert(data, first, numbers, |n| f64::from(u32::from_le_bytes(n))),
             (Self::Uint32, Big) => convert(data, first, numbers, |n| f64::from(u32::from_be_bytes(n))),
-            // Beyond 2⁵³ the nearest number that f64 has: a height in metres is not that large.
+            // Beyond 2⁵³ the nearest f64; no height in metres is that large.
             (Self::Uint64, Little) => convert(data, first, numbers, |n| u64::from_le_bytes(n) as f64),
             (Self::Uint64, Big) => convert(data, first, numbers, |n| u64::from_be_bytes(n) as f64),
             (Self::Int16, Little) => convert(data, first, numbers, |n| f64::from(i16::from_le_bytes(n))),
@@ -73,7 +73,7 @@ fn convert<const N: usize>(data: &[u8], first: usize, numbers: &mut [f64], numbe
     }
 }
 
-/// Heights as they are stored: numbers of one kind.
+/// Stored heights: numbers of one kind.
 pub(super) struct Raster<'a> {
     pub(super) shape: [usize; 2],
     number: Number,
@@ -82,7 +82,7 @@ pub(super) struct Raster<'a> {
 }
 
 impl<'a> Raster<'a> {
-    /// The raster at the start of `data`.
+    /// Creates the raster at the start of `data`.
     pub(super) fn new(
         shape: [usize; 2],
         number: Number,
@@ -99,19 +99,19 @@ impl<'a> Raster<'a> {
         Ok(Self { shape, number, order, data })
     }
 
-    /// Bytes that it takes.
+    /// Size in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.data.len()
     }
 
-    /// The heights that the numbers, x fastest, stand for; what is not finite is missing.
+    /// Converts the numbers, x fastest, to heights; non-finite ones are missing.
     pub(super) fn heights(&self, height: impl Fn(f64) -> f64) -> Field {
         x_fastest(self.shape, |first, heights| self.read(first, heights, &height))
     }
 
-    /// The heights of numbers with y fastest.
+    /// Converts the numbers, y fastest, to heights.
     pub(super) fn heights_with_y_fastest(&self, height: impl Fn(f64) -> f64) -> Field {
-        // A part at a time, which stays in the first cache between the two loops over it.
+        // One part at a time, which stays in the first-level cache between the two loops over it.
         const PART: usize = 1024;
         let mut field = Field::zeros(self.shape);
         let cells = field.as_slice_mut().expect("a new field is in standard layout");
@@ -129,7 +129,7 @@ impl<'a> Raster<'a> {
     }
 }
 
-/// The shape that a header announces, if it is one.
+/// Returns the shape from the sizes in a header, if it is valid.
 pub(super) fn shape(sizes: [impl Into<i64>; 2]) -> Result<[usize; 2], Defect> {
     let [nx, ny] = sizes.map(Into::into);
     for (what, size) in [("the size along x", nx), ("the size along y", ny)] {
@@ -141,7 +141,7 @@ pub(super) fn shape(sizes: [impl Into<i64>; 2]) -> Result<[usize; 2], Defect> {
     Ok([nx as usize, ny as usize])
 }
 
-/// Reads a part of a file from front to back; to read beyond its end is an error.
+/// Reads a part of a file from front to back; reading beyond its end is an error.
 #[derive(Clone)]
 pub(super) struct Cursor<'a> {
     what: &'static str,
@@ -151,7 +151,7 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// A cursor at the start of `bytes`, which errors call `what`.
+    /// Creates a cursor at the start of `bytes`, called `what` in errors.
     pub(super) fn new(bytes: &'a [u8], order: Order, what: &'static str) -> Self {
         Self { what, order, bytes, at: 0 }
     }
@@ -167,18 +167,18 @@ impl<'a> Cursor<'a> {
         Ok(part)
     }
 
-    /// Moves to `at`, counted from the start.
+    /// Moves to `at`, relative to the start.
     pub(super) fn seek(&mut self, at: usize) -> Result<(), Defect> {
         self.at = 0;
         self.take(at).map(|_| ())
     }
 
-    /// All that follows.
+    /// Returns the remaining bytes.
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }
 
-    /// What stands before the next zero, which is passed over.
+    /// Returns the bytes before the next zero, and skips the zero.
     pub(super) fn until_zero(&mut self) -> Result<&'a [u8], Defect> {
         let length = self.rest().iter().position(|byte| *byte == 0);
         let length = length.ok_or(Defect::Missing("zero that ends a text"))?;
@@ -230,7 +230,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Text padded with spaces or zeros, in UTF-8 or Latin-1.
+/// Decodes text padded with spaces or zeros, in UTF-8 or Latin-1.
 pub(super) fn text(bytes: &[u8]) -> String {
     let bytes = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
     match std::str::from_utf8(bytes) {

@@ -1,9 +1,9 @@
-//! CSV: a table of x, y and heights under a line of names; only read.
+//! CSV: a table of x, y and heights below a line of names; read only.
 //!
-//! The names of the first two columns begin with x and y; each further column is a channel. A name may end with a unit
-//! of length, as in `x [µm]` or `height (nm)`; without one it is m. x and y form a regular grid, in any order; points that
-//! lack are missing heights. A table of x and one more column is a line scan, which is refused. What
-//! separates the columns, and what else text may look like, is told in [`text`](super::text).
+//! The names of the first two columns begin with x and y. Each further column is a channel. A name may end with a unit of
+//! length, as in `x [µm]` or `height (nm)`; without one it is m. x and y form a regular grid, in any order, and missing
+//! points are missing heights. A table of x and one more column is a line scan, which is rejected. Separators and other
+//! rules for text are described in [`text`](super::text).
 
 use super::points::{Raster, raster};
 use super::text::matrix;
@@ -11,7 +11,7 @@ use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, usable_pitch};
 use crate::error::Defect;
 
-/// The heights, if the content begins with such a line of names.
+/// Decodes the heights, if the content begins with such a line of names.
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let end = bytes.iter().position(|byte| *byte == b'\n')?;
@@ -59,7 +59,7 @@ fn line_scan(x: &str, z: &str) -> Defect {
     Defect::Value { what: "the table", found, expected: "a map: x, y and heights" }
 }
 
-/// `height (nm)` is a height in nm.
+/// Splits a name from its unit: `height (nm)` is a height in nm.
 fn name_and_unit(name: &str) -> (&str, Option<&str>) {
     match name.trim_end_matches([')', ']']).split_once(['(', '[']) {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),

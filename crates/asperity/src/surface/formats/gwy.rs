@@ -1,12 +1,12 @@
 //! GWY: the native files of Gwyddion 2.
 //!
-//! Format: "Gwyddion native format (GWY)" in Gwyddion's user guide. `GWYP`, then one object, all little-endian. An
-//! object is its name, the size of its content (u32), and the content: components of a name, a letter for the type, and a
-//! value. Texts and names end with a zero; an array (a capital letter) starts with the number of its elements (u32).
+//! Format: "Gwyddion native format (GWY)" in Gwyddion's user guide. `GWYP` is followed by one object, all little-endian. An
+//! object is its name, the size of its content (u32), and the content: components with a name, a letter for the type, and a
+//! value. Texts and names end with a zero. An array (a capital letter) starts with the number of its elements (u32).
 //!
-//! The object is a container; its component `/0/data` is a `GwyDataField`, x fastest, and `/0/data/title` its name;
-//! further channels have other numbers. Those are read whose values are lengths. The format has no missing heights:
-//! where `/0/mask` is positive a height is missing, because programs that import measurements mark them so.
+//! The object is a container. Its component `/0/data` is a `GwyDataField`, x fastest, and `/0/data/title` its name; further
+//! channels have other numbers. Channels are read if their values are lengths. The format has no missing heights. A height
+//! is missing where `/0/mask` is positive, because programs that import measurements mark missing heights so.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -18,13 +18,13 @@ use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
 
-/// Writes `heights` on `grid` to `path` as the channel `height`, atomically; NaN is masked, and filled by the mean.
+/// Writes `heights` on `grid` to `path` as the channel `height`, atomically. NaN is masked, and replaced by the mean.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File).
 ///
 /// # Panics
-/// If `heights` are not on `grid`, or more than the format holds: 2²⁹.
+/// If the shape of `heights` differs from that of `grid`, or if there are more than the format allows: 2²⁹.
 pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
     assert!(grid.cells() < 1 << 29, "more heights than the format holds");
@@ -69,7 +69,7 @@ fn component(name: &str, kind: u8, value: &[u8]) -> Vec<u8> {
     [name.as_bytes(), &[0, kind], value].concat()
 }
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"GWYP";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -102,18 +102,18 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 type Outcome<T> = std::result::Result<T, Defect>;
 type Components<'a> = HashMap<&'a str, Value<'a>>;
 
-/// What is used of the values that a component can have.
+/// The required part of the value of a component.
 enum Value<'a> {
     Int(i32),
     Double(f64),
     Text(String),
-    /// The content of an object.
+    /// Content of an object.
     Object(&'a [u8]),
     Doubles(&'a [u8]),
     Other,
 }
 
-/// The channels whose values are lengths, by their number; not empty.
+/// Returns the channels whose values are lengths, by their number; not empty.
 fn channels<'a>(container: &Components<'a>) -> Outcome<BTreeMap<u32, Components<'a>>> {
     let mut channels = BTreeMap::new();
     for (key, value) in container {
@@ -161,7 +161,7 @@ fn raster<'a>(field: &Components<'a>) -> Outcome<Raster<'a>> {
     Raster::new(shape([*nx, *ny])?, Number::Float64, Order::Little, data)
 }
 
-/// The unit of the object `name`, if it is one of length.
+/// Returns the unit of the object `name`, if it is one of length.
 fn unit(field: &Components<'_>, name: &str) -> Outcome<Option<f64>> {
     let Some(Value::Object(unit)) = field.get(name) else { return Ok(None) };
     Ok(match components(unit)?.get("unitstr") {
@@ -215,7 +215,7 @@ fn value<'a>(content: &mut Cursor<'a>) -> Outcome<Value<'a>> {
     })
 }
 
-/// The content of the object that follows.
+/// Reads the content of the next object.
 fn object_in<'a>(bytes: &mut Cursor<'a>) -> Outcome<&'a [u8]> {
     bytes.until_zero()?;
     let size = bytes.u32()? as usize;

@@ -1,9 +1,9 @@
-//! HDF5: the fields of asperity's own results, and any matrix of numbers; only read.
+//! HDF5: fields of asperity's results, and any matrix of numbers; read only.
 //!
-//! Results are known by the attributes `version` and `identity` of the file; channels are their fields in metres over x and
-//! y, `lower` and `upper` first. Of other files every data set of two dimensions and real numbers is a channel, called by
-//! its path, `/group/name`, indexed `[ix, iy]`; of several one is to be chosen. Its heights are in metres unless it has an
-//! attribute `unit` or `units`; a pitch it has not.
+//! Results are identified by the file attributes `version` and `identity`. Their channels are the fields in metres over x
+//! and y, with `lower` and `upper` first. In other files every data set with two dimensions and real numbers is a channel,
+//! named by its path, `/group/name`, and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights
+//! are in metres unless it has an attribute `unit` or `units`. It has no pitch.
 
 use std::collections::HashMap;
 
@@ -13,10 +13,10 @@ use super::{Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choos
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// What results are called.
+/// Format name of results.
 pub(super) const RESULTS: &str = "results";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -87,9 +87,9 @@ impl Set {
         self.attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
     }
 
-    /// The numbers of a file of so many bytes.
+    /// Reads the numbers of the set; `bytes` is the size of the file.
     fn values(&self, bytes: usize) -> Outcome<Field> {
-        /// The most bytes that deflate makes of one.
+        /// Largest number of bytes that deflate expands one byte to.
         const MAX_INFLATION: usize = 1032;
         let sizes = self.dataset.shape().map_err(container)?;
         let [nx, ny] = sizes[..] else { return Err(Defect::Missing("two dimensions")) };
@@ -109,9 +109,9 @@ impl Set {
     }
 }
 
-/// Adds the paths of the matrices of real numbers in a group, and in those in it.
+/// Adds the paths of the matrices of real numbers in a group and in its subgroups.
 fn matrices(group: &Group, path: &str, visited: &mut usize, found: &mut Vec<String>) {
-    /// Bounds the groups visited, the matrices found and the length of a path: groups may hold each other.
+    /// Limit on visited groups, found matrices and the length of a path, because groups may contain each other.
     const MAX_ENTRIES: usize = 1 << 12;
     *visited += 1;
     let mut names = group.datasets().unwrap_or_default();

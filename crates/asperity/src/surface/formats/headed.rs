@@ -1,4 +1,4 @@
-//! Text with a header, as programs export it: lines of heights that run along x; only read.
+//! Text with a header, as exported by programs: lines of heights along x; read only.
 //!
 //! | begins with | from | lengths along x and y | heights |
 //! |---|---|---|---|
@@ -7,7 +7,7 @@
 //! | `h=` | Koala | `pixel size` in m | times `height conversion factor (-> m)` |
 //! | `Zygo XYZ Data File` | MetroPro, Mx | camera resolution in m, line 8 | x, y, height in µm or `No Data` |
 //!
-//! Beyond ±10³⁸ a height is missing. What else text may look like is told in [`text`](super::text).
+//! Beyond ±10³⁸ a height is missing. Other rules for text are described in [`text`](super::text).
 
 use super::binary::shape;
 use super::header::Header;
@@ -19,7 +19,7 @@ use crate::grid::Field;
 
 type Read = fn(&[u8]) -> Result<Heights, Defect>;
 
-/// How such a file may begin, what it is, and what reads it.
+/// First bytes, name and reader of each kind.
 const KINDS: [(&[u8], &str, Read); 4] = [
     (b"# File Format = ASCII", "spip", spip),
     (b"# Channel:", "gwyddion text", gwyddion),
@@ -33,7 +33,7 @@ struct Heights {
     heights: Field,
 }
 
-/// The heights, if the content begins as one of these does.
+/// Decodes the heights, if the content begins like one of these kinds.
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
     let (_, format, read) = KINDS.iter().find(|(magic, ..)| bytes.starts_with(magic))?;
     let scan = |read: Heights| {
@@ -88,7 +88,7 @@ fn koala(bytes: &[u8]) -> Result<Heights, Defect> {
     Ok(Lines::read(&bytes[end..], LINES, Some([nx, ny]))?.over(ONLY_CHANNEL, lengths, unit))
 }
 
-/// Columns, rows and heights, each on its line, between two lines of `#`.
+/// Reads columns, rows and heights, each on its line, between two lines of `#`.
 fn zygo(bytes: &[u8]) -> Result<Heights, Defect> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = text.lines().enumerate();
@@ -103,7 +103,7 @@ fn zygo(bytes: &[u8]) -> Result<Heights, Defect> {
         return Err(Defect::Missing("camera resolution in line 8"));
     };
     let shape = shape([nx as u32, ny as u32])?;
-    // A line has six characters at least.
+    // A line has at least six characters.
     let (expected, found) = (6 * (shape[0] * shape[1]) as u64, text.len() as u64);
     if found < expected {
         return Err(Defect::Length { what: "the file", expected, found });
@@ -128,7 +128,7 @@ fn zygo(bytes: &[u8]) -> Result<Heights, Defect> {
     Ok(Heights { channel: ONLY_CHANNEL.to_owned(), pitch: [pitch; 2], heights })
 }
 
-/// The lines at the start that are comments.
+/// Returns the leading comment lines.
 fn head(text: &str) -> &str {
     let mut end = 0;
     for line in text.split_inclusive('\n').take_while(|line| line.starts_with('#')) {
@@ -137,11 +137,11 @@ fn head(text: &str) -> &str {
     &text[..end]
 }
 
-/// Numbers in lines that run along x, indexed [iy, ix].
+/// Numbers in lines along x, indexed [iy, ix].
 struct Lines(Field);
 
 impl Lines {
-    /// The lines of `bytes`, before which the file has `before` others; `sizes` are those along x and y.
+    /// Reads the lines of `bytes`, which follow `before` others in the file; `sizes` are those along x and y.
     fn read(bytes: &[u8], before: usize, sizes: Option<[u32; 2]>) -> Result<Self, Defect> {
         let lines = matrix(bytes, before)?;
         let (ny, nx) = lines.dim();

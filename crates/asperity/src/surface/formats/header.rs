@@ -1,4 +1,4 @@
-//! Headers in text: lines of a name and a value.
+//! Text headers: lines of a name and a value.
 
 use std::collections::HashMap;
 
@@ -6,17 +6,17 @@ use super::words::{excerpt, unit_of_length};
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// The lines of a header, by their names in lower case.
+/// Lines of a header, by their names in lower case.
 pub(super) struct Header<'a>(HashMap<String, &'a str>);
 
 impl<'a> Header<'a> {
-    /// The lines of `text` with a name before the first `separator`; a `#` before the name is passed over.
+    /// Reads the lines of `text` with a name before the first `separator`; a `#` before the name is skipped.
     pub(super) fn of(text: &'a str, separator: char) -> Self {
         let lines = text.lines().filter_map(|line| line.trim_start_matches('#').split_once(separator));
         Self(lines.map(|(name, value)| (name.trim().to_ascii_lowercase(), before_comment(value))).collect())
     }
 
-    /// The value of `name`, in any case, up to a comment after a semicolon.
+    /// Returns the value of `name`, in any case, up to a comment after a semicolon.
     pub(super) fn get(&self, name: &str) -> Option<&'a str> {
         self.0.get(&name.to_ascii_lowercase()).copied()
     }
@@ -27,7 +27,7 @@ impl<'a> Header<'a> {
         number.ok_or_else(|| Defect::Value { what: name, found: excerpt(found), expected: "a number" })
     }
 
-    /// A number and its unit, such as `10.0 µm`.
+    /// Returns a number and its unit, such as `10.0 µm`.
     pub(super) fn quantity(&self, name: &'static str) -> Result<(f64, &'a str), Defect> {
         let found = self.get(name).ok_or(Defect::Missing(name))?;
         let quantity =
@@ -36,13 +36,13 @@ impl<'a> Header<'a> {
         quantity.ok_or_else(|| Defect::Value { what: name, found: excerpt(found), expected })
     }
 
-    /// A length with its unit.
+    /// Returns a length with its unit.
     pub(super) fn length(&self, name: &'static str) -> Result<Metre, Defect> {
         let (number, unit) = self.quantity(name)?;
         Ok(number * unit_of_length(unit)?)
     }
 
-    /// A number of heights.
+    /// Returns a number of heights.
     pub(super) fn size(&self, name: &'static str) -> Result<u32, Defect> {
         let found = self.get(name).ok_or(Defect::Missing(name))?;
         let unusable = || Defect::Value { what: name, found: excerpt(found), expected: "at least 1" };
@@ -50,7 +50,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// The parts of `text` that begin with a line `[name]`.
+/// Splits `text` into the sections that begin with a line `[name]`.
 pub(super) fn sections(text: &str) -> Vec<(&str, &str)> {
     let mut sections = Vec::new();
     let mut start = 0;

@@ -1,8 +1,8 @@
-//! IBW: binary waves of Igor Pro, versions 2 and 5, as the atomic force microscopes of Asylum Research write them; only
-//! read.
+//! IBW: binary waves of Igor Pro, versions 2 and 5, as written by the atomic force microscopes of Asylum Research; read
+//! only.
 //!
-//! Format: WaveMetrics, Technical Note 3. The version (i16) tells the order of bytes too; the numbers of i16 in both
-//! headers add up to 0.
+//! Format: WaveMetrics, Technical Note 3. The version (i16) also determines the byte order. The i16 numbers of both headers
+//! sum to 0.
 //!
 //! ```text
 //! version 2: 0 i16 2, then 3 sizes i32             version 5: 0 i16 5, i16, 11 sizes i32: wave, formula, note, units of
@@ -13,9 +13,9 @@
 //!   126 numbers                                        + 320 numbers, the first dimension fastest, what has a size
 //! ```
 //!
-//! The first dimension is x, the second y, which counts upwards, the third the channels, which the labels of that
-//! dimension name; a wave of one dimension is a profile. Where a microscope wrote a note the unit of a channel follows
-//! from its name, as that of the wave is the same for all.
+//! The first dimension is x, the second y, upwards, and the third the channels, named by the labels of that dimension. A
+//! wave with one dimension is a profile. If a microscope wrote a note, the unit of a channel follows from its name, because
+//! the unit of the wave is the same for all channels.
 
 use std::collections::HashMap;
 
@@ -24,7 +24,7 @@ use super::words::unit_of_length;
 use super::{Channel, Decoded, LengthUnit, from_last_y_to_first, several};
 use crate::error::Defect;
 
-/// Whether the content begins with a version and headers whose checksum is right.
+/// Whether the content begins with a version, and with headers whose checksum is correct.
 pub(super) fn is_one(bytes: &[u8]) -> bool {
     let Some((version, order)) = version(bytes) else { return false };
     let headers = if version == 2 { 126 } else { 384 };
@@ -91,7 +91,7 @@ fn version_5(bytes: &[u8], order: Order) -> Outcome<Vec<Channel<'_>>> {
     header.seek(64 + 148)?;
     let units = [text(header.take(4)?), text(header.take(4)?), text(header.take(4)?)];
 
-    // Of a dimension without numbers the size is 0.
+    // A dimension without numbers has the size 0.
     let steps = if ny == 0 { [steps[0]; 2] } else { steps };
     let shape = shape([nx, ny.max(1)])?;
     let number = number(kind)?;
@@ -144,9 +144,9 @@ fn number(kind: u16) -> Outcome<Number> {
     })
 }
 
-/// Metres in the units of a wave.
+/// Units of a wave in metres.
 struct Units {
-    /// What a 1 stands for in metres; none if it is not a length.
+    /// Size of the unit in metres; `None` if it is not a length.
     data: Option<f64>,
     dimensions: [f64; 2],
     kind: LengthUnit,
@@ -187,7 +187,7 @@ impl Units {
     }
 }
 
-/// The lines `name: value` of a note that a microscope wrote.
+/// Returns the lines `name: value` of a note written by a microscope.
 fn note_of_a_microscope(note: &str) -> Option<HashMap<&str, &str>> {
     let lines: HashMap<_, _> = note
         .split(['\r', '\n'])
@@ -197,7 +197,7 @@ fn note_of_a_microscope(note: &str) -> Option<HashMap<&str, &str>> {
     lines.contains_key("ScanSize").then_some(lines)
 }
 
-/// The unit of the channel `HeightTrace`, `NapZSensorRetrace` or the like; volts unless something else is known.
+/// Returns the unit of a channel such as `HeightTrace` or `NapZSensorRetrace`; volts by default.
 fn unit_by_name(name: &str, note: &HashMap<&str, &str>) -> String {
     const LENGTHS: [&str; 4] = ["Height", "ZSensor", "Deflection", "Amplitude"];
     let name = name.trim_end_matches(|character: char| character.is_ascii_digit());

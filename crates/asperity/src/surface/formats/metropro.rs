@@ -1,4 +1,4 @@
-//! MetroPro `.dat`: interferometers of Zygo; only read.
+//! MetroPro `.dat`: interferometers of Zygo; read only.
 //!
 //! Format: "MetroPro Reference Guide" (OMP-0347), binary data format. Big-endian. The header has 834 or 4096 bytes:
 //!
@@ -9,14 +9,14 @@
 //! ```
 //!
 //! The intensities follow, then the phases, i32, x fastest. A height is phase · S λ O / R with R = 4096, 32768 or 131072
-//! for 0, 1, 2; where the phase is 2147483640 or more it is missing.
+//! for 0, 1, 2. It is missing if the phase is 2147483640 or more.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 3] = [b"\x88\x1b\x03\x6f", b"\x88\x1b\x03\x70", b"\x88\x1b\x03\x71"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {

@@ -1,7 +1,7 @@
-//! MI: atomic force microscopes of Molecular Imaging, later Agilent and Keysight (PicoView); only read.
+//! MI: atomic force microscopes of Molecular Imaging, later Agilent and Keysight (PicoView); read only.
 //!
-//! Lines of a name of 14 characters and a value, from `fileType` to `data`, and behind it the numbers of all channels
-//! without gaps, little-endian, x fastest, from the last y to the first. `bufferLabel` begins a channel:
+//! The header has lines of a name of 14 characters and a value, from `fileType` to `data`. The numbers of all channels
+//! follow without gaps, little-endian, x fastest, from the last y to the first. `bufferLabel` begins a channel:
 //!
 //! ```text
 //! xPixels       256          bufferLabel   Topography
@@ -9,8 +9,8 @@
 //! data          BINARY_32    bufferRange   1.7
 //! ```
 //!
-//! Lengths along x and y are in metres. Numbers are i16 (`BINARY`) or i32 (`BINARY_32`); the first beyond the largest
-//! stands for `bufferRange`.
+//! Lengths along x and y are in metres. Numbers are i16 (`BINARY`) or i32 (`BINARY_32`). The first number beyond the
+//! largest represents `bufferRange`.
 
 use super::binary::{Number, Order, Raster, shape, text};
 use super::header::Header;
@@ -18,7 +18,7 @@ use super::words::{excerpt, unit_of_length};
 use super::{Channel, Decoded, LengthUnit, from_last_y_to_first, several};
 use crate::error::Defect;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"fileType      ";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -27,7 +27,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, Defect> {
     const NAME: usize = 14;
-    // `name: value`, a part for the file and one for each channel.
+    // Lines `name: value`: a part for the file and one for each channel.
     let mut parts = vec![String::new()];
     let mut rest = bytes;
     let kind = loop {

@@ -1,9 +1,9 @@
-//! MNT: documents of Digital Surf's Mountains; only read.
+//! MNT: documents of Digital Surf's Mountains; read only.
 //!
-//! A compound file (OLE) whose stream `ScopedContents` is 8 bytes and a tree of entries: tag u16, size u64, content,
-//! little-endian. Entries of the list of objects have 8 bytes before them. An object is its class (1 → 1, u32) and its
-//! body (2); one of class 9012 with one of class 9062 in it is a surface as measured. What is derived from it is not in
-//! the file. Tags on the way to its parts, from its own body on:
+//! The file is a compound file (OLE). Its stream `ScopedContents` has 8 bytes and a tree of entries: tag u16, size u64,
+//! content, little-endian. Entries of the list of objects are preceded by 8 bytes. An object is its class (1 → 1, u32) and
+//! its body (2). An object of class 9012 that contains one of class 9062 is a measured surface. Derived surfaces are not in
+//! the file. These tags lead from the body of the surface to its parts:
 //!
 //! ```text
 //! ffff → ffff → 1 → ffff → 1     number of columns u32, of rows 2 → ffff → 1; their scales beside it: ffff
@@ -12,8 +12,8 @@
 //! ffff → ffff → 3 → 2            mask: columns (1), rows (2), blocks with a rim of one (5 → 2), u8, 9 where measured
 //! ```
 //!
-//! Blocks are the size of all u64, and for each its first element u64, its elements u32, its bytes u32 and these, a zlib
-//! stream. Text is 4 and UTF-16.
+//! Blocks consist of the total size u64 and, for each block, its first element u64, its number of elements u32, its number
+//! of bytes u32 and these bytes, a zlib stream. Text is 4 and UTF-16.
 
 use std::io::{Cursor, Read};
 
@@ -23,7 +23,7 @@ use super::{Channel, Decoded, Fault, LengthUnit, several};
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// How the file begins: as any compound file.
+/// First bytes of the file, as of any compound file.
 pub(super) const MAGIC: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 type Outcome<T> = Result<T, Defect>;
 
-/// The stream of the document, if there is one.
+/// Returns the stream of the document, if there is one.
 fn contents(bytes: &[u8]) -> Outcome<Option<Vec<u8>>> {
     const STREAM: &str = "/ScopedContents";
     let container = |error: std::io::Error| Defect::Container(error.to_string());
@@ -52,7 +52,7 @@ fn contents(bytes: &[u8]) -> Outcome<Option<Vec<u8>>> {
 const SURFACE: u32 = 9012;
 const MEASUREMENT: u32 = 9062;
 
-/// What derives from a part stands under this tag.
+/// Tag of the base class of a part.
 const BASE: u16 = 0xffff;
 
 fn channels(document: &[u8]) -> Outcome<Vec<Channel<'_>>> {
@@ -61,7 +61,7 @@ fn channels(document: &[u8]) -> Outcome<Vec<Channel<'_>>> {
     surfaces.filter_map(|object| surface(part(object, &[2])?).transpose()).collect()
 }
 
-/// The channel of a surface, if it is one of heights.
+/// Returns the channel of a surface, if it contains heights.
 fn surface(body: &[u8]) -> Outcome<Option<Channel<'_>>> {
     let data = part(body, &[1]).filter(|data| class(data) == Some(MEASUREMENT));
     let Some(data) = data.and_then(|data| part(data, &[2, BASE])) else { return Ok(None) };
@@ -126,7 +126,7 @@ impl Axis {
 struct Scale {
     step: f64,
     unit: String,
-    /// The unit of the origin.
+    /// Unit of the origin.
     shown: String,
     origin: f64,
 }
@@ -146,9 +146,9 @@ impl Scale {
     }
 }
 
-/// The numbers of an array of this shape, and the bytes of one.
+/// Unpacks the numbers of an array of this shape; also returns the number of bytes of each.
 fn unpacked(array: &[u8], shape: [usize; 2]) -> Outcome<(Vec<u8>, usize)> {
-    /// The most bytes that deflate makes of one.
+    /// Largest number of bytes that deflate expands one byte to.
     const MAX_INFLATION: usize = 1032;
     let cells = shape[0] * shape[1];
     let count = part(array, &[1]).and_then(u32_of).ok_or(Defect::Missing("size of an array"))?;
@@ -182,7 +182,7 @@ fn unpacked(array: &[u8], shape: [usize; 2]) -> Outcome<(Vec<u8>, usize)> {
             .read_exact(place)
             .map_err(|error| Defect::Container(format!("zlib: {error}")))?;
         filled += length;
-        // A block twice would take for ever.
+        // A repeated block would take forever.
         if filled > bytes {
             break;
         }
@@ -193,7 +193,7 @@ fn unpacked(array: &[u8], shape: [usize; 2]) -> Outcome<(Vec<u8>, usize)> {
     Ok((numbers, size))
 }
 
-/// The part that the tags lead to, the first of each.
+/// Follows the tags to a part, using the first entry of each.
 fn part<'a>(bytes: &'a [u8], tags: &[u16]) -> Option<&'a [u8]> {
     tags.iter().try_fold(bytes, |part, tag| {
         let mut rest = part;
@@ -207,7 +207,7 @@ fn part<'a>(bytes: &'a [u8], tags: &[u16]) -> Option<&'a [u8]> {
     })
 }
 
-/// The first entry: its tag, its content, and what follows.
+/// Returns the first entry: its tag, its content, and the rest.
 fn entry(bytes: &[u8]) -> Option<(u16, &[u8], &[u8])> {
     let (tag, rest) = bytes.split_first_chunk()?;
     let (size, rest) = rest.split_first_chunk()?;

@@ -1,7 +1,8 @@
-//! Topography files: one file per format; read by their content, written by the end of their name.
+//! Topography files, with one module per format. The format is recognised by the content when reading, and by the file
+//! extension when writing.
 //!
-//! A reader answers any content with a [`Scan`] or an error: it compares the sizes that a header announces with
-//! the data that are there before it makes room for them, and decompresses no more than the header calls for.
+//! For any content a reader returns a [`Scan`] or an error. It compares the sizes in a header with the existing data before
+//! it allocates memory, and decompresses no more than the header specifies.
 
 mod binary;
 mod header;
@@ -50,26 +51,26 @@ use crate::io::regular;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// Heights as a file has them.
+/// Heights of a file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scan {
-    /// The name of its module here, such as `x3p`; of text `text` (a matrix), `xyz` (a table of x, y, height) or the
+    /// Name of the module of the format, such as `x3p`; for text `text` (a matrix), `xyz` (a table of x, y, height) or the
     /// program that wrote its header.
     pub format: &'static str,
     /// The channel read.
     pub channel: String,
     /// All height channels of the file, the default one first.
     pub channels: Vec<String>,
-    /// Distance of neighbouring heights along x and y, where the file has it.
+    /// Distance between neighbouring heights along x and y, if the file contains it.
     pub pitch: Option<[Metre; 2]>,
     /// Heights in metres, `[ix, iy]`, NaN where missing.
     pub heights: Field,
-    /// What the file says of the unit of its numbers.
+    /// Information in the file about the unit of its numbers.
     pub unit: LengthUnit,
 }
 
-/// What a file says of the unit of its numbers.
+/// Information in a file about the unit of its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LengthUnit {
@@ -79,13 +80,13 @@ pub enum LengthUnit {
     Metres,
     /// The file has no unit at all: heights and pitch are in metres unless a unit is given.
     MetresThroughout,
-    /// The file's heights are levels, which are no lengths until a unit is given.
+    /// The heights of the file are levels, which need a unit to become lengths.
     Levels,
 }
 
-/// How a topography file is read: the channel, and what the file itself may lack.
+/// Options for reading a topography file: the channel, and values that the file may lack.
 ///
-/// The content tells the format, never the name. Any file may be gzipped.
+/// The format is recognised by the content, never by the name. Any file may be gzipped.
 ///
 /// ```no_run
 /// use asperity::surface::ReadOptions;
@@ -96,30 +97,30 @@ pub enum LengthUnit {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ReadOptions {
-    /// The channel read; the first one if absent. Files of one unnamed channel call it `height`.
+    /// The channel to read; the first one by default. Files with one unnamed channel call it `height`.
     pub channel: Option<String>,
-    /// What a 1 in a file without units stands for, above 0; a metre if absent, see [`LengthUnit`].
+    /// Size of the unit in a file without units, above 0; a metre by default, see [`LengthUnit`].
     pub unit: Option<Metre>,
-    /// Distance of neighbouring heights along x and y in a file that has none, each above 0.
+    /// Distance between neighbouring heights along x and y for a file without a pitch, each above 0.
     pub pitch: Option<[Metre; 2]>,
 }
 
 impl ReadOptions {
-    /// These options with the channel to read.
+    /// Sets the channel to read.
     #[must_use]
     pub fn with_channel(mut self, channel: impl Into<String>) -> Self {
         self.channel = Some(channel.into());
         self
     }
 
-    /// These options with what a 1 stands for in a file without units, above 0.
+    /// Sets the size of the unit in a file without units, above 0.
     #[must_use]
     pub fn with_unit(mut self, unit: Metre) -> Self {
         self.unit = Some(unit);
         self
     }
 
-    /// These options with the pitch of a file that has none, each above 0.
+    /// Sets the pitch for a file without one, each above 0.
     #[must_use]
     pub fn with_pitch(mut self, pitch: [Metre; 2]) -> Self {
         self.pitch = Some(pitch);
@@ -138,18 +139,18 @@ impl ReadOptions {
         Topography::new(grid, heights)
     }
 
-    /// Reads the heights in the file at `path`, and what else it says of them.
+    /// Reads the heights in the file at `path`, with the other data about them.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if it is of no known format,
-    /// [`Error::CorruptTopography`] if it is damaged, uses what is not read or lacks a unit that it needs,
-    /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given to a file that has one.
+    /// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if its format is unknown,
+    /// [`Error::CorruptTopography`] if it is damaged, uses an unsupported part of the format or lacks a required unit,
+    /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given for a file that has one.
     pub fn scan(&self, path: impl AsRef<Path>) -> Result<Scan> {
         let path = path.as_ref();
         self.scan_bytes(path, &contents(path)?)
     }
 
-    /// Reads the heights in `bytes`, the content of a file that errors call `name`.
+    /// Reads the heights in `bytes`, the content of a file called `name` in errors.
     ///
     /// # Errors
     /// The errors of [`scan`](Self::scan) without [`Error::File`].
@@ -163,7 +164,7 @@ impl ReadOptions {
 }
 
 impl Topography {
-    /// Reads the topography in the file at `path`, of any format; what the file lacks is given with [`ReadOptions`].
+    /// Reads the topography in the file at `path`, of any format. Use [`ReadOptions`] for values that the file lacks.
     ///
     /// # Errors
     /// The errors of [`ReadOptions::read`].
@@ -173,12 +174,12 @@ impl Topography {
 }
 
 impl Scan {
-    /// Whether the heights are those of an underside, as mounted: the upper body's in the results of a computation.
+    /// Whether the heights describe an underside, as mounted: that of the upper body in asperity's results.
     pub fn is_underside(&self) -> bool {
         (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
     }
 
-    /// The scan with its numbers multiplied by the unit that is given, if they have none of their own.
+    /// Multiplies the heights by the given unit, if they have none of their own.
     fn in_unit(mut self, unit: Option<Metre>) -> Decoded {
         match (self.unit, unit) {
             (LengthUnit::Known, Some(_)) => return Err(Fault::OwnUnit { format: self.format }),
@@ -201,13 +202,13 @@ impl Scan {
     }
 }
 
-/// The most heights that are read: 2 GiB of them.
+/// Largest number of heights: 2 GiB of them.
 const MAX_CELLS: usize = 1 << 28;
 
-/// The most that a gzipped file is unpacked to: the most heights, and a header.
+/// Largest unpacked size of a gzipped file: the largest number of heights, and a header.
 const MAX_UNPACKED: u64 = 8 * MAX_CELLS as u64 + (1 << 16);
 
-/// The bytes of a topography file.
+/// Reads the bytes of a topography file.
 pub(crate) fn contents(path: &Path) -> Result<Vec<u8>> {
     regular::read(path, "a topography file", u64::MAX)
         .map_err(|source| Error::File { path: path.to_owned(), source })
@@ -221,7 +222,7 @@ fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     }
 }
 
-/// What the gzipped `bytes` hold, if it is no more than `most`.
+/// Unpacks the gzipped `bytes`, if the result has at most `most` bytes.
 fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
     let fault = |defect| Fault::defect("gzip", defect);
     let mut unpacked = Vec::new();
@@ -307,7 +308,7 @@ fn decode_text(bytes: &[u8], channel: Option<&str>) -> Decoded {
         .unwrap_or_else(|| text::decode(bytes, channel))
 }
 
-/// Text in UTF-16, which begins with a mark of the order of its bytes, in UTF-8.
+/// Decodes text in UTF-16 with a byte order mark; `None` for other text.
 fn utf16(bytes: &[u8]) -> Option<String> {
     let (number, bytes): (fn([u8; 2]) -> u16, _) = match bytes {
         [0xff, 0xfe, text @ ..] => (u16::from_le_bytes, text),
@@ -320,7 +321,7 @@ fn utf16(bytes: &[u8]) -> Option<String> {
 
 type Decoded = std::result::Result<Scan, Fault>;
 
-/// Why a decoder, which knows no path, gives up.
+/// Reason for the failure of a decoder, which does not know the path.
 #[derive(Debug)]
 enum Fault {
     NotATopography(&'static str),
@@ -347,7 +348,7 @@ impl Fault {
     }
 }
 
-/// Which of `available` (not empty) is asked for.
+/// Returns the index of the requested channel among `available` (not empty).
 fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<usize, Fault> {
     match channel {
         None => Ok(0),
@@ -358,7 +359,7 @@ fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<us
     }
 }
 
-/// The names, of which those that stood before get their place as a number.
+/// Makes names distinct: a repeated name gets its position as a number.
 fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     let mut seen = HashSet::new();
     let number = |(index, mut name): (usize, String)| {
@@ -370,10 +371,10 @@ fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     names.enumerate().map(number).collect()
 }
 
-/// The channel of results that is the underside of the upper body.
+/// Channel of results that is the underside of the upper body.
 pub(crate) const UNDERSIDE: &str = "upper";
 
-/// The name of the only channel of a file that does not name it.
+/// Name of the only channel of a file that does not name it.
 const ONLY_CHANNEL: &str = "height";
 
 fn only_channel(channel: Option<&str>) -> std::result::Result<Vec<String>, Fault> {
@@ -382,7 +383,7 @@ fn only_channel(channel: Option<&str>) -> std::result::Result<Vec<String>, Fault
     Ok(channels)
 }
 
-/// The scan of a file that has one channel and its pitch, which `read` finds in its content.
+/// Creates the scan of a file with one channel, whose heights and pitch `read` finds in its content.
 fn only(
     format: &'static str,
     channel: Option<&str>,
@@ -400,16 +401,16 @@ fn only(
     })
 }
 
-/// A channel of a file that has several, whose heights are not read before it is chosen.
+/// A channel of a file with several, whose heights are read only if it is chosen.
 struct Channel<'a> {
-    /// Empty if the file does not name it.
+    /// Name; empty if the file does not name it.
     name: String,
     pitch: [Metre; 2],
     unit: LengthUnit,
     heights: Box<dyn FnOnce() -> std::result::Result<Field, Defect> + 'a>,
 }
 
-/// The scan of a file with these channels of heights.
+/// Creates the scan of a file with these channels of heights.
 fn several(
     format: &'static str,
     channel: Option<&str>,
@@ -438,7 +439,7 @@ fn several(
     })
 }
 
-/// The product of the sizes that a header announces, if heights of that number are read at all.
+/// Returns the product of the sizes in a header, if it is an accepted number of heights.
 fn cells(sizes: &[u64]) -> std::result::Result<usize, Defect> {
     let cells = sizes.iter().fold(1u128, |product, size| product.saturating_mul(u128::from(*size)));
     match usize::try_from(cells) {
@@ -447,26 +448,28 @@ fn cells(sizes: &[u64]) -> std::result::Result<usize, Defect> {
     }
 }
 
-/// A pitch that a grid can have; else the user has to give it.
+/// Returns a pitch if it is valid for a grid; otherwise the user must give one.
 fn usable_pitch(pitch: [Metre; 2]) -> Option<[Metre; 2]> {
     pitch.iter().all(|p| Dimension::Length.range().holds(*p)).then_some(pitch)
 }
 
-/// Turns the order of the lines, where a file has the last one first.
+/// Reverses the order of the lines, for a file with the last one first.
 fn from_last_y_to_first(heights: &mut Field) {
     for mut column in heights.rows_mut() {
         column.as_slice_mut().expect("heights are in standard layout").reverse();
     }
 }
 
-/// `height`, if it is finite; else there is none.
+/// Returns `height` if it is finite, otherwise NaN.
 fn finite(height: Metre) -> Metre {
     if height.is_finite() { height } else { f64::NAN }
 }
 
-/// Heights stored with x fastest, as almost every instrument does: `heights` writes those that follow a number of others.
+/// Creates heights stored with x fastest, as by almost every instrument. `heights` writes consecutive ones from an index
+/// on.
 fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
-    // A tile at a time, which stays in the first cache while it is turned; columns that are begun are filled first.
+    // One tile at a time, which stays in the first-level cache while it is transposed; partly filled columns are completed
+    // first.
     /// Side of a tile.
     const TILE: usize = 32;
     let [nx, ny] = shape;

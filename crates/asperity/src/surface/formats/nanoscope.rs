@@ -1,16 +1,16 @@
-//! NanoScope: the atomic force microscopes of Digital Instruments, Veeco and Bruker; only read.
+//! NanoScope: atomic force microscopes of Digital Instruments, Veeco and Bruker; read only.
 //!
-//! A header of lines `\name: value` in parts that begin with `\*name`, from `\*File list` to `\*File list end`; then, at
-//! the places that the header tells, images of little-endian integers, x fastest, from the last y to the first. Each
-//! `\*… image list` is a channel. Of an image a unit is
+//! The header has lines `\name: value` in parts that begin with `\*name`, from `\*File list` to `\*File list end`. Then, at
+//! the places given in the header, come images of little-endian integers, x fastest, from the last y to the first. Each
+//! `\*… image list` is a channel. The unit of an image is
 //!
 //! ```text
 //! \@2:Z scale: V [Sens. Zsens] (0.005 V/LSB) 330 V     330 V / 256ᵇ, b the Bytes/pixel, 2 or 4
 //! \@Sens. Zsens: V 34.5 nm/V                           times 34.5 nm/V
 //! ```
 //!
-//! The channels whose sensitivity is a length per volt, or per whatever the scale is in, are heights. From version 9.2 on
-//! the integers have 32 bits, whatever `Bytes/pixel` is. `~m` is µm.
+//! Channels are heights if their sensitivity is a length per volt, or per unit of the scale. From version 9.2 on the
+//! integers have 32 bits, whatever `Bytes/pixel` is. `~m` is µm.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ use super::{Channel, Decoded, LengthUnit, from_last_y_to_first, several};
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// How the file may begin.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 2] = [b"\\*File list", b"\\*EC File list"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -45,7 +45,7 @@ fn channels(bytes: &[u8]) -> Outcome<Vec<Channel<'_>>> {
     channels.filter_map(Outcome::transpose).collect()
 }
 
-/// The channel of an image, if it has heights.
+/// Returns the channel of an image, if it contains heights.
 fn channel<'a>(
     bytes: &'a [u8],
     common: &HashMap<&str, &str>,
@@ -88,7 +88,7 @@ fn channel<'a>(
     }))
 }
 
-/// The lines of the header, which begin with a backslash.
+/// Returns the lines of the header, which begin with a backslash.
 fn header(bytes: &[u8]) -> String {
     let lines = bytes.split(|byte| *byte == b'\n').take_while(|line| line.starts_with(b"\\"));
     let lines = lines.map(text).take_while(|line| !line.to_ascii_lowercase().ends_with("file list end"));
@@ -118,7 +118,7 @@ impl Part<'_> {
         self.name.ends_with("image list") && !self.name.contains("force")
     }
 
-    /// What is shown as the name of the channel: `Height Sensor` of `S [ZSensor] "Height Sensor"`.
+    /// Displayed name of the channel: `Height Sensor` for `S [ZSensor] "Height Sensor"`.
     fn name(&self) -> String {
         let data = ["@2:image data", "@3:image data", "@4:image data", "image data"];
         let data = data.iter().find_map(|name| self.entries.get(*name)).copied().unwrap_or_default();
@@ -136,7 +136,7 @@ impl Part<'_> {
         found.parse().map_err(unusable)
     }
 
-    /// The lengths of the sides of the image: `300 300 nm`, or `300 nm` of a square one.
+    /// Returns the side lengths of the image: `300 300 nm`, or `300 nm` for a square one.
     fn lengths(&self, common: &HashMap<&str, &str>) -> Outcome<[Metre; 2]> {
         let lengths = |found: &str| {
             let (numbers, unit): (Vec<_>, Vec<_>) =
@@ -146,7 +146,7 @@ impl Part<'_> {
             let (first, last) = (numbers.first()?, numbers.last()?);
             Some([first * unit, last * unit])
         };
-        // Where the whole scan tells the length of its slow axis, the second length of the image may be wrong.
+        // If the length of the slow axis is given for the whole scan, the second length of the image may be wrong.
         let slow = common.get("slow axis size").zip(common.get("scan size"));
         if let Some((slow, fast)) = slow
             && let (Some([y, _]), Some([x, _])) = (lengths(slow), lengths(fast))
@@ -182,7 +182,7 @@ impl<'a> Quantity<'a> {
             (sensitivity, rest) = (Some(name.trim()).filter(|name| !name.is_empty()), behind.trim_start());
         }
         if rest.starts_with('(') {
-            // Units have parentheses too: `(0.0005 log(Arb)/LSB)`.
+            // Units may contain parentheses: `(0.0005 log(Arb)/LSB)`.
             let mut depth = 0;
             let end = rest.find(|character| {
                 depth += i32::from(character == '(') - i32::from(character == ')');
@@ -195,7 +195,7 @@ impl<'a> Quantity<'a> {
         Some(Self { sensitivity, number, unit: unit.trim() })
     }
 
-    /// What it stands for, if that is a length.
+    /// Returns the value in metres, if it is a length.
     fn length(&self, common: &HashMap<&str, &str>) -> Option<Metre> {
         let Some(name) = self.sensitivity else { return Some(self.number * unit_of_length(self.unit).ok()?) };
         let sensitivity = Quantity::of(common.get(format!("@{}", name.to_ascii_lowercase()).as_str())?)?;

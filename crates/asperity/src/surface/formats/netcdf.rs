@@ -1,10 +1,11 @@
-//! NetCDF 3, classic and with 64-bit offsets; only read.
+//! NetCDF 3, classic and with 64-bit offsets; read only.
 //!
-//! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables of two dimensions and real numbers are
-//! channels unless their `unit` (or `units`) is no length. `scale_factor`, `add_offset`, `_FillValue` and `missing_value`
-//! are obeyed, and where a variable `mask` is not 0 a height is missing. The pitch is that of the variables named as the
-//! dimensions: their attribute `length` over their number, or the distance of their values, in their unit. Of a dimension
-//! `y` (or `lat`) before another, or `x` (or `lon`) after another, lines run along x; else, as in NumPy, along y.
+//! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables with two dimensions and real numbers are
+//! channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`, `_FillValue` and
+//! `missing_value` are applied. A height is missing where a variable `mask` is not 0. The pitch is that of the variables
+//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit.
+//! Lines run along x if the first dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y,
+//! as in NumPy.
 
 use std::collections::HashMap;
 
@@ -14,7 +15,7 @@ use super::{Channel, Decoded, Fault, LengthUnit, several};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file may begin.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 2] = [b"CDF\x01", b"CDF\x02"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -27,7 +28,7 @@ type Outcome<T> = Result<T, Defect>;
 
 struct File<'a> {
     bytes: &'a [u8],
-    /// Names and sizes; 0 is that of records, of which there may be any number.
+    /// Names and sizes; 0 is the size of the record dimension, which is unlimited.
     dimensions: Vec<(String, u32)>,
     variables: Vec<Variable>,
 }
@@ -42,7 +43,7 @@ struct Variable {
 
 enum Attribute {
     Text(String),
-    /// The first of them.
+    /// The first of the numbers.
     Number(f64),
     Other,
 }
@@ -82,7 +83,7 @@ impl<'a> File<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    /// The channel of a variable, if it holds heights.
+    /// Returns the channel of a variable, if it contains heights.
     fn channel<'f>(&'f self, variable: &'f Variable) -> Outcome<Option<Channel<'f>>> {
         let [first, last] = variable.dimensions[..] else { return Ok(None) };
         let [first, last] = [&self.dimensions[first], &self.dimensions[last]];
@@ -153,7 +154,7 @@ impl<'a> File<'a> {
         Ok(if along_x { raster.heights(value) } else { raster.heights_with_y_fastest(value) })
     }
 
-    /// The step along a dimension, where a variable tells it, and its unit.
+    /// Returns the step along a dimension, if a variable defines it, and its unit.
     fn axis(&self, (name, count): &(String, u32)) -> Option<(f64, Option<&str>)> {
         let variable = self.variable(name)?;
         let step = match variable.attributes.get("length") {
@@ -184,7 +185,7 @@ impl Variable {
     }
 }
 
-/// The number of elements in the list that follows, which may not be there.
+/// Reads the number of elements in the next list, which may be absent.
 fn list(header: &mut Cursor<'_>, tag: u32) -> Outcome<u32> {
     match (header.u32()?, header.u32()?) {
         (0, 0) => Ok(0),
@@ -215,7 +216,7 @@ fn attributes(header: &mut Cursor<'_>) -> Outcome<HashMap<String, Attribute>> {
     Ok(attributes)
 }
 
-/// What a type stands for, if it is one of numbers.
+/// Returns the storage format of a type, if it is numeric.
 fn number(kind: u32) -> Option<Number> {
     Some(match kind {
         1 => Number::Int8,
@@ -232,7 +233,7 @@ fn name(header: &mut Cursor<'_>) -> Outcome<String> {
     padded(header, length).map(text)
 }
 
-/// A number of bytes, filled up to a multiple of four.
+/// Reads bytes padded to a multiple of four.
 fn padded<'a>(header: &mut Cursor<'a>, count: usize) -> Outcome<&'a [u8]> {
     let content = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;

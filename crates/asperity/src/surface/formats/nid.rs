@@ -1,7 +1,8 @@
-//! NID, EZD: atomic force microscopes of Nanosurf; only read.
+//! NID, EZD: atomic force microscopes of Nanosurf; read only.
 //!
-//! Text in parts of lines `name=value`, the first `[DataSet]`, and after `#!` the numbers of all data sets without gaps,
-//! x fastest, from the last y to the first. `Gr0-Ch1` in the first part names the part that tells of a data set:
+//! The text has parts with lines `name=value`, the first of which is `[DataSet]`. After `#!` the numbers of all data sets
+//! follow without gaps, x fastest, from the last y to the first. `Gr0-Ch1` in the first part names the part that describes
+//! a data set:
 //!
 //! ```text
 //! Points=256  Lines=256  SaveBits=16  SaveSign=Signed  SaveOrder=Intel  Frame=Scan forward
@@ -9,7 +10,7 @@
 //! Dim2Name=Z-Axis  Dim2Unit=m  Dim2Min=-5e-06  Dim2Range=1e-05    from the least to above the largest number
 //! ```
 //!
-//! Those in units of length are channels, called by their frame and the name of their third dimension.
+//! Data sets in units of length are channels, named by their frame and the name of their third dimension.
 
 use super::binary::{Number, Order, Raster, shape, text};
 use super::header::{Header, sections};
@@ -17,7 +18,7 @@ use super::words::{excerpt, unit_of_length};
 use super::{Channel, Decoded, LengthUnit, from_last_y_to_first, several};
 use crate::error::Defect;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"[DataSet]";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -48,7 +49,7 @@ fn channels(bytes: &[u8]) -> Outcome<Vec<Channel<'_>>> {
     Ok(channels)
 }
 
-/// The names of the parts that tell of the data sets, in the order of the data.
+/// Returns the names of the parts that describe the data sets, in the order of the data.
 fn data_sets(part: &str) -> Vec<&str> {
     let place = |name: &str| -> Option<(u32, u32)> {
         let (group, channel) = name.trim().strip_prefix("Gr")?.split_once("-Ch")?;
@@ -61,12 +62,12 @@ fn data_sets(part: &str) -> Vec<&str> {
     sets.into_iter().map(|(_, name)| name).collect()
 }
 
-/// How the numbers of a data set are stored.
+/// Storage of the numbers of a data set.
 struct DataSet {
     shape: [usize; 2],
     number: Number,
     order: Order,
-    /// The least number and how many there are.
+    /// Smallest number, and the size of the range.
     range: [f64; 2],
 }
 

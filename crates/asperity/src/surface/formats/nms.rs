@@ -1,6 +1,6 @@
-//! NMS: confocal microscopes of NanoFocus (µsurf); only read.
+//! NMS: confocal microscopes of NanoFocus (µsurf); read only.
 //!
-//! Little-endian; known by `OM_MS_` at 32.
+//! Little-endian; recognised by `OM_MS_` at 32.
 //!
 //! ```text
 //! 16    least and largest height in µm 2 f64      1368  sizes along x and y 2 u32, steps along x and y in nm 2 f64
@@ -12,7 +12,7 @@ use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// Whether the content is marked so.
+/// Whether the content has this mark.
 pub(super) fn is_one(bytes: &[u8]) -> bool {
     bytes.get(32..).is_some_and(|bytes| bytes.starts_with(b"OM_MS_"))
 }

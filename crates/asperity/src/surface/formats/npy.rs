@@ -17,7 +17,7 @@ use crate::io::atomic;
 pub(super) fn write(path: &Path, heights: &Field) -> Result<()> {
     let [nx, ny] = [heights.nrows(), heights.ncols()];
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({nx}, {ny}), }}\n");
-    // The numbers begin at a multiple of 64 bytes; what is filled up stands before the end of the line.
+    // The numbers begin at a multiple of 64 bytes; the padding is before the end of the line.
     let length = (MAGIC.len() + 4 + header.len()).next_multiple_of(64) - MAGIC.len() - 4;
     let header = format!("{:<1$}\n", header.trim_end(), length - 1);
     atomic::write_with(path, |file| {
@@ -29,7 +29,7 @@ pub(super) fn write(path: &Path, heights: &Field) -> Result<()> {
     })
 }
 
-/// Before the version, the length of the header and the header.
+/// Precedes the version, the length of the header and the header.
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -86,7 +86,7 @@ fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
     })
 }
 
-/// The header and what follows it.
+/// Splits the header from the data.
 fn split(bytes: &[u8]) -> std::result::Result<(String, &[u8]), Defect> {
     let little = |bytes: &[u8]| bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte));
     let (start, length) = match bytes.get(MAGIC.len()) {
@@ -102,7 +102,7 @@ fn split(bytes: &[u8]) -> std::result::Result<(String, &[u8]), Defect> {
     }
 }
 
-/// The dictionary of an array whose elements are of one kind.
+/// Header of an array with elements of one kind.
 struct Header<'a> {
     /// The kind, `<f8`.
     descr: &'a str,
@@ -111,7 +111,7 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, its keys in any order.
+    /// Reads `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, with its keys in any order.
     fn read(text: &'a str) -> Option<Self> {
         let (mut descr, mut fortran_order, mut shape) = (None, None, None);
         let mut rest = Literal(text);
@@ -135,7 +135,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// What is left to read of a literal of Python.
+/// The rest of a Python literal.
 struct Literal<'a>(&'a str);
 
 impl<'a> Literal<'a> {
@@ -172,7 +172,7 @@ impl<'a> Literal<'a> {
     }
 }
 
-/// How the numbers of a kind are stored, where they are real.
+/// Returns the storage format of a kind, if its numbers are real.
 fn number(descr: &str) -> Option<(Number, Order)> {
     let kind = descr.trim_start_matches(['<', '>', '=', '|']);
     let order = if descr.starts_with('>') { Order::Big } else { Order::Little };

@@ -1,10 +1,10 @@
-//! OPD: interferometers of Wyko, later Veeco and Bruker; only read.
+//! OPD: interferometers of Wyko, later Veeco and Bruker; read only.
 //!
-//! Little-endian. Two bytes, then a directory of 24 bytes each: name (16), type i16, size i32, flags u16. The first entry
-//! is the directory itself; what the others name follows in their order. An array (type 3) has the sizes along x and y
-//! and the bytes of an element (3 u16), and its elements, y fastest and from the last y to the first. Heights are in
-//! wavelengths (`Wavelength`, nm); as 16-bit integers they count `Mult`-ths of them. The pitch along x is `Pixel_size`,
-//! mm, along y `Aspect` times it. A missing height is 10³⁸ or more, of integers 32766 or 32767.
+//! Little-endian. Two bytes, then a directory of entries of 24 bytes: name (16), type i16, size i32, flags u16. The first
+//! entry is the directory itself, and the blocks of the others follow in order. An array (type 3) has the sizes along x and
+//! y and the bytes per element (3 u16), then its elements, y fastest and from the last y to the first. Heights are in
+//! wavelengths (`Wavelength`, nm); 16-bit integers count 1/`Mult` of them. The pitch along x is `Pixel_size`, mm, along y
+//! `Aspect` times it. A missing height is 10³⁸ or more, for integers 32766 or 32767.
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, from_last_y_to_f
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"\x01\0Directory";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -43,7 +43,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 const ARRAY: u16 = 3;
 
-/// The names of arrays that hold heights.
+/// Names of arrays with heights.
 const HEIGHTS: [&str; 5] = ["Raw", "RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA"];
 
 struct Block<'a> {
@@ -53,7 +53,7 @@ struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// What the block holds, if it is a number.
+    /// Returns the content of the block, if it is a number.
     fn number(&self) -> Option<f64> {
         let mut data = Cursor::new(self.data, Order::Little, "a number");
         match self.kind {
@@ -66,7 +66,7 @@ impl Block<'_> {
     }
 }
 
-/// What the directory names, without the directory itself.
+/// Returns the blocks of the directory, without the directory itself.
 fn blocks(bytes: &[u8]) -> Result<Vec<Block<'_>>, Defect> {
     const ENTRY: usize = 24;
     let mut data = Cursor::new(bytes, Order::Little, "the file");

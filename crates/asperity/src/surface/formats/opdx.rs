@@ -1,7 +1,7 @@
-//! OPDx: stylus profilometers and interferometers of Bruker (Dektak, Vision64); only read.
+//! OPDx: stylus profilometers and interferometers of Bruker (Dektak, Vision64); read only.
 //!
-//! Little-endian. `VCA DATA`, 01 00 00 55, then items: a name, its kind u8, its content. A name is its length u32 and UTF-8;
-//! a size is the number of its bytes, 1, 2 or 4, and these.
+//! Little-endian. `VCA DATA`, 01 00 00 55, then items: a name, its kind u8, its content. A name is its length u32 and
+//! UTF-8. A size is the number of its bytes, 1, 2 or 4, and these bytes.
 //!
 //! ```text
 //! 01 1 byte              12 text: size, UTF-8                          40 numbers: name, size, 5 bytes, f64 …
@@ -11,9 +11,9 @@
 //! 15 9 bytes             7d 46 47 size, items, 2 bytes                 45 matrix: name, size, the same      7f the end
 //! ```
 //!
-//! Each container in `/2D_Data` with a `Matrix`, each in `/1D_Data` with an `Array` (a profile) is a channel if the unit of
-//! its `DataScale`, which its numbers are multiplied by, is a length. `Dimension1Extent` (y), `Dimension2Extent` (x), of a
-//! profile `Extent`, reach from the first to the last. A number beyond 10³⁸, or none, is a missing height.
+//! Channels are the containers in `/2D_Data` with a `Matrix` and those in `/1D_Data` with an `Array` (a profile). The unit
+//! of their `DataScale`, the factor of the numbers, must be a length. `Dimension1Extent` (y) and `Dimension2Extent` (x),
+//! for a profile `Extent`, extend from the first to the last number. NaN, or a number beyond 10³⁸, is a missing height.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ use super::{Channel, Decoded, LengthUnit, several};
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"VCA DATA\x01\0\0\x55";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -43,7 +43,7 @@ fn channels(items: &[u8]) -> Outcome<Vec<Channel<'_>>> {
     sets.iter().filter_map(|(path, data)| found.channel(path, data).transpose()).collect()
 }
 
-/// What is used of an item's content.
+/// The required part of an item's content.
 enum Item<'a> {
     Text(String),
     /// A number and the symbol of its unit.
@@ -55,7 +55,7 @@ enum Item<'a> {
 /// Numbers on a grid.
 #[derive(Clone, Copy)]
 struct Data<'a> {
-    /// Number of heights along x and y; of a profile there is one along y.
+    /// Number of heights along x and y; for a profile one along y.
     sizes: [u32; 2],
     number: Number,
     numbers: &'a [u8],
@@ -64,13 +64,13 @@ struct Data<'a> {
 /// The items of a file by their paths.
 #[derive(Default)]
 struct Items<'a> {
-    /// The data of heights, by the path of the container that they are in.
+    /// Data of heights, by the path of their container.
     sets: Vec<(String, Data<'a>)>,
     others: HashMap<String, Item<'a>>,
 }
 
 impl<'a> Items<'a> {
-    /// Takes in the items of a container.
+    /// Reads the items of a container.
     fn read(&mut self, mut items: Cursor<'a>, path: &str, depth: usize) -> Outcome<()> {
         const MAX_DEPTH: usize = 32;
         while !items.rest().is_empty() {
@@ -88,7 +88,7 @@ impl<'a> Items<'a> {
                 }
                 0x46 | 0x47 | 0x7d => {
                     let content = sized(&mut items)?;
-                    // The two bytes at its end are of no item.
+                    // The two bytes at its end belong to no item.
                     let content = &content[..content.len().saturating_sub(2)];
                     let content = Cursor::new(content, Order::Little, "a container");
                     self.read(content, &format!("{path}/{name}"), depth + 1)?;
@@ -110,7 +110,7 @@ impl<'a> Items<'a> {
         Ok(())
     }
 
-    /// The channel of the data in the container at `path`, if they are heights.
+    /// Returns the channel of the data in the container at `path`, if they are heights.
     fn channel(&self, path: &str, data: &Data<'a>) -> Outcome<Option<Channel<'a>>> {
         let quantity = |name| match self.others.get(&format!("{path}/{name}")) {
             Some(Item::Quantity(number, unit)) => unit_of_length(unit).ok().map(|unit| number * unit),
@@ -193,7 +193,7 @@ fn name(items: &mut Cursor<'_>) -> Outcome<String> {
     items.take(length).map(text)
 }
 
-/// What follows with its size before it.
+/// Reads content that is preceded by its size.
 fn sized<'a>(items: &mut Cursor<'a>) -> Outcome<&'a [u8]> {
     let size = match items.u8()? {
         1 => u32::from(items.u8()?),

@@ -1,6 +1,6 @@
-//! PLU: topographies of Sensofar's confocal microscopes and interferometers; only read.
+//! PLU: confocal microscopes and interferometers of Sensofar; read only.
 //!
-//! No mark tells the format, but a date as the C library prints it stands at the start. Little-endian:
+//! The format has no signature, but begins with a date as printed by the C library. Little-endian:
 //!
 //! ```text
 //! 0    date (128)          388  calibration: sizes along y and x, a number, a scale, pitch along x and y in µm (f32)
@@ -8,7 +8,7 @@
 //! 132  comment (256)       500  sizes along y and x 2 u32, heights in µm f32, x fastest; then pictures, further layers
 //! ```
 //!
-//! A missing height is 1000001. Of several layers the first is read.
+//! A missing height is 1000001. Only the first of several layers is read.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, only};

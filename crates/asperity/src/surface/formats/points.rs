@@ -1,4 +1,4 @@
-//! Tables of points: whether x and y of each form a regular grid, and what else a table may be.
+//! Tables of points: detection of a regular grid, of line scans and of other tables.
 
 use ndarray::ArrayView1;
 
@@ -7,15 +7,15 @@ use crate::error::Defect;
 use crate::grid::Field;
 use crate::units::Metre;
 
-/// Heights on a regular grid, NaN where there is no point.
+/// Heights on a regular grid, NaN without a point.
 pub(super) struct Raster {
     pub(super) pitch: [Metre; 2],
     pub(super) heights: Field,
 }
 
-/// The heights in `column` over the positions in the first two, if these form a regular grid of at least 2 × 2 points, in
-/// any order, each off by a quarter of the pitch at most. Points may lack: half of them, or all but four on each line, as long
-/// as chance would not do the same.
+/// Returns the heights in `column` over the positions in the first two, if these form a regular grid of at least 2 × 2
+/// points, in any order. Each position may deviate by a quarter of the pitch. Up to half of the points may be missing, or
+/// all but four on each line, if the grid cannot be a coincidence.
 pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
     let points = table.nrows();
     if points < 4 {
@@ -43,10 +43,10 @@ pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
     Some(Raster { pitch: [x.pitch, y.pitch], heights })
 }
 
-/// Points from which on it is no chance that they lie on a grid with gaps.
+/// Number of points from which a grid with gaps is no coincidence.
 const MIN_POINTS: usize = 6;
 
-/// An error if the columns of `table` are coordinates and heights of points that are no map.
+/// Returns an error if the columns of `table` are coordinates and heights of points that form no map.
 pub(super) fn refuse_points(table: &Field) -> Result<(), Defect> {
     let [first, second] = match table.ncols() {
         0 | 1 => return Ok(()),
@@ -82,10 +82,10 @@ pub(super) fn refuse_points(table: &Field) -> Result<(), Defect> {
     }
 }
 
-/// Rows from which on an order is no chance.
+/// Number of rows from which an order is no coincidence.
 const MANY: usize = 16;
 
-/// Whether these are the positions of a line scan: evenly spaced, each once, at least half of them there.
+/// Whether these are positions of a line scan: evenly spaced, each once, at least half of them present.
 fn is_line(column: ArrayView1<'_, f64>) -> bool {
     let points = column.len();
     if points < 8 || !(is_rising(column) || points >= MANY) {
@@ -99,20 +99,20 @@ fn is_line(column: ArrayView1<'_, f64>) -> bool {
     column.iter().all(|position| !std::mem::replace(&mut seen[even.index(*position)], true))
 }
 
-/// Whether two columns climb evenly and as steeply: heights of a plane rather than positions.
+/// Whether two columns rise uniformly with similar slopes: heights of a plane rather than positions.
 fn alike(one: ArrayView1<'_, f64>, other: ArrayView1<'_, f64>) -> bool {
     let climb = |column: ArrayView1<'_, f64>| column[column.len() - 1] - column[0];
     is_line(other) && (0.5..=2.0).contains(&(climb(one) / climb(other)))
 }
 
-/// Whether positions in their order, perhaps unevenly spaced, stand beside heights in none.
+/// Whether ordered positions, possibly unevenly spaced, stand beside unordered heights.
 fn is_track(positions: ArrayView1<'_, f64>, heights: ArrayView1<'_, f64>) -> bool {
     let points = positions.len();
     let steps = positions.iter().zip(positions.iter().skip(1)).filter(|(here, next)| here != next).count();
     points >= MANY && 2 * steps >= points && is_rising(positions) && !is_rising(heights)
 }
 
-/// Whether all steps are upwards or 0, or all downwards or 0, and some are neither.
+/// Whether all steps are ≥ 0 or all ≤ 0, and some are not 0.
 fn is_rising(column: ArrayView1<'_, f64>) -> bool {
     let steps = || column.iter().zip(column.iter().skip(1)).map(|(here, next)| next - here);
     !is_constant(column) && (steps().all(|step| step >= 0.0) || steps().all(|step| step <= 0.0))
@@ -122,7 +122,7 @@ fn is_constant(column: ArrayView1<'_, f64>) -> bool {
     column.iter().all(|value| *value == column[0])
 }
 
-/// Whether the points lie on a grid that some few of them share.
+/// Whether the points lie on a grid, with a few places occupied more than once.
 fn twice(table: &Field) -> bool {
     let points = table.nrows();
     let (Some(x), Some(y)) = (even(table.column(0)), even(table.column(1))) else { return false };
@@ -141,7 +141,7 @@ fn twice(table: &Field) -> bool {
 /// Positions `start + i · pitch`, `i < count`.
 struct Positions {
     start: Metre,
-    /// 0 where there is but one.
+    /// 0 for a single position.
     pitch: Metre,
     count: usize,
 }
@@ -152,15 +152,14 @@ impl Positions {
     }
 }
 
-/// Part of a pitch by which a position may be off: by the stage of an instrument.
+/// Fraction of a pitch by which a position may deviate, because of the stage of an instrument.
 const OFF: f64 = 0.25;
-/// The share of points off the raster of so few points that chance would be as good: by the rounding of printed
-/// numbers.
+/// The same fraction for so few points that a coincidence is possible, because of the rounding of printed numbers.
 const OFF_IF_FEW: f64 = 0.02;
-/// The widest gap between positions that occur, in pitches.
+/// Widest gap between existing positions, in pitches.
 const WIDEST_GAP: usize = 16;
 
-/// The even spacing of `values`, whose every position need not occur.
+/// Returns the uniform spacing of `values`, some of whose positions may be missing.
 fn even(values: ArrayView1<'_, f64>) -> Option<Positions> {
     let mut sorted = values.to_vec();
     if sorted.iter().any(|position| position.is_nan()) {

@@ -1,8 +1,8 @@
-//! SDF, the surface data file: ISO 25178-71, and BCR's report EUR 15178 before it.
+//! SDF, the surface data file of ISO 25178-71, and earlier of BCR's report EUR 15178.
 //!
-//! A header, the heights with x fastest, a trailer of text. The first byte tells the kind: `a` text, `b` binary,
-//! little-endian. The version follows: `ISO-1.0`, `ISO-2.0`, `BCR-1.0`, `NIST-1.0`. A height is a number times `Zscale`,
-//! in metres.
+//! The file has a header, the heights with x fastest, and a trailer of text. The first byte is the kind: `a` text, `b`
+//! binary, little-endian. The version follows: `ISO-1.0`, `ISO-2.0`, `BCR-1.0`, `NIST-1.0`. A height is a number times
+//! `Zscale`, in metres.
 //!
 //! ```text
 //! 0   version (8)             ManufacID (10)  CreateDate (12)  ModDate (12)
@@ -11,8 +11,8 @@
 //!     Compression, DataType, CheckType     3 u8
 //! ```
 //!
-//! Types of data are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, 3 and 7 for floating point
-//! of 32 and 64. A missing height is NaN, the largest unsigned or the least signed integer; in text it is `BAD`. In the
+//! Data types are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, and 3 and 7 for floating point of
+//! 32 and 64 bits. A missing height is NaN, the largest unsigned or the smallest signed integer; in text it is `BAD`. In
 //! text each record is a line `name = value`, and an asterisk ends each part.
 
 use std::path::Path;
@@ -25,15 +25,15 @@ use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
 
-/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN stays NaN: missing.
+/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN stays NaN (missing).
 ///
-/// The version is `ISO-1.0`, whose sizes end at 65535, and `ISO-2.0` beyond.
+/// The version is `ISO-1.0` for sizes up to 65535, and `ISO-2.0` beyond.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File).
 ///
 /// # Panics
-/// If `heights` are not on `grid`.
+/// If the shape of `heights` differs from that of `grid`.
 pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
     let [nx, ny] = grid.shape;
@@ -59,7 +59,7 @@ pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     })
 }
 
-/// How the file may begin.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 8] =
     [b"aISO-1.0", b"bISO-1.0", b"aISO-2.0", b"bISO-2.0", b"aBCR-1.0", b"bBCR-1.0", b"aNIST-1.", b"bNIST-1."];
 
@@ -83,7 +83,7 @@ fn in_binary(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
     let [compression, kind, _check] = [header.u8()?, header.u8()?, header.u8()?];
     let number = vet(&compression.to_string(), &kind.to_string(), dz)?;
 
-    // One maker puts 8 bytes more into the header, of which it does not tell.
+    // One manufacturer adds 8 undocumented bytes to the header.
     let size = shape[0] * shape[1] * number.bytes();
     let rest = header.rest();
     let data = if rest.len() == size + 8 && bytes.starts_with(b"bISO-1.0") { &rest[8..] } else { rest };
@@ -133,7 +133,7 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
     Ok(([header.number("Xscale")?, header.number("Yscale")?], heights))
 }
 
-/// The kind of number, if heights can be read with these entries of the header.
+/// Returns the kind of number, if heights with these header entries can be read.
 fn vet(compression: &str, kind: &str, dz: f64) -> Outcome<Number> {
     if compression != "0" {
         let found = compression.to_owned();

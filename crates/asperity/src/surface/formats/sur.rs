@@ -1,4 +1,4 @@
-//! Digital Surf `.sur` (MountainsMap): surfaces with 16 or 32 bits per height, plain or compressed; only read.
+//! Digital Surf `.sur` (MountainsMap): surfaces with 16 or 32 bits per height, plain or compressed; read only.
 //!
 //! Format: the manual of MountainsMap, "SURF file format". A file holds one or more objects. Each starts with 512
 //! bytes, little-endian, then a comment and a private zone, then the heights, x fastest:
@@ -11,9 +11,9 @@
 //! 86  1: some are missing
 //! ```
 //!
-//! A height is `raw · spacing + offset` in the unit of the spacing; a missing one is stored as the least less 2.
-//! Compressed, the code is `DSCOMPRESSED` and the heights are preceded by the number of zlib streams and, for each,
-//! its length unpacked and packed (u32).
+//! A height is `raw · spacing + offset` in the unit of the spacing. A missing one is stored as the minimum minus 2.
+//! Compressed files have the code `DSCOMPRESSED`. Their heights are preceded by the number of zlib streams and, for each,
+//! its unpacked and packed length (u32).
 
 use std::io::Read;
 
@@ -44,7 +44,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 const HEADER: usize = 512;
 
-/// The objects of the file, not empty; their heights are there in full, but not looked at.
+/// Returns the objects of the file, not empty; their heights are complete but not decoded.
 fn objects(bytes: &[u8]) -> Result<Vec<Object<'_>>, Defect> {
     let mut objects: Vec<Object<'_>> = Vec::new();
     let mut rest = bytes;
@@ -64,7 +64,7 @@ struct Object<'a> {
     shape: [usize; 2],
     number: Number,
     pitch: [Metre; 2],
-    /// The height of one unit of the raw heights, m.
+    /// Height of one unit of the raw heights, m.
     height: Metre,
     offset: Metre,
     missing: Option<f64>,
@@ -77,7 +77,7 @@ enum Data<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// The first object in `bytes`, and what follows it.
+    /// Reads the first object in `bytes`; also returns the rest.
     fn read(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Defect> {
         let compressed = match bytes.get(..12) {
             Some(b"DIGITAL SURF") => false,
@@ -170,7 +170,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// The zlib streams at the start of `bytes`, and what follows them.
+/// Reads the zlib streams at the start of `bytes`; also returns the rest.
 fn streams(bytes: &[u8]) -> Result<(Data<'_>, &[u8]), Defect> {
     let word = |at: usize| {
         let word = bytes.get(at..at + 4).and_then(|word| word.first_chunk());
@@ -209,7 +209,7 @@ fn unpack(streams: &[&[u8]], needed: usize) -> Result<Vec<u8>, Defect> {
     }
 }
 
-/// What an object is that holds no heights on a grid.
+/// Describes an object that contains no heights on a grid.
 fn not_heights(kind: i16) -> Option<String> {
     let name = match kind {
         // Profile, surface, series of surfaces, surface of several layers, surface with an intensity image.

@@ -20,12 +20,12 @@ mod probes;
 mod sdf;
 mod tiff;
 
-/// As [`ReadOptions::scan`].
+/// Calls [`ReadOptions::scan`].
 fn read(path: &Path, channel: Option<&str>, unit: Option<f64>) -> Result<Scan> {
     options(channel, unit).scan(path)
 }
 
-/// As [`ReadOptions::scan_bytes`].
+/// Calls [`ReadOptions::scan_bytes`].
 fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>, unit: Option<f64>) -> Result<Scan> {
     options(channel, unit).scan_bytes(name, bytes)
 }
@@ -34,7 +34,7 @@ fn options(channel: Option<&str>, unit: Option<f64>) -> ReadOptions {
     ReadOptions { channel: channel.map(str::to_owned), unit, pitch: None }
 }
 
-/// The measured files, which are not part of the repository; without them a test is passed over, but not in CI.
+/// Path of a measured file, which is not part of the repository; without it a test is skipped, but not in CI.
 fn measured(name: &str) -> Option<PathBuf> {
     let folder = match std::env::var_os("ASPERITY_TOPOGRAPHIES") {
         Some(folder) => PathBuf::from(folder),
@@ -45,7 +45,7 @@ fn measured(name: &str) -> Option<PathBuf> {
     file.exists().then_some(file)
 }
 
-/// Compares the file with what another program reads in it (`expected.json`), given in `unit`.
+/// Compares the file with the heights read by another program (`expected.json`), given in `unit`.
 #[track_caller]
 fn assert_as_expected(name: &str, format: &str, unit: f64) {
     let (Some(path), Some(expected)) = (measured(name), measured("expected.json")) else { return };
@@ -110,7 +110,7 @@ fn the_pits_of_a_measured_map_are_the_first_spikes_to_go() {
     let grid = Grid::new([563, 484], scan.pitch.unwrap()).unwrap();
     let measured = Topography::new(grid, scan.heights).unwrap();
     let cleared = measured.clone().despike(8.0).unwrap();
-    // 98 samples of a few pits, down to 1.25 µm, of a surface whose others lie within 0.1 µm of their mean.
+    // 98 samples in a few pits, down to 1.25 µm, of a surface whose other samples lie within 0.1 µm of their mean.
     let middle = measured.mean();
     let deep = |map: &Topography| map.heights().iter().filter(|z| **z < middle - 1e-7).count();
     assert_eq!([deep(&measured), deep(&cleared)], [98, 0]);
@@ -198,7 +198,7 @@ fn an_x3p_written_reads_back_to_the_last_bit() {
     assert_eq!(error.hint().unwrap(), "it holds `height`; choose one of them");
 }
 
-/// An x3p of 5 × 2 heights, of which the mask 0x95, 0xfd takes away the second, fourth, sixth, seventh and tenth.
+/// An x3p of 5 × 2 heights; the mask 0x95, 0xfd removes the second, fourth, sixth, seventh and tenth.
 fn x3p_with(kind: &str, data: &[u8], mask: Option<&[u8]>, record3: &str) -> Vec<u8> {
     let mask_link = mask.map_or("", |_| "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>");
     let data_link =
@@ -327,7 +327,7 @@ fn xml_nested_beyond_measure_is_answered() {
     let _ = decode(&zipped(&[("main.xml", closed.as_bytes())]), None).unwrap_err();
 }
 
-/// What is wrong with the file of this content, with its format.
+/// Returns the defect of a file with this content, with its format.
 #[track_caller]
 fn defect(bytes: &[u8]) -> String {
     match decode(bytes, None) {
@@ -347,7 +347,7 @@ fn an_npy_written_reads_back_to_the_last_bit() {
     let scan = read(&path, Some("height"), None).unwrap();
     assert_eq!((scan.format, scan.pitch), ("npy", None));
     assert_same(&scan.heights, &heights);
-    // Indexed [ix, iy] in C order whatever the order in memory.
+    // Indexed [ix, iy] in C order for any memory order.
     npy::write(&path, &heights.t().as_standard_layout().into_owned().reversed_axes()).unwrap();
     assert_same(&read(&path, None, None).unwrap().heights, &heights);
     assert!(std::fs::read(&path).unwrap().starts_with(b"\x93NUMPY\x01\0"));
@@ -395,7 +395,7 @@ fn an_npy_that_is_no_matrix_of_numbers_is_an_error() {
 
 // ---- sur -------------------------------------------------------------------------------------------------
 
-/// A surface of 3 × 2 heights, of which the last is missing, in µm.
+/// A surface of 3 × 2 heights, in µm, with the last one missing.
 fn sur_of(bits: u16, name: &str, objects: u16) -> Vec<u8> {
     let raw = [-5i32, 0, 1, 2, 3, -7].map(|raw| raw.to_le_bytes()[..usize::from(bits / 8)].to_vec());
     files::sur(bits, name, objects, [3, 2], &raw.concat())
@@ -506,7 +506,7 @@ fn a_table_of_points_is_a_grid_in_any_order() {
     assert_same(&scan.heights, &ndarray::array![[f64::NAN, 2.0], [5.0, 1.0], [4.0, 3.0]]);
     assert_relative_eq!(scan.pitch.unwrap()[0], 0.3335, max_relative = 1e-12);
     assert_eq!(scan.pitch.unwrap()[1], 1.0);
-    // A point twice, or none: a matrix of three columns.
+    // A repeated or missing point: a matrix of three columns.
     assert_eq!(decode(b"0 0 1\n0 1 2\n1 0 3\n1 0 4\n", None).unwrap().heights.dim(), (4, 3));
 }
 

@@ -1,16 +1,16 @@
-//! Text: a matrix of heights in metres, or a table of x, y and height; only read.
+//! Text: a matrix of heights in metres, or a table of x, y and height; read only.
 //!
-//! - A **matrix** has a line for each ix and a value for each iy: `heights[ix, iy]` as `numpy.savetxt` writes it.
-//!   It has no pitch. (Of a file whose lines run along x, take the transpose.)
-//! - A **table** (`xyz`) has three values in a line: x, y and height, all in metres. It is told from a matrix by its
-//!   x and y, which must form a regular grid of at least 2 × 2 points, in any order, each to a quarter of the pitch. It
-//!   has a pitch. Points that lack are missing heights.
-//! - A line scan (x and height, or x, y and height along a line) and points on no grid are refused, where they can be told
-//!   from a matrix: by positions that are evenly spaced or in their order beside heights that are not.
-//! - Values are separated by semicolons, tabs, commas or white space, whichever the first line of values has.
-//!   Where commas do not separate they may be decimal commas. A separator may end every line.
+//! - A **matrix** has a line for each ix and a value for each iy: `heights[ix, iy]`, as written by `numpy.savetxt`. It has
+//!   no pitch. (Transpose a file whose lines run along x.)
+//! - A **table** (`xyz`) has three values per line: x, y and height, all in metres. It differs from a matrix by its x and
+//!   y, which must form a regular grid of at least 2 × 2 points, in any order, each to a quarter of the pitch. It has a
+//!   pitch. Missing points are missing heights.
+//! - A line scan (x and height, or x, y and height along a line) and points on no grid are rejected if they can be
+//!   distinguished from a matrix: by uniformly spaced or ordered positions beside heights that are not.
+//! - Values are separated by semicolons, tabs, commas or white space, as in the first line of values. If commas do not
+//!   separate, they may be decimal commas. A separator may end every line.
 //! - Missing heights: nothing between separators, `nan`, `na`, `n/a`, `null`, `bad`, `-`, `--`, or asterisks.
-//! - Empty lines, and lines that start with `#` or `%`, are passed over. Lines end with LF or CR LF.
+//! - Empty lines, and lines that start with `#` or `%`, are skipped. Lines end with LF or CR LF.
 
 use ndarray::{Axis, Slice};
 
@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     Ok(Scan { format, channel: channels[0].clone(), channels, pitch, heights, unit })
 }
 
-/// The lines of values in `bytes`, before which the file has `lines_before` others.
+/// Reads the lines of values in `bytes`, which follow `lines_before` others in the file.
 pub(super) fn matrix(bytes: &[u8], lines_before: usize) -> Result<Field, Defect> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut values = Vec::new();
@@ -78,7 +78,7 @@ pub(super) fn matrix(bytes: &[u8], lines_before: usize) -> Result<Field, Defect>
     }
     let shape = [values.len() / columns, columns];
     let matrix = Field::from_shape_vec(shape, values).expect("all rows have the same length");
-    // A separator at the end of every line ends it, and does not stand for one more, missing, height.
+    // A separator at the end of every line ends it, and does not mean another missing height.
     if columns > 1 && rows_that_end_with_nothing == shape[0] {
         let without_last = matrix.slice_axis(Axis(1), Slice::from(..columns - 1));
         return Ok(without_last.as_standard_layout().into_owned());
@@ -95,7 +95,7 @@ enum Separator {
 }
 
 impl Separator {
-    /// What separates the values of `line`.
+    /// Determines the separator of the values in `line`.
     fn of(line: &str) -> Self {
         let one_each = |part: &str| part.split_whitespace().count() <= 1;
         if line.contains(';') {

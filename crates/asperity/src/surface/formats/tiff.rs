@@ -1,7 +1,7 @@
-//! TIFF: pictures of one number per pixel; only read.
+//! TIFF: images with one number per pixel; read only.
 //!
 //! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Floating-point
-//! numbers are heights in metres; integers are levels, whose height the file does not tell. There is no pitch, as
+//! numbers are heights in metres. Integers are levels, whose height is not in the file. There is no pitch, because
 //! resolutions are those of a print. Each page is a channel.
 
 use std::io::Cursor;
@@ -14,7 +14,7 @@ use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, x_fa
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file may begin: in either order of bytes, with offsets of 32 or 64 bits.
+/// Possible first bytes of the file: either byte order, with offsets of 32 or 64 bits.
 pub(super) const MAGICS: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -38,7 +38,7 @@ type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
 fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
     vet_first_directory(bytes)?;
-    // A code of LZW, 12 bits, stands for at most 4094 bytes; deflate makes no less of them.
+    // A code of LZW, 12 bits, expands to at most 4094 bytes; deflate expands less.
     let most = bytes.len().saturating_mul(4096);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most;
@@ -46,8 +46,8 @@ fn open(bytes: &[u8]) -> Result<File<'_>, Defect> {
     Ok(Decoder::new(Cursor::new(bytes)).map_err(container)?.with_limits(limits))
 }
 
-/// Refuses entries of the first directory with more values than the file holds: the decoder reads them before it can be
-/// told a limit.
+/// Rejects entries of the first directory with more values than the file contains: the decoder reads them before a limit
+/// can be set.
 fn vet_first_directory(bytes: &[u8]) -> Result<(), Defect> {
     let little = bytes.starts_with(b"I");
     let number = |at: u64, size: u64| -> Option<u64> {
@@ -57,13 +57,13 @@ fn vet_first_directory(bytes: &[u8]) -> Result<(), Defect> {
         Some(if little { digits.iter().rev().fold(0, append) } else { digits.iter().fold(0, append) })
     };
     let is_big = number(2, 2) == Some(43);
-    // Bytes of an offset or count, of the number of entries, and of an entry.
+    // Number of bytes of an offset or count, of the number of entries, and of an entry.
     let (wide, entries, entry) = if is_big { (8, 8, 20) } else { (4, 2, 12) };
     let Some(directory) = number(wide, wide) else { return Ok(()) };
     let Some(count) = number(directory, entries) else { return Ok(()) };
     for index in 0..count {
         let at = directory.saturating_add(entries).saturating_add(index.saturating_mul(entry));
-        // What lies beyond the file the decoder misses itself.
+        // The decoder itself detects values beyond the end of the file.
         let (Some(kind), Some(values)) = (number(at + 2, 2), number(at + 4, wide)) else { return Ok(()) };
         let size = match kind {
             3 | 8 => 2,
@@ -86,7 +86,7 @@ fn heights(bytes: &[u8], page: usize) -> Result<(Field, LengthUnit), Defect> {
     }
     let (nx, ny) = file.dimensions().map_err(container)?;
     let shape = shape([nx, ny])?;
-    // Levels of less than a byte are not unpacked.
+    // Levels of less than a byte are not supported.
     let bits = match file.colortype().map_err(container)? {
         ColorType::Gray(bits @ (8 | 16 | 32 | 64)) => bits,
         colour => return Err(unlike_heights(format!("{colour:?}"))),

@@ -1,14 +1,14 @@
-//! TMD: TrueMap and TrueGage; only read.
+//! TMD: TrueMap and TrueGage; read only.
 //!
-//! Little-endian. `Binary TrueMap Data File v2.0`, CR LF and a zero, a comment that ends with a zero, the sizes along x
-//! and y (2 i32), the lengths and offsets along x and y (4 f32), and the heights (f32, x fastest). Lengths are in mm.
+//! Little-endian. `Binary TrueMap Data File v2.0`, CR LF and a zero, a comment with a final zero, the sizes along x and y
+//! (2 i32), the lengths and offsets along x and y (4 f32), and the heights (f32, x fastest). Lengths are in mm.
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
 use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"Binary TrueMap Data File v2.0\r\n\0";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {

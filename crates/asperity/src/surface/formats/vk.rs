@@ -1,6 +1,6 @@
-//! VK3, VK4, VK6, VK7: confocal microscopes of Keyence; only read.
+//! VK3, VK4, VK6, VK7: confocal microscopes of Keyence; read only.
 //!
-//! VK6 and VK7 are a zip archive, with something before it, whose entry `Vk4File` is a VK4. Little-endian, in u32:
+//! VK6 and VK7 are a preamble and a zip archive, whose entry `Vk4File` is a VK4. Little-endian, in u32:
 //!
 //! ```text
 //! 0   VK4_, version, 0    12  places of the parts: 17, of VK4 18, the seventh to ninth those of heights (0: none)
@@ -15,7 +15,7 @@ use super::x3p::{Archive, entry};
 use super::{Channel, Decoded, Fault, LengthUnit, MAX_UNPACKED, ONLY_CHANNEL, several};
 use crate::error::Defect;
 
-/// How the file may begin.
+/// Possible first bytes of the file.
 pub(super) const MAGICS: [&[u8]; 4] = [b"VK3_", b"VK4_", b"VK6", b"VK7"];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {

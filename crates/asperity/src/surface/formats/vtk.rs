@@ -1,6 +1,6 @@
-//! Legacy `.vtk`, for ParaView and its kin; only written.
+//! Legacy `.vtk`, for ParaView and similar programs; write only.
 //!
-//! Format: "VTK File Formats", the legacy part: a text header, then binary numbers, big-endian, x fastest.
+//! Format: "VTK File Formats", legacy part: a text header, then binary numbers, big-endian, x fastest.
 
 use std::path::Path;
 
@@ -8,13 +8,13 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
 
-/// Writes `heights` on the centres of the cells of `grid`, atomically.
+/// Writes `heights` at the centres of the cells of `grid`, atomically.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File).
 ///
 /// # Panics
-/// If the heights are not on `grid`.
+/// If the shape of the heights differs from that of `grid`.
 pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
     let ([nx, ny], [dx, dy]) = (grid.shape, grid.pitch);

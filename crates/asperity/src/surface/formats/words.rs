@@ -1,9 +1,9 @@
-//! What instruments write in words: units of length, and what a message repeats of them.
+//! Words in files of instruments: units of length, and excerpts for messages.
 
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// A unit of length, as instruments write it.
+/// Returns a unit of length, as written by instruments.
 pub(super) fn unit_of_length(unit: &str) -> Result<Metre, Defect> {
     match unit {
         "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),
@@ -21,7 +21,7 @@ pub(super) fn unit_of_length(unit: &str) -> Result<Metre, Defect> {
     }
 }
 
-/// The start of what a file says, for a message.
+/// Returns the start of a text in a file, for a message.
 pub(super) fn excerpt(text: &str) -> String {
     text.chars().take(40).collect()
 }

@@ -1,4 +1,4 @@
-//! The formats that are written.
+//! Formats that can be written.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use super::{gwy, npy, sdf, vtk, x3p};
 use crate::error::{Error, Result};
 use crate::surface::Topography;
 
-/// A format that topographies are written in.
+/// A file format for writing topographies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// NumPy's `.npy`: the heights alone, without their pitch.
+    /// NumPy's `.npy`: the heights without their pitch.
     Npy,
     /// `.x3p` of ISO 25178-72.
     X3p,
@@ -18,12 +18,12 @@ pub enum Format {
     Sdf,
     /// `.gwy` of Gwyddion.
     Gwy,
-    /// Legacy `.vtk`, for ParaView and its kin; not read.
+    /// Legacy `.vtk`, for ParaView and similar programs; not read.
     Vtk,
 }
 
 impl Format {
-    /// The format that the end of the file's name tells, in any case; none if it tells none.
+    /// Returns the format for the extension of the file name, in any case; `None` if there is none.
     pub fn of(path: impl AsRef<Path>) -> Option<Self> {
         Some(match path.as_ref().extension()?.to_string_lossy().to_lowercase().as_str() {
             "npy" => Self::Npy,
@@ -35,18 +35,18 @@ impl Format {
         })
     }
 
-    /// Whether the format has a place for the pitch.
+    /// Whether the format stores the pitch.
     pub fn has_pitch(self) -> bool {
         self != Self::Npy
     }
 }
 
 impl Topography {
-    /// Writes the heights to the file at `path`, in the [`Format`] that the end of its name tells. The file is there in
-    /// full or not at all.
+    /// Writes the heights to the file at `path`, in the [`Format`] given by its extension. The file is written completely
+    /// or not at all.
     ///
     /// # Errors
-    /// [`Error::NoFormat`] if the name tells none, [`Error::File`] if the file cannot be written.
+    /// [`Error::NoFormat`] if the extension belongs to no format, [`Error::File`] if the file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let (grid, heights) = (self.grid(), self.heights());

@@ -1,8 +1,8 @@
-//! WSxM `.stp`, `.top`: scanning probe microscopy; only read.
+//! WSxM `.stp`, `.top`: scanning probe microscopy; read only.
 //!
-//! `WSxM file copyright`, `SxM Image file`, `Image header size: 4607`, parts of lines `name: value`, and after a header of
-//! that size the heights, little-endian, x fastest, the picture upside down and mirrored: from the last y and the last x
-//! to the first.
+//! `WSxM file copyright`, `SxM Image file`, `Image header size: 4607`, then parts with lines `name: value`. After a header
+//! of that size come the heights, little-endian, x fastest. The image is upside down and mirrored: from the last y and the
+//! last x to the first.
 //!
 //! ```text
 //! [Control]        X Amplitude: 600 nm      Y Amplitude: 600 nm
@@ -10,8 +10,8 @@
 //! [Miscellaneous]  Maximum: 6900            Minimum: 5927
 //! ```
 //!
-//! `double` and `float` are heights in the unit of the amplitude; integers (`short`) are scaled so that they reach
-//! from the minimum to the maximum over the amplitude.
+//! `double` and `float` are heights in the unit of the amplitude. Integers (`short`) are scaled so that the range from
+//! minimum to maximum is the amplitude.
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
 use super::header::{Header, sections};
@@ -20,7 +20,7 @@ use super::{Decoded, only};
 use crate::error::Defect;
 use crate::grid::Field;
 
-/// How the file begins.
+/// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"WSxM file copyright";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -67,7 +67,7 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     Ok(([x / f64::from(nx), y / f64::from(ny)], heights))
 }
 
-/// What the third line tells.
+/// Returns the header size in the third line.
 fn start_of_data(bytes: &[u8]) -> Result<usize, Defect> {
     let mut lines = bytes.splitn(4, |byte| *byte == b'\n').map(text);
     let kind = lines.nth(1).unwrap_or_default();

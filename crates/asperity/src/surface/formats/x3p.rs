@@ -1,8 +1,8 @@
 //! x3p: ISO 25178-72 and ISO 5436-2.
 //!
-//! A zip archive of `main.xml`, the heights in binary (or in the XML), and checksums. Everything is in metres. Heights
-//! are stored with x fastest, little-endian; as integers they count increments of the z axis. A missing height is NaN,
-//! or marked by a 0 in the mask of valid points: a bit for each, the least significant first, or a byte.
+//! The file is a zip archive of `main.xml`, the heights in binary (or in the XML), and checksums. Everything is in metres.
+//! Heights are stored with x fastest, little-endian; integers count increments of the z axis. A missing height is NaN, or
+//! has a 0 in the mask of valid points: one bit for each, the least significant first, or one byte.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Read, Write as _};
@@ -19,13 +19,13 @@ use crate::error::{Defect, Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
 
-/// Writes `heights` on `grid` to `path` as float64, with checksums, atomically. NaN stays NaN: missing.
+/// Writes `heights` on `grid` to `path` as float64, with checksums, atomically. NaN stays NaN (missing).
 ///
 /// # Errors
 /// [`Error::File`].
 ///
 /// # Panics
-/// If `heights` are not on `grid`.
+/// If the shape of `heights` differs from that of `grid`.
 pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
     assert_eq!(heights.shape(), grid.shape, "heights must be on the grid");
     let archive =
@@ -63,7 +63,7 @@ fn main_xml(grid: &Grid, checksum: &str) -> String {
         )
     };
     let axes = [axis("CX", "I", dx), axis("CY", "I", dy), axis("CZ", "A", 1.0)].concat();
-    // The dates are required, and not known; like other programs we say 1970.
+    // The dates are required but unknown; like other programs we write 1970.
     format!(
         r#"<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 <p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.opengps.eu/2008/ISO5436_2 http://www.opengps.eu/2008/ISO5436_2/ISO5436_2.xsd">
@@ -113,11 +113,11 @@ fn checksum(bytes: &[u8]) -> String {
     })
 }
 
-/// The most that is read of `main.xml`, which may hold the heights themselves, and the most of its elements and texts.
+/// Largest size of `main.xml`, which may contain the heights, and largest number of its elements and texts.
 const MAX_MAIN: u64 = 1 << 26;
 const MAX_NODES: u32 = 1 << 23;
 
-/// The most layers, each of which is a channel.
+/// Largest number of layers, each of which is a channel.
 const MAX_LAYERS: usize = 1 << 16;
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
@@ -162,11 +162,11 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     })
 }
 
-/// The most attributes, and the most elements within each other: the format has some five of each.
+/// Largest number of attributes, and of nested elements: the format has about five of each.
 const MAX_ATTRIBUTES: usize = 1 << 10;
 const MAX_DEPTH: usize = 1 << 8;
 
-/// Refuses XML on which the parser would take long: its time grows as the square of the attributes.
+/// Rejects XML that the parser would need long for: its time grows as the square of the number of attributes.
 fn vet_xml(text: &str) -> Outcome<()> {
     let too_many =
         |what, found: usize, expected| Defect::Value { what, found: format!("{found} or more"), expected };
@@ -215,7 +215,7 @@ pub(super) type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 type Outcome<T> = std::result::Result<T, Defect>;
 
 struct Header {
-    /// Numbers of heights along x and y, and of layers.
+    /// Number of heights along x and y, and of layers.
     sizes: [usize; 3],
     increments: [f64; 2],
     number: Number,
@@ -316,7 +316,7 @@ impl Header {
         Ok(heights)
     }
 
-    /// The numbers of a list in the XML: of each point the coordinates, of which z is the last, or nothing.
+    /// Reads the numbers of a list in the XML: for each point its coordinates, of which z is the last, or nothing.
     fn listed(&self, list: Node<'_, '_>) -> Outcome<Vec<f64>> {
         let mut numbers = Vec::new();
         for point in list.children().filter(|node| node.tag_name().name() == "Datum") {
@@ -359,7 +359,7 @@ fn number(kind: &str) -> Option<Number> {
     })
 }
 
-/// Compares `main.xml` with the checksum that lies beside it, if one does.
+/// Compares `main.xml` with its checksum, if there is one.
 fn verify_main(archive: &mut Archive<'_>, root: Node<'_, '_>, main: &[u8]) -> Outcome<()> {
     let name = child(root, "Record4").and_then(|record| text(record, "ChecksumFile")).unwrap_or(CHECKSUMS);
     if archive.index_for_name(plain_name(name)).is_none() {
@@ -370,7 +370,7 @@ fn verify_main(archive: &mut Archive<'_>, root: Node<'_, '_>, main: &[u8]) -> Ou
     verify("main.xml", line.split_whitespace().next().unwrap_or_default(), main)
 }
 
-/// The entry that `link` names, verified, no longer than one byte more than `most`.
+/// Returns the verified entry named by `link`, at most one byte longer than `most`.
 fn linked(
     archive: &mut Archive<'_>,
     link: Node<'_, '_>,
@@ -396,7 +396,7 @@ fn verify(what: &'static str, expected: &str, content: &[u8]) -> Outcome<()> {
     Err(Defect::Checksum { what, expected: expected.chars().take(32).collect(), found })
 }
 
-/// The first bytes of an entry, at most `most` + 1.
+/// Returns the first bytes of an entry, at most `most` + 1.
 pub(super) fn entry(
     archive: &mut Archive<'_>,
     name: &str,

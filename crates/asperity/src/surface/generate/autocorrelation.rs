@@ -11,33 +11,32 @@ use crate::math::fft::symmetric_transform;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// Heights of a prescribed autocorrelation, Sq² R(s), which falls to 10 % at the correlation lengths:
+/// Heights with a prescribed autocorrelation, Sq² R(s), which decreases to 10 % at the correlation lengths:
 ///
 /// s = √((x/βx)² + (y/βy)²), R = exp(−ln 10 s) or exp(−ln 10 s²).
 ///
-/// With a lay, the axes of the ellipse s = 1 are turned by its angle: so is a ground surface, with a long
-/// correlation along the lay and a short one across.
+/// A lay rotates the axes of the ellipse s = 1 by its angle. A ground surface, for example, has a long correlation along
+/// the lay and a short one across.
 ///
-/// The definition of the lengths is that of Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), whose exp(−2.3 …)
-/// the exponential is; its length to 1/e is β/ln 10, that of the Gaussian β/√ln 10. The filter's response is the
-/// square root of the wanted spectrum, the transform of R.
+/// The lengths are defined as by Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), whose exp(−2.3 …) the exponential
+/// is. The length to 1/e is β/ln 10 for the exponential, β/√ln 10 for the Gaussian. The response of the filter is the
+/// square root of the prescribed spectrum, which is the transform of R.
 ///
-/// The noise field is three correlation lengths longer than the surface, which is cut out of it, so that it
-/// is not periodic and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface; R
-/// is so for the mean over seeds, up to the mean height and Sq of each surface, which are set: of the order
-/// of βxβy/area.
+/// The noise field is three correlation lengths longer than the surface cut out of it. The surface is therefore not
+/// periodic, and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface. R is exact as the mean
+/// over seeds, apart from the effect of setting the mean height and Sq of each surface, of the order of βxβy/area.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Autocorrelation {
     /// Rms height, > 0.
     pub sq: Metre,
-    /// Lengths where the autocorrelation falls to 10 %, along and across the lay, which is along x and y without one;
-    /// read from one or two. The ellipse of these semi-axes reaches beyond the neighbouring samples, but not beyond
-    /// the length of the surface.
+    /// Lengths at which the autocorrelation has decreased to 10 %, along and across the lay (x and y without one); read
+    /// from one or two values. The ellipse with these semi-axes extends beyond the neighbouring samples, but not beyond the
+    /// length of the surface.
     pub correlation_length: [Metre; 2],
-    /// How it falls.
+    /// Shape of the decrease.
     #[serde(skip_serializing_if = "Decay::is_exponential")]
     pub decay: Decay,
-    /// Angle of the first length's direction against x, towards y, in radians.
+    /// Angle of the first length's direction from x towards y, in radians.
     #[serde(skip_serializing_if = "is_along_x")]
     pub lay: f64,
     /// Skewness and kurtosis of the heights.
@@ -45,11 +44,11 @@ pub struct Autocorrelation {
     pub heights: HeightDistribution,
 }
 
-/// How an autocorrelation falls with the distance.
+/// Shape of an autocorrelation over the distance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Decay {
-    /// R = exp(−ln 10 s): a surface with edges on the smallest scale, as of grinding (Whitehouse & Archard, Proc. R.
-    /// Soc. A 316, 97 (1970)).
+    /// R = exp(−ln 10 s): a surface with edges down to the smallest scale, such as a ground one (Whitehouse & Archard,
+    /// Proc. R. Soc. A 316, 97 (1970)).
     #[default]
     Exponential,
     /// R = exp(−ln 10 s²): a smooth surface.
@@ -69,22 +68,22 @@ fn is_along_x(lay: &f64) -> bool {
 }
 
 impl Autocorrelation {
-    /// Gaussian heights, an exponential autocorrelation, its lengths along x and y.
+    /// Creates Gaussian heights with an exponential autocorrelation and lengths along x and y.
     pub const fn new(sq: Metre, correlation_length: [Metre; 2]) -> Self {
         let heights = HeightDistribution::GAUSSIAN;
         Self { sq, correlation_length, decay: Decay::Exponential, lay: 0.0, heights }
     }
 
-    /// A topography on `grid`.
+    /// Generates a topography on `grid`.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
+    /// [`crate::Error::OutOfRange`] if a parameter is invalid on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         let shape = self.shape(grid)?;
         stationary(grid, shape, seed, self.sq, self.heights, || self.spectrum(shape, grid.pitch))
     }
 
-    /// The shape of the noise that is filtered to a topography on `grid`, if every parameter has a meaning there.
+    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
     pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         check_in(Dimension::Angle, "lay", self.lay, self.lay.is_finite(), "an angle")?;
@@ -95,7 +94,7 @@ impl Autocorrelation {
             check_in(Dimension::Length, "correlation_length", length, good, "a length above 0")?;
         }
         for axis in 0..2 {
-            // Lengths that differ from a limit by round-off alone are meant to equal it.
+            // Lengths that differ from a limit only by round-off count as equal to it.
             let good =
                 distance(neighbours[axis]) <= 1.0 + 1e-9 && reach[axis] <= grid.extent()[axis] * (1.0 + 1e-9);
             let length = self.correlation_length[axis];
@@ -110,18 +109,18 @@ impl Autocorrelation {
         Ok(shape_with_margin(grid, reach.map(|length| 3.0 * length)))
     }
 
-    /// Spectrum of the autocorrelation, of variance 1, on a period of `shape` samples, as [`symmetric_transform`] has
-    /// it.
+    /// Returns the spectrum of the autocorrelation, with variance 1, on a period of `shape` samples, in the layout of
+    /// [`symmetric_transform`].
     ///
-    /// Where the period is short, its ends meet in a kink and give the spectrum slightly negative values: 0
-    /// here.
+    /// On a short period the ends meet in a kink, which gives the spectrum slightly negative values; they are set to 0.
     fn spectrum(&self, shape @ [nx, ny]: [usize; 2], pitch: [Metre; 2]) -> Field {
         let covariance = self.covariance(shape, pitch);
         let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| covariance(i, j));
         symmetric_transform(&half, shape).mapv_into(|value| value.max(0.0))
     }
 
-    /// The autocorrelation, of variance 1, of samples `[i, j]` apart on a period of `shape`, i no more than half of it.
+    /// Returns the autocorrelation, with variance 1, of samples `[i, j]` apart on a period of `shape`, i at most half of
+    /// it.
     pub(super) fn covariance(&self, [_, ny]: [usize; 2], pitch: [Metre; 2]) -> impl Fn(usize, usize) -> f64 {
         let (distance, decay) = (self.distance(), self.decay);
         move |i, j| {
@@ -136,7 +135,7 @@ impl Autocorrelation {
         }
     }
 
-    /// s of a step along x and y.
+    /// Returns s for a step along x and y.
     fn distance(&self) -> impl Fn([Metre; 2]) -> f64 {
         let [along, across] = self.correlation_length;
         let (sin, cos) = self.lay.sin_cos();
@@ -146,7 +145,7 @@ impl Autocorrelation {
         }
     }
 
-    /// How far the ellipse s = 1 extends along x and y.
+    /// Extent of the ellipse s = 1 along x and y.
     pub(super) fn reach(&self) -> [Metre; 2] {
         let [along, across] = self.correlation_length;
         let (sin, cos) = self.lay.sin_cos();
@@ -186,7 +185,7 @@ mod tests {
 
     #[test]
     fn the_spectrum_holds_the_variance_asked_for() {
-        // Its negative values, left out, are few even where the surface is no longer than the correlation.
+        // The omitted negative values are few even if the surface is no longer than the correlation.
         for (shape, limit) in [([256, 256], 2e-4), ([64, 64], 0.02)] {
             let method = Autocorrelation::new(1.0, [16.0; 2]);
             let half = method.spectrum(shape, [1.0; 2]);

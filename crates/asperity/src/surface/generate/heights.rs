@@ -1,4 +1,4 @@
-//! The distribution of heights, and the Gaussian process that a translation takes to it.
+//! Distribution of heights, and the Gaussian process translated to it.
 
 use serde::Serialize;
 
@@ -7,24 +7,24 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::math::fft::symmetric_transform;
 
-/// Skewness and kurtosis of the heights, those of the Gaussian distribution by default.
+/// Skewness and kurtosis of the heights; those of the Gaussian distribution by default.
 ///
-/// Heights are z = f(g), g a Gaussian process, f the curve of Johnson's system with these moments: a translation
-/// process (Grigoriu, *Applied Non-Gaussian Processes*, 1995), and free of the length of the filter. Translation of
-/// the noise before the filter, as Hu & Tonder have it, needs noise of kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴ instead,
-/// 1070 for Sku = 4.5 and a cut-off of 32 samples, which no sample of it shows; and with it only
-/// Sku > 3 + 1.3 Ssk² can be reached.
+/// Heights are z = f(g), with a Gaussian process g and the curve f of Johnson's system with these moments: a translation
+/// process (Grigoriu, *Applied Non-Gaussian Processes*, 1995). It does not depend on the length of the filter. The
+/// alternative of Hu & Tonder translates the noise before the filter. It needs noise of kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴,
+/// which is 1070 for Sku = 4.5 and a cut-off of 32 samples, and no sample of it has that. It is also limited to Sku > 3 +
+/// 1.3 Ssk².
 ///
-/// The translation changes the autocorrelation. That of g is chosen such that it becomes the one that is asked for,
-/// as far as there is such a process: spectra with a sharp edge are only nearly reached, see
-/// [`crate::surface::LowPass`]. The moments are those of the mean over seeds; a surface differs from them by
-/// its statistical error, some √(6/n) and √(24/n) for n independent spots, more for heavy tails.
+/// The translation changes the autocorrelation. That of g is chosen so that the result has the prescribed one, as far as
+/// such a process exists. Spectra with a sharp edge are only approximated, see [`crate::surface::LowPass`]. The moments are
+/// those of the mean over seeds. A single surface deviates by its statistical error, about √(6/n) and √(24/n) for n
+/// independent spots, more for heavy tails.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HeightDistribution {
     /// Skewness Ssk, −6 to 6.
     #[serde(skip_serializing_if = "is_symmetric")]
     pub ssk: f64,
-    /// Kurtosis Sku, 1.1 (Ssk² + 1) to 50. No distribution has less than Ssk² + 1.
+    /// Kurtosis Sku, 1.1 (Ssk² + 1) to 50. Every distribution has at least Ssk² + 1.
     #[serde(skip_serializing_if = "is_mesokurtic")]
     pub sku: f64,
 }
@@ -33,7 +33,7 @@ impl HeightDistribution {
     /// Ssk = 0, Sku = 3.
     pub const GAUSSIAN: Self = Self { ssk: 0.0, sku: 3.0 };
 
-    /// What makes such heights of Gaussian ones; nothing where they are Gaussian.
+    /// Returns the translation from Gaussian heights; `None` for Gaussian ones.
     pub(super) fn translation(self) -> Result<Option<Translation>> {
         if self == Self::GAUSSIAN { Ok(None) } else { Translation::new(self).map(Some) }
     }
@@ -53,18 +53,18 @@ fn is_mesokurtic(sku: &f64) -> bool {
     *sku == HeightDistribution::GAUSSIAN.sku
 }
 
-/// A curve with the autocorrelation that the Gaussian process under it needs.
+/// A curve, with the autocorrelation of its underlying Gaussian process.
 pub(super) struct Translation {
     curve: Johnson,
-    /// The smallest autocorrelation of the heights that is reached.
+    /// The smallest possible autocorrelation of the heights.
     least: f64,
-    /// Autocorrelation of the Gaussian process at evenly spaced ones of the heights, from the least to 1.
+    /// Autocorrelation of the Gaussian process at evenly spaced ones of the heights, from the smallest to 1.
     table: Vec<f64>,
 }
 
 impl Translation {
     fn new(heights: HeightDistribution) -> Result<Self> {
-        /// Intervals of the table of correlations.
+        /// Number of intervals in the table of correlations.
         const INTERVALS: usize = 4096;
         let curve = Johnson::new(heights.ssk, heights.sku)?;
         let shares = curve.shares();
@@ -73,7 +73,7 @@ impl Translation {
             let terms = shares.iter().enumerate().rev();
             terms.fold(0.0, |sum, (n, share)| sum * rho + (n + 1) as f64 * share)
         };
-        // Below this two heights are hardly less correlated if the Gaussian numbers are.
+        // Below this, two heights are nearly uncorrelated even for correlated Gaussian numbers.
         let downwards = (0..100).map(|n| -0.01 * f64::from(n));
         let end = downwards.take_while(|rho| slope(*rho) > 0.1).last().unwrap_or(0.0);
         let least = series(end);
@@ -88,15 +88,15 @@ impl Translation {
         Ok(Self { curve, least, table: table.collect() })
     }
 
-    /// A height of variance 1 from a Gaussian number.
+    /// Returns a height of variance 1 from a Gaussian number.
     pub(super) fn height(&self, g: f64) -> f64 {
         self.curve.height(g)
     }
 
-    /// Spectrum of the Gaussian process, of variance 1, for heights of this `spectrum`, each `[l, k]` of a period of
-    /// `shape` samples as [`symmetric_transform`] has it.
+    /// Returns the spectrum of the Gaussian process, with variance 1, for heights with this `spectrum`. Each is `[l, k]` on
+    /// a period of `shape` samples in the layout of [`symmetric_transform`].
     ///
-    /// Where no process has the autocorrelation needed, its spectrum has negative values: 0 here.
+    /// If no process has the required autocorrelation, its spectrum has negative values, which are set to 0.
     pub(super) fn underlying(&self, spectrum: Field, shape @ [nx, ny]: [usize; 2]) -> Field {
         let mut autocorrelation = symmetric_transform(&spectrum, [ny, nx]);
         drop(spectrum);
@@ -110,7 +110,7 @@ impl Translation {
         spectrum
     }
 
-    /// Autocorrelation of the Gaussian process where that of the heights is `r`.
+    /// Returns the autocorrelation of the Gaussian process for `r` of the heights.
     fn gaussian(&self, r: f64) -> f64 {
         let last = self.table.len() - 1;
         let place = ((r - self.least) / (1.0 - self.least)).clamp(0.0, 1.0) * last as f64;

@@ -2,17 +2,17 @@
 
 use crate::error::{Result, check};
 
-/// A curve z = f(g): of a Gaussian number g of mean 0 and variance 1, z has mean 0, variance 1 and the skewness
-/// and kurtosis asked for.
+/// A curve z = f(g): for a Gaussian number g with mean 0 and variance 1, z has mean 0, variance 1 and the prescribed
+/// skewness and kurtosis.
 ///
-/// Johnson, Biometrika 36, 149 (1949): above the line of the log-normal curves S_L in the plane of skewness and
-/// kurtosis the unbounded ones S_U, below it the bounded ones S_B,
+/// Johnson, Biometrika 36, 149 (1949). In the plane of skewness and kurtosis, the unbounded curves S_U lie above the line
+/// of the log-normal curves S_L, and the bounded ones S_B below it,
 ///
-/// z ∝ sinh(x g + c),   z ∝ 1/(1 + exp(c − x g)),   each S_L as c → ∞,
+/// z ∝ sinh(x g + c),   z ∝ 1/(1 + exp(c − x g)),   both S_L as c → ∞,
 ///
-/// for a skewness ≥ 0; a negative one turns both signs. As Hill, Hill & Holder, Appl. Stat. 25, 180 (1976), do, x and
-/// c follow from the moments; here for both curves alike, from moments by quadrature: c for the skewness at each
-/// x, x for the kurtosis.
+/// for a skewness ≥ 0; a negative one changes both signs. x and c follow from the moments, as in Hill, Hill & Holder, Appl.
+/// Stat. 25, 180 (1976). Here both curves use moments by quadrature: c is solved for the skewness at each x, and x for the
+/// kurtosis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Johnson {
     sign: f64,
@@ -28,9 +28,9 @@ enum Curve {
 }
 
 impl Johnson {
-    /// The curve of skewness `ssk` and kurtosis `sku`, 1.1 (Ssk² + 1) ≤ Sku ≤ 50.
+    /// Finds the curve with the skewness `ssk` and kurtosis `sku`, 1.1 (Ssk² + 1) ≤ Sku ≤ 50.
     ///
-    /// No distribution has a kurtosis below Ssk² + 1; one that has it has two values only.
+    /// Every distribution has a kurtosis of at least Ssk² + 1, with equality for two values only.
     pub(super) fn new(ssk: f64, sku: f64) -> Result<Self> {
         check("ssk", ssk, ssk.abs() <= 6.0, "a skewness from −6 to 6")?;
         let reachable = (1.1 * (ssk * ssk + 1.0)..=50.0).contains(&sku);
@@ -43,12 +43,13 @@ impl Johnson {
             false => Curve::Bounded { x, c },
         };
         let at = |x: f64| {
-            // Beyond this c a curve is the log-normal one to 10⁻⁸ wherever heights occur.
+            // Beyond this c a curve equals the log-normal one to 10⁻⁸ at all practical heights.
             let log_normal = 20.0 + 5.0 * x;
             let c = root([0.0, log_normal], 1e-11, |c| average.moments(|g| of(x, c).height(g))[2] - skewness);
             of(x, c)
         };
-        // Along the curves of one skewness the kurtosis leaves the line with x; ln Sku and ln(Sku − Ssk² − 1) run straighter.
+        // Along the curves of constant skewness the kurtosis departs from the line with x; ln Sku and ln(Sku − Ssk² − 1)
+        // are closer to linear.
         let excess = |x: f64| {
             let curve = at(x);
             let kurtosis = average.moments(|g| curve.height(g))[3];
@@ -66,14 +67,15 @@ impl Johnson {
         self.sign * (self.curve.height(self.sign * g) - self.mean) / self.deviation
     }
 
-    /// Shares of the variance, c₁, c₂, …, in f's expansion in Hermite polynomials: the autocorrelation r of f(g)
-    /// follows from that of g, ρ, as r = Σ cₖ ρᵏ (Mehler). They add up to 1, the last with the rest of the series.
+    /// Returns the contributions c₁, c₂, … to the variance in the expansion of f in Hermite polynomials. The
+    /// autocorrelation r of f(g) follows from that of g, ρ, as r = Σ cₖ ρᵏ (Mehler). Their sum is 1; the last one includes
+    /// the rest of the series.
     pub(super) fn shares(&self) -> [f64; TERMS] {
         let average = Average::new();
         let mut coefficients = [0.0; TERMS];
         for &[g, weight] in &average.nodes {
             let value = weight * self.height(g);
-            // Hermite polynomials of variance 1: √(n+1) h₊ = g h − √n h₋.
+            // Hermite polynomials with variance 1: √(n+1) h₊ = g h − √n h₋.
             let (mut before, mut polynomial) = (1.0, g);
             for (n, coefficient) in coefficients.iter_mut().enumerate() {
                 *coefficient += value * polynomial;
@@ -87,13 +89,13 @@ impl Johnson {
     }
 }
 
-/// Terms of the expansion that are kept.
+/// Number of terms in the expansion.
 const TERMS: usize = 48;
 
 impl Curve {
     fn height(self, g: f64) -> f64 {
         match self {
-            // Divided by exp(c), which would only take digits.
+            // Divided by exp(c), which would only cost digits.
             Self::Unbounded { x, c } => {
                 let power = (x * g).exp();
                 power - (-2.0 * c).exp() / power
@@ -103,7 +105,7 @@ impl Curve {
     }
 }
 
-/// ω of the log-normal curve of this skewness ≥ 0: (ω − 1)(ω + 2)² = Ssk², in which Sku = ω⁴ + 2ω³ + 3ω² − 3.
+/// Returns ω of the log-normal curve with this skewness ≥ 0: (ω − 1)(ω + 2)² = Ssk², for which Sku = ω⁴ + 2ω³ + 3ω² − 3.
 fn log_normal(skewness: f64) -> f64 {
     root([1.0, 6.0], 1e-12, |omega| (omega - 1.0) * (omega + 2.0).powi(2) - skewness * skewness)
 }
@@ -115,11 +117,12 @@ struct Average {
 }
 
 impl Average {
-    /// The trapezoidal rule, which converges faster than any power for what is smooth on the scale of the step.
+    /// Creates the trapezoidal rule, which converges faster than any power for functions that are smooth on the scale of
+    /// the step.
     fn new() -> Self {
         /// Step of the rule, in standard deviations.
         const STEP: f64 = 1.0 / 16.0;
-        // Fourth powers of exp(x g), x ≤ 1.3, have their weight near g = 4 x.
+        // Fourth powers of exp(x g), x ≤ 1.3, have most of their weight near g = 4 x.
         const REACH: i32 = (14.0 / STEP) as i32;
         let scale = STEP / std::f64::consts::TAU.sqrt();
         let node = |n: i32| {
@@ -129,7 +132,7 @@ impl Average {
         Self { nodes: (-REACH..=REACH).map(node).collect() }
     }
 
-    /// Mean, standard deviation, skewness and kurtosis of f(g).
+    /// Returns the mean, standard deviation, skewness and kurtosis of f(g).
     fn moments(&self, f: impl Fn(f64) -> f64) -> [f64; 4] {
         let mean: f64 = self.nodes.iter().map(|&[g, weight]| weight * f(g)).sum();
         let mut central = [0.0; 3];
@@ -145,11 +148,11 @@ impl Average {
     }
 }
 
-/// The place where `f`, monotone, is 0 between `a` < `b`, to `epsilon`; where it has one sign, the end at which it is
-/// nearer to 0.
+/// Finds the zero of a monotone `f` between `a` < `b`, to `epsilon`. Without a change of sign, returns the end where it is
+/// closer to 0.
 ///
-/// Interpolates, truncates and projects: faster than linear, and one trial more than bisection at the worst.
-/// Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 5 (2021), with κ₁ = 0.2/(b − a), κ₂ = 1, n₀ = 1.
+/// The method interpolates, truncates and projects. It converges faster than linearly, with at most one evaluation more
+/// than bisection. Oliveira & Takahashi, ACM Trans. Math. Softw. 47, 5 (2021), with κ₁ = 0.2/(b − a), κ₂ = 1, n₀ = 1.
 fn root([mut a, mut b]: [f64; 2], epsilon: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     if at_a * at_b >= 0.0 {
@@ -201,7 +204,7 @@ mod tests {
 
     #[test]
     fn a_curve_has_the_moments_asked_for() {
-        // Judged by a rule of a third of the step and a longer reach.
+        // Compared with a rule with a third of the step and a longer reach.
         let fine = (-4800..=4800).map(|n| f64::from(n) / 300.0);
         for [ssk, sku] in SHAPES {
             let curve = Johnson::new(ssk, sku).unwrap();

@@ -1,4 +1,4 @@
-//! White noise through a low-pass filter.
+//! White noise with a low-pass filter.
 
 use std::ops::Range;
 
@@ -13,26 +13,25 @@ use crate::math::fft::angular_frequency;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// White noise without the waves shorter than a cut-off: a flat spectrum inside, nothing outside.
+/// White noise without the waves shorter than a cut-off: a constant spectrum inside the band, zero outside.
 ///
 /// The circular filter of Hu & Tonder, Int. J. Mach. Tools Manuf. 32, 83 (1992), in samples:
 ///
 /// h(k, l) = ωc J₁(ωc ρ)/2πρ, h(0, 0) = ωc²/4π, ρ = √(k² + l²), ωc = 2πΔx/λc
 ///
-/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It falls only as ρ^(−3/2): cut at n wavelengths it loses
-/// the part 1/π²n of the variance and lets short waves through. So the whole filter is applied here, by its
-/// response, to a noise field four wavelengths longer than the surface; the surface is then cut out of it and
-/// is not periodic (the correlation of its opposite edges, 2 J₁(8π)/8π, is below 0.013).
+/// Its response is 1 for √(ωx² + ωy²) < ωc, else 0. It decreases only as ρ^(−3/2): truncated at n wavelengths it loses the
+/// fraction 1/π²n of the variance and passes short waves. Here the whole filter is applied, by its response, to a noise
+/// field four wavelengths longer than the surface. The surface is then cut out of it and is not periodic: the correlation
+/// of its opposite edges, 2 J₁(8π)/8π, is below 0.013.
 ///
-/// Other heights than Gaussian ones have shorter waves than the cut-off too, since no curve takes a process with a
-/// sharp edge of the spectrum to another. Measured, the share of the variance beyond the edge, and by how much it
-/// makes the slopes steeper: Ssk = −0.5, Sku = 3.5: 0.6 %, 1 %; −1, 4.5: 2 %, 3 %; −2, 8: 9 %, 14 %; 0, 2.2: 0.7 %,
-/// 1.5 %.
+/// Non-Gaussian heights also contain waves shorter than the cut-off, because no curve preserves a sharp edge of the
+/// spectrum. The measured fraction of the variance beyond the edge, and the increase of the slopes, are 0.6 % and 1 % for
+/// Ssk = −0.5, Sku = 3.5. They are 2 %, 3 % for −1, 4.5, and 9 %, 14 % for −2, 8, and 0.7 %, 1.5 % for 0, 2.2.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LowPass {
     /// Rms height, > 0, exact for every surface.
     pub sq: Metre,
-    /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two.
+    /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two values.
     pub cutoff: [Metre; 2],
     /// Shape of the pass band.
     #[serde(skip_serializing_if = "Band::is_elliptic")]
@@ -42,7 +41,7 @@ pub struct LowPass {
     pub heights: HeightDistribution,
 }
 
-/// The waves, λ = (2π/ωx, 2π/ωy), that a filter lets pass.
+/// Pass band of the waves, λ = (2π/ωx, 2π/ωy).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Band {
     /// (λx ωx)² + (λy ωy)² < 4π²: a circle for two equal cut-offs. The autocorrelation is 2 J₁(s)/s,
@@ -62,27 +61,27 @@ impl Band {
 }
 
 impl LowPass {
-    /// Gaussian heights of an elliptic band; of a circular one, if both cut-offs are equal.
+    /// Creates Gaussian heights with an elliptic band, which is circular if both cut-offs are equal.
     pub const fn new(sq: Metre, cutoff: [Metre; 2]) -> Self {
         Self { sq, cutoff, band: Band::Elliptic, heights: HeightDistribution::GAUSSIAN }
     }
 
-    /// A topography on `grid`.
+    /// Generates a topography on `grid`.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if a parameter has no meaning on this grid.
+    /// [`crate::Error::OutOfRange`] if a parameter is invalid on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         let shape = self.shape(grid)?;
         let spectrum = || self.spectrum(shape, grid.pitch, 0..shape[1] / 2 + 1);
         stationary(grid, shape, seed, self.sq, self.heights, spectrum)
     }
 
-    /// The shape of the noise that is filtered to a topography on `grid`, if every parameter has a meaning there.
+    /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
     pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         for axis in 0..2 {
             let length = self.cutoff[axis];
-            // Lengths that differ from a limit by round-off alone are meant to equal it.
+            // Lengths that differ from a limit only by round-off count as equal to it.
             let good = length >= 2.0 * grid.pitch[axis] * (1.0 - 1e-9)
                 && length <= grid.extent()[axis] * (1.0 + 1e-9);
             check_in(
@@ -96,10 +95,11 @@ impl LowPass {
         Ok(shape_with_margin(grid, self.cutoff.map(|length| 4.0 * length)))
     }
 
-    /// Coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at `[k + reach, l + reach]`; without a unit.
+    /// Returns the coefficients h(k, l) of the filter, −`reach` ≤ k, l ≤ `reach`, at `[k + reach, l + reach]`,
+    /// dimensionless.
     ///
-    /// They are those of the band as it is, without the margins of a finite grid: they show the filter, and are not what
-    /// [`Self::generate`] applies, which is their response. The scale of the heights is [`Self::sq`], not theirs.
+    /// They belong to the exact band, without the margins of a finite grid. They illustrate the filter; [`Self::generate`]
+    /// applies its response instead. The scale of the heights is [`Self::sq`], independent of them.
     pub fn coefficients(&self, pitch: [Metre; 2], reach: [usize; 2]) -> Field {
         use std::f64::consts::{PI, TAU};
         let edge: [f64; 2] = std::array::from_fn(|axis| TAU * pitch[axis] / self.cutoff[axis]);
@@ -115,7 +115,7 @@ impl LowPass {
         })
     }
 
-    /// Spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its response squared.
+    /// Returns the spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its squared response.
     pub(super) fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2], l: Range<usize>) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
             let part = |bin| {
@@ -123,7 +123,7 @@ impl LowPass {
                 let part = frequency * self.cutoff[axis] / std::f64::consts::TAU;
                 match self.band {
                     Band::Elliptic => part * part,
-                    // How much of the bin is inside, as the edge may lie between two.
+                    // Fraction of the bin inside the band, because the edge may lie between two bins.
                     Band::Rectangular => {
                         let bins = shape[axis] as f64 * pitch[axis] / self.cutoff[axis];
                         (0.5 + (1.0 - part.abs()) * bins).clamp(0.0, 1.0)
@@ -151,8 +151,8 @@ mod tests {
 
     #[test]
     fn the_response_is_the_transform_of_the_filter_of_hu_and_tonder() {
-        // On n² samples the transform sums the filter over all periods: the lattice points in a circle in
-        // place of its area, right to n^(−1/2) of the height at the origin.
+        // On n² samples the transform sums the filter over all periods: the lattice points in a circle instead of its area,
+        // accurate to n^(−1/2) of the height at the origin.
         let n = 512;
         for band in [Band::Elliptic, Band::Rectangular] {
             let filter = LowPass { band, ..LowPass::new(1.0, [16.0, 12.0]) };
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn the_autocorrelation_is_the_bessel_function_of_the_cut_off() {
-        // Over seeds, each surface of some N = area/(wavelength²/π) independent spots.
+        // Over seeds, with about N = area/(wavelength²/π) independent spots on each surface.
         let grid = Grid::new([256, 512], [1.0, 0.5]).unwrap();
         let cutoff = [16.0, 8.0];
         for lag in [[4usize, 0], [10, 0], [0, 10], [16, 8], [20, 0]] {

@@ -1,4 +1,4 @@
-//! Random topographies of prescribed statistics, reproducible from a seed.
+//! Random topographies with prescribed statistics, reproducible from a seed.
 
 mod autocorrelation;
 mod heights;
@@ -22,24 +22,24 @@ use crate::grid::Grid;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// A method with its parameters; a case file names it by `generate = "low-pass"` and so on.
+/// A method with its parameters; a case file selects it by `generate = "low-pass"` and so on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "generate", rename_all = "kebab-case")]
 pub enum Generator {
-    /// White noise without its short waves; not periodic.
+    /// White noise without short waves; not periodic.
     LowPass(LowPass),
-    /// Prescribed autocorrelation, also of a ground lay; not periodic.
+    /// Prescribed autocorrelation, with or without a lay; not periodic.
     Autocorrelation(Autocorrelation),
     /// Power-law spectrum; periodic.
     SelfAffine(SelfAffine),
 }
 
 impl Generator {
-    /// A topography on `grid`, its mean height 0, the same for the same `seed` on every machine (up to the
-    /// round-off of the Fourier transform).
+    /// Generates a topography on `grid` with the mean height 0. It is the same for the same `seed` on every machine, up to
+    /// the round-off of the Fourier transform.
     ///
     /// # Errors
-    /// [`crate::Error::OutOfRange`] if a parameter has no meaning, or none on this grid.
+    /// [`crate::Error::OutOfRange`] if a parameter is invalid, in general or on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         match self {
             Self::LowPass(method) => method.generate(grid, seed),
@@ -48,7 +48,7 @@ impl Generator {
         }
     }
 
-    /// Cells of the transforms that making a topography on `grid` takes: with margins where its heights are not periodic.
+    /// Number of cells of the transforms for a topography on `grid`, with margins if its heights are not periodic.
     #[cfg(feature = "study")]
     pub(crate) fn cells(&self, grid: &Grid) -> f64 {
         let margin = match self {
@@ -57,7 +57,7 @@ impl Generator {
             Self::SelfAffine(_) => [0.0; 2],
         };
         let along = |axis: usize| {
-            // A length beyond the surface is refused before anything is made.
+            // A length beyond the surface is rejected before anything is generated.
             let [all, margin] = [grid.shape[axis] as f64, margin[axis] / grid.pitch[axis]];
             all + margin.min(4.0 * all)
         };
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_seed_always_gives_the_same_heights_and_another_seed_others() {
-        // Our own values, frozen: whoever changes them breaks the reproducibility of users' cases.
+        // Our own frozen values: a change breaks the reproducibility of users' cases.
         let frozen = [
             [-8.016637787053289e-8, -3.7990750787169114e-9, -7.5365344888137e-8],
             [-1.5730841531794905e-7, -1.221280411051481e-7, 3.7842618046314174e-8],

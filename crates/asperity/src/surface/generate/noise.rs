@@ -11,26 +11,26 @@ use crate::math::{RealFft2, good_size};
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// Independent Gaussian numbers of mean 0 and variance 1: the stream of ChaCha8 for `seed`.
+/// Independent Gaussian numbers with mean 0 and variance 1: the ChaCha8 stream for `seed`.
 pub(super) fn white_noise(seed: u64) -> impl Iterator<Item = f64> {
     StandardNormal.sample_iter(ChaCha8Rng::seed_from_u64(seed))
 }
 
-/// A shape of fast transforms that is longer than the grid by `margin` or more.
+/// Returns a shape for fast transforms that is longer than the grid by at least `margin`.
 ///
-/// A filter applied to noise of this shape by the Fourier transform gives a periodic surface; of it, the part
-/// on the grid is not periodic, and its opposite edges are as far from each other as `margin`.
+/// Filtering noise of this shape by the Fourier transform gives a periodic surface. The part of it on the grid is not
+/// periodic, and its opposite edges are at least `margin` apart.
 pub(super) fn shape_with_margin(grid: &Grid, margin: [Metre; 2]) -> [usize; 2] {
     std::array::from_fn(|axis| {
         good_size(grid.shape[axis] + (margin[axis] / grid.pitch[axis]).ceil() as usize)
     })
 }
 
-/// White noise of `shape`, filtered to a spectrum, translated to a distribution of `heights`, cut to the grid, its
-/// mean removed, and scaled to the rms height `sq`.
+/// Generates white noise of `shape`, filters it to a spectrum, translates it to a distribution of `heights`, cuts it to the
+/// grid, removes its mean, and scales it to the rms height `sq`.
 ///
-/// `spectrum`, ≥ 0 and of any variance, is that of the heights: indexed `[l, k]` by the periods along y,
-/// l = 0 … ny/2, and along x, k counted upwards through the negative ones as the transform counts them.
+/// `spectrum`, ≥ 0 with any variance, is that of the heights. It is indexed `[l, k]` by the periods along y, l = 0 … ny/2,
+/// and along x, k in the order of the transform, with negative ones last.
 pub(super) fn stationary(
     grid: &Grid,
     shape: [usize; 2],
@@ -60,7 +60,7 @@ pub(super) fn stationary(
     Topography::new(*grid, heights)
 }
 
-/// Refuses a grid on which heights cannot differ.
+/// Returns an error for a grid of a single cell, whose heights cannot differ.
 pub(super) fn check_cells(grid: &Grid) -> Result<()> {
     check("shape", grid.cells() as f64, grid.cells() > 1, "at least two cells, for heights to differ")
 }
@@ -69,7 +69,7 @@ pub(super) fn check_cells(grid: &Grid) -> Result<()> {
 pub(super) mod tests {
     use super::*;
 
-    /// Mean product of the heights `[i, j]` samples apart.
+    /// Returns the mean product of heights `[i, j]` samples apart.
     pub(crate) fn covariance(z: &Field, [i, j]: [usize; 2]) -> f64 {
         let pairs = [z.nrows() - i, z.ncols() - j];
         let products = Field::from_shape_fn(pairs, |(k, l)| z[[k, l]] * z[[k + i, l + j]]);
@@ -81,7 +81,7 @@ pub(super) mod tests {
         let noise = Field::from_shape_vec([512, 512], white_noise(1).take(512 * 512).collect()).unwrap();
         let n = noise.len() as f64;
         let moment = |p: i32| noise.iter().map(|z| z.powi(p)).sum::<f64>() / n;
-        // Standard errors of the sample moments of a Gaussian: √(1, 2, 15, 96)/√n.
+        // Standard errors of the sample moments of Gaussian numbers: √(1, 2, 15, 96)/√n.
         for (p, expected, variance) in [(1, 0.0, 1.0), (2, 1.0, 2.0), (3, 0.0, 15.0), (4, 3.0, 96.0)] {
             let error = (moment(p) - expected).abs() / (variance / n).sqrt();
             assert!(error < 4.0, "moment {p} is off by {error:.1} standard errors");

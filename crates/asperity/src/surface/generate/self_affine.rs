@@ -18,23 +18,23 @@ use crate::math::parallel;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
-/// Periodic heights whose spectrum is |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant
-/// for longer waves and nothing for shorter ones; the phases are random, the magnitudes are not.
+/// Periodic heights with the spectrum |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant for longer waves
+/// and zero for shorter ones. The phases are random, the magnitudes are not.
 ///
-/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as the Contact
-/// Mechanics Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
+/// Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017); the same form as in the Contact Mechanics
+/// Challenge, Müser et al., Tribol. Lett. 65, 118 (2017).
 ///
-/// A wave has the same phase on every grid of the same extent: with `shortest` given, a finer grid shows the
-/// same surface in more detail, as a study of convergence needs it.
+/// A wave has the same phase on every grid of the same extent. With `shortest` given, a finer grid shows the same surface
+/// in more detail, as convergence studies require.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 ≤ H ≤ 1; the fractal dimension is 3 − H.
     pub hurst: f64,
-    /// Wavelength above which the spectrum is flat, ≥ `shortest`; none: the law holds up to the longest wave.
+    /// Wavelength above which the spectrum is constant, ≥ `shortest`; `None` to extend the law to the longest wave.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rolloff: Option<Metre>,
-    /// Shortest wavelength, ≥ 2 pitches; none: two of the larger pitch. Waves of exactly two pitches have no
-    /// phase on the grid and are left out.
+    /// Shortest wavelength, ≥ 2 pitches; `None` for two of the larger pitch. Waves of exactly two pitches have no phase on
+    /// the grid and are omitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shortest: Option<Metre>,
     /// Rms height or rms slope.
@@ -42,22 +42,22 @@ pub struct SelfAffine {
     pub amplitude: Amplitude,
 }
 
-/// What fixes the amplitude of a self-affine surface; both are exact for every surface.
+/// Quantity that determines the amplitude of a self-affine surface. Both are exact for every surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Amplitude {
     /// Rms height, > 0.
     Sq(Metre),
-    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves that the surface is: √(Σ q² |ẑ|²). The finite differences
-    /// of [`crate::surface::HybridParameters::sdq`] find less where waves shorter than about four pitches occur.
+    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves: √(Σ q² |ẑ|²). The finite differences of
+    /// [`crate::surface::HybridParameters::sdq`] give less if there are waves shorter than about four pitches.
     Sdq(f64),
 }
 
 impl SelfAffine {
-    /// A topography on `grid`.
+    /// Generates a topography on `grid`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if a parameter has no meaning on this grid.
+    /// [`Error::OutOfRange`] if a parameter is invalid on this grid.
     pub fn generate(&self, grid: &Grid, seed: u64) -> Result<Topography> {
         let (mut spectrum, squares) = self.spectrum(grid, seed, 0..grid.shape[1] / 2 + 1)?;
         let scale = self.scale(grid, squares)?;
@@ -65,8 +65,8 @@ impl SelfAffine {
         Topography::new(*grid, RealFft2::new(grid.shape).inverse_transposed(spectrum, grid.shape))
     }
 
-    /// The transform `[l, k]` of a topography at the frequencies `among` along y, up to the [`Self::scale`], and what these
-    /// waves add to the squares of height and slope.
+    /// Returns the unscaled transform `[l, k]` of a topography at the frequencies `among` along y, and the contributions of
+    /// these waves to the squares of height and slope. [`Self::scale`] gives the factor.
     pub(super) fn spectrum(
         &self,
         grid: &Grid,
@@ -82,7 +82,7 @@ impl SelfAffine {
         let (along_x, along_y) = (numbers(0), numbers(1));
         let mut spectrum = Array2::<Complex64>::zeros([among.len(), nx]);
         let (mut height, mut slope) = (0.0, 0.0);
-        // The squares are added wave by wave, in one order whatever the threads.
+        // The squares are added wave by wave, in the same order for any number of threads.
         for (number, mut some) in spectrum.axis_chunks_iter_mut(Axis(0), AT_ONCE).enumerate() {
             let first = among.start + number * AT_ONCE;
             let squares = parallel::map(some.outer_iter_mut().enumerate(), |(n, mut spectrum)| {
@@ -91,7 +91,7 @@ impl SelfAffine {
                 for_each_wave(grid.shape, seed, l, |k, phase| {
                     let wave = [along_x[k], along_y[l]];
                     let q = wave[0].hypot(wave[1]);
-                    // A wave on the limit belongs to the surface, whatever the round-off.
+                    // A wave at the limit belongs to the surface, whatever the round-off.
                     if q * shortest > TAU * (1.0 + 1e-9) {
                         return;
                     }
@@ -114,7 +114,7 @@ impl SelfAffine {
         Ok((spectrum, [height, slope]))
     }
 
-    /// The scale of a transform whose waves add these squares of height and slope.
+    /// Returns the scale of a transform whose waves contribute these squares of height and slope.
     pub(super) fn scale(&self, grid: &Grid, [height, slope]: [f64; 2]) -> Result<f64> {
         if height == 0.0 {
             return Err(Error::OutOfRange {
@@ -137,7 +137,7 @@ impl SelfAffine {
         q.max(self.rolloff.map_or(0.0, |length| TAU / length)).powf(-1.0 - self.hurst)
     }
 
-    /// The shortest wavelength on `grid`, if every parameter has a meaning there.
+    /// Returns the shortest wavelength on `grid`, if every parameter is valid there.
     fn check(&self, grid: &Grid) -> Result<Metre> {
         check("hurst", self.hurst, (0.0..=1.0).contains(&self.hurst), "a Hurst exponent from 0 to 1")?;
         match self.amplitude {
@@ -161,14 +161,14 @@ impl SelfAffine {
     }
 }
 
-/// Frequencies along y that are worked on in parallel.
+/// Number of frequencies along y processed in parallel.
 const AT_ONCE: usize = 16;
 
-/// Calls `f(k, phase)` for one wave of each pair ±q that the grid resolves: l periods along y, k along x, negative ones counted
-/// down from nx.
+/// Calls `f(k, phase)` for one wave of each pair ±q resolved by the grid: l periods along y, k along x, with negative ones
+/// counted down from nx.
 ///
-/// The phases for one l are a stream of the generator by themselves, in the order k = 0, 1, −1, 2, −2, …: so
-/// they depend on the seed and the wave, not on the shape.
+/// The phases for one l are a separate stream of the generator, in the order k = 0, 1, −1, 2, −2, …. They therefore depend
+/// on the seed and the wave, not on the shape.
 fn for_each_wave([nx, ny]: [usize; 2], seed: u64, l: usize, mut f: impl FnMut(usize, f64)) {
     if 2 * l >= ny {
         return;
@@ -229,7 +229,7 @@ mod tests {
     fn the_rms_slope_is_the_one_asked_for() {
         let method = SelfAffine { amplitude: Amplitude::Sdq(0.1), ..method() };
         let exact = surface([128, 128], [1.0, 0.5], method, 2);
-        // By the spectrum, as contact theory means it …
+        // By the spectrum, as in contact theory …
         let spectrum = RealFft2::new([128, 128]).forward(exact.heights());
         let squared: f64 = spectrum
             .indexed_iter()
@@ -250,7 +250,7 @@ mod tests {
         let coarse = surface([32, 40], [1.0, 1.0], method(), 9);
         let fine = surface([96, 120], [1.0 / 3.0, 1.0 / 3.0], method(), 9);
         for ((i, j), z) in coarse.heights().indexed_iter() {
-            // The centre of a cell is that of the middle one of its three by three.
+            // The centre of a cell is that of the middle one of its 3 × 3 cells.
             assert!((z - fine.heights()[[3 * i + 1, 3 * j + 1]]).abs() < 1e-12, "[{i}, {j}]");
         }
     }
@@ -263,7 +263,7 @@ mod tests {
             skewness += parameters.ssk / seeds as f64;
             kurtosis += parameters.sku / seeds as f64;
         }
-        // Independent spots: half as many as there are waves, the effective number (Σ|ẑ|²)²/Σ|ẑ|⁴.
+        // Independent spots: half the number of waves, with the effective number (Σ|ẑ|²)²/Σ|ẑ|⁴.
         let waves = TAU / 2.0 * (128.0f64 / 16.0).powi(2);
         let spots = waves * seeds as f64;
         assert!(skewness.abs() < 4.0 * (6.0 / spots).sqrt(), "{skewness}");

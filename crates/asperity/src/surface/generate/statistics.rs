@@ -1,8 +1,8 @@
-//! What 100 seeds have in common: moments, autocorrelation and spectrum of every method, against what was asked for.
+//! Statistics over 100 seeds: moments, autocorrelation and spectrum of every method, compared with the prescribed ones.
 //!
-//! The surfaces are independent, so that the standard error of a mean over them is their scatter over √100; four of
-//! them are the tolerance. To it comes what the mean height and Sq, which are set for every surface, take from a
-//! surface of n independent spots, of the order of 1/n.
+//! The surfaces are independent, so that the standard error of a mean over them is their scatter over √100; the tolerance
+//! is four of these. Setting the mean height and Sq of every surface adds a bias of the order of 1/n for a surface of n
+//! independent spots.
 
 use std::f64::consts::{FRAC_PI_4, LN_10, TAU};
 use std::sync::LazyLock;
@@ -17,14 +17,14 @@ const SEEDS: u64 = 100;
 
 const SHAPE: [usize; 2] = [96, 80];
 
-/// A method, the autocorrelation of its heights at a distance in x and y, its moments.
+/// A method, with the prescribed autocorrelation of its heights at a distance in x and y, and its moments.
 struct Asked {
     name: &'static str,
     generator: Generator,
     autocorrelation: fn([f64; 2]) -> f64,
     ssk: f64,
     sku: f64,
-    /// How far the autocorrelation may be off.
+    /// Tolerance of the autocorrelation.
     off: f64,
 }
 
@@ -100,7 +100,7 @@ fn asked() -> [Asked; 9] {
     ]
 }
 
-/// The surfaces of every case, made once for all tests.
+/// Surfaces of every case, generated once for all tests.
 static SURFACES: LazyLock<Vec<Vec<Topography>>> = LazyLock::new(|| {
     let grid = Grid::new(SHAPE, [1.0; 2]).unwrap();
     let surface = |case: &Asked, seed| case.generator.generate(&grid, seed).unwrap();
@@ -134,7 +134,7 @@ fn skewness_and_kurtosis_are_those_asked_for_over_a_hundred_seeds() {
         // Bias of the sample moments: up to 10 or so terms of order 1, each over the number of spots.
         skewness.check(case.ssk, 3.0 / spots, || format!("{}: Ssk", case.name));
         kurtosis.check(case.sku, 12.0 / spots, || format!("{}: Sku", case.name));
-        // Gaussian heights scatter as theory has it: √(6/n), √(24/n), n for R³ and R⁴ larger than that for R².
+        // Gaussian heights scatter as in theory: √(6/n), √(24/n), with n for R³ and R⁴ larger than that for R².
         if case.sku == 3.0 {
             assert!(skewness.deviation() < 1.3 * (6.0 / spots).sqrt(), "{}", case.name);
             assert!(kurtosis.deviation() < 1.3 * (24.0 / spots).sqrt(), "{}", case.name);
@@ -167,7 +167,7 @@ fn the_autocorrelation_is_the_one_asked_for_over_a_hundred_seeds() {
 fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
     const RINGS: usize = 10;
     let [nx, ny] = SHAPE;
-    // Waves along x + y and along x − y apart: a lay at 45° shows.
+    // Waves along x + y and along x − y are separated, to show a lay at 45°.
     let bin = |k: usize, l: usize| {
         let q = [angular_frequency(k, nx, 1.0), angular_frequency(l, ny, 1.0)];
         let ring = (q[0].hypot(q[1]) / (0.5 * TAU) * RINGS as f64) as usize;
@@ -175,7 +175,7 @@ fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
         (ring < RINGS && (k, l) != (0, 0)).then_some([ring, sector])
     };
     for (case, surfaces) in cases() {
-        // The mean periodogram of a surface that ends at its edges: the transform of R times the pairs at each lag.
+        // The mean periodogram of a nonperiodic surface: the transform of R times the number of pairs at each lag.
         let pairs = |i: usize, n: usize| [(i as f64, (n - i) as f64), (i as f64 - n as f64, i as f64)];
         let half = Field::from_shape_fn([nx / 2 + 1, ny], |(i, j)| {
             let mut sum = 0.0;
@@ -220,7 +220,7 @@ fn the_spectrum_is_the_one_asked_for_over_a_hundred_seeds() {
     }
 }
 
-/// What was found over the seeds.
+/// Results over the seeds.
 #[derive(Default)]
 struct Sample {
     values: Vec<f64>,
@@ -241,7 +241,7 @@ impl Sample {
         (squares / (self.values.len() - 1) as f64).sqrt()
     }
 
-    /// Within four standard errors and a bias.
+    /// Checks a value to four standard errors plus a bias.
     fn check(&self, expected: f64, bias: f64, what: impl Fn() -> String) {
         let (mean, error) = (self.mean(), self.deviation() / (self.values.len() as f64).sqrt());
         let tolerance = 4.0 * error + bias;

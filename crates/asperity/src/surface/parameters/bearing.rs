@@ -4,29 +4,28 @@ use crate::error::{Error, Result};
 use crate::surface::Topography;
 use crate::units::Metre;
 
-/// The height above which a share of the samples lies, heights taken from the mean of the samples.
+/// Height above which a given fraction of the samples lies, relative to the mean of the samples.
 ///
-/// The `n` defined samples in descending order stand in the middle of their shares of the ratio,
-/// z(p = (i − ½)/n) = zᵢ; between them the curve is linear, and before the first and after the last of them it is
-/// level. So its integral is the sum of the samples, and a sampled ramp gives a ramp.
+/// The `n` defined samples, in descending order, lie at the centres of their fractions of the ratio, z(p = (i − ½)/n) = zᵢ.
+/// Between them the curve is linear, before the first and after the last it is constant. Its integral is therefore the sum
+/// of the samples, and a sampled ramp gives a ramp.
 ///
-/// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 name the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`,
-/// Smc(p) = [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q),
-/// Vm(p) = [`material_volume`](Self::material_volume)`(p)`, Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A
-/// ratio outside 0 … 1 counts as the nearer of the two.
+/// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 define the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`, Smc(p) =
+/// [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q), Vm(p) = [`material_volume`](Self::material_volume)`(p)`,
+/// Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A ratio outside 0 … 1 is clamped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingCurve {
-    /// Descending, from the mean.
+    /// Descending, relative to the mean.
     heights: Vec<Metre>,
-    /// Sum of the heights before each.
+    /// Sum of the heights before each one.
     sums: Vec<Metre>,
 }
 
 impl BearingCurve {
-    /// The curve of `samples`, NaN where undefined.
+    /// Creates the curve of `samples`, NaN if undefined.
     ///
     /// # Errors
-    /// [`Error::NothingDefined`] if all are.
+    /// [`Error::NothingDefined`] if all are undefined.
     pub fn new<'a>(samples: impl IntoIterator<Item = &'a f64>) -> Result<Self> {
         let mut undefined = 0;
         let defined = samples.into_iter().copied().filter(|z| {
@@ -44,13 +43,13 @@ impl BearingCurve {
         Ok(Self { heights, sums })
     }
 
-    /// Height at a material ratio from 0 (the highest sample) to 1 (the lowest), from the mean: Smc.
+    /// Returns Smc, the height at a material ratio from 0 (the highest sample) to 1 (the lowest), relative to the mean.
     pub fn height(&self, ratio: f64) -> Metre {
         let Place { index, beyond, step } = self.place(ratio);
         self.heights[index] + beyond * step
     }
 
-    /// Material ratio at a height from the mean, the largest at which the curve is as high: Smr.
+    /// Returns Smr, the material ratio at a height relative to the mean: the largest at which the curve has this height.
     pub fn ratio(&self, height: Metre) -> f64 {
         let (n, above) = (self.heights.len(), self.heights.partition_point(|&z| z >= height));
         if above == 0 || above == n {
@@ -60,25 +59,25 @@ impl BearingCurve {
         (above as f64 - 0.5 + (over - height) / (over - under)) / n as f64
     }
 
-    /// Material above the height at `ratio`, ∫₀ᵖ (z(q) − z(p)) dq, in m³/m²: Vm.
+    /// Returns Vm, the material above the height at `ratio`, ∫₀ᵖ (z(q) − z(p)) dq, in m³/m².
     pub fn material_volume(&self, ratio: f64) -> Metre {
         let ratio = ratio.clamp(0.0, 1.0);
         self.integral(ratio) - ratio * self.height(ratio)
     }
 
-    /// Void below the height at `ratio`, ∫ₚ¹ (z(p) − z(q)) dq, in m³/m²: Vv.
+    /// Returns Vv, the void below the height at `ratio`, ∫ₚ¹ (z(p) − z(q)) dq, in m³/m².
     pub fn void_volume(&self, ratio: f64) -> Metre {
         let ratio = ratio.clamp(0.0, 1.0);
         (1.0 - ratio) * self.height(ratio) - (self.integral(1.0) - self.integral(ratio))
     }
 
-    /// The curve at `n` ratios from 0 to 1, to be plotted: `[ratio, height]`.
+    /// Returns the curve at `n` ratios from 0 to 1, for plotting: `[ratio, height]`.
     pub fn sampled(&self, n: usize) -> Vec<[f64; 2]> {
         let ratio = |i: usize| i as f64 / n.saturating_sub(1).max(1) as f64;
         (0..n).map(|i| [ratio(i), self.height(ratio(i))]).collect()
     }
 
-    /// The samples' heights from their mean, descending.
+    /// Heights of the samples relative to their mean, descending.
     pub fn heights(&self) -> &[Metre] {
         &self.heights
     }
@@ -100,16 +99,16 @@ impl BearingCurve {
     }
 }
 
-/// A ratio by its distance from the sample before it, or from the first, in shares of one sample.
+/// A ratio as its distance from the sample before it, or from the first, in units of one sample.
 struct Place {
     index: usize,
     beyond: f64,
-    /// What the curve rises from the sample to the next.
+    /// Height difference from the sample to the next.
     step: f64,
 }
 
 impl Topography {
-    /// The areal material ratio curve of the defined samples.
+    /// Computes the areal material ratio curve of the defined samples.
     ///
     /// # Errors
     /// [`Error::NothingDefined`] without a defined sample.
@@ -129,11 +128,11 @@ pub(super) mod tests {
     #[test]
     fn the_curve_of_a_ramp_is_a_straight_line() {
         let curve = ramp();
-        // 500 steps of 0.01: the range of a ramp whose samples stand for their cells.
+        // 500 steps of 0.01: the range of a ramp whose samples represent their cells.
         for ratio in [0.002, 0.1, 0.3333, 0.5, 0.75, 0.998] {
             assert_abs_diff_eq!(curve.height(ratio), 5.0 * (0.5 - ratio), epsilon = 1e-12);
             assert_abs_diff_eq!(curve.ratio(5.0 * (0.5 - ratio)), ratio, epsilon = 1e-12);
-            // But for the level ends, of half a sample: (0.01/2)(1/2·500)/2.
+            // Except for the constant ends, of half a sample: (0.01/2)(1/2·500)/2.
             assert_abs_diff_eq!(curve.material_volume(ratio), 2.5 * ratio * ratio, epsilon = 2.6e-6);
             assert_abs_diff_eq!(curve.void_volume(ratio), 2.5 * (1.0 - ratio).powi(2), epsilon = 2.6e-6);
         }
@@ -142,7 +141,7 @@ pub(super) mod tests {
     #[test]
     fn the_curve_of_a_sinusoid_is_a_cosine() {
         let (n, curve) = (20_000, wave(20_000));
-        // Two flanks give each height twice, so that the curve is up to π/2n off cos πp.
+        // Two flanks contain each height twice, so that the curve deviates from cos πp by up to π/2n.
         let off = 0.51 * PI / f64::from(n);
         let volume = |p: f64| (PI * p).sin() / PI - p * (PI * p).cos();
         for p in [0.01, 0.1, 0.4, 0.5, 0.8, 0.97] {
@@ -158,12 +157,12 @@ pub(super) mod tests {
         let (n, curve) = (10_000, gaussian(10_000));
         let density = |x: f64| (-0.5 * x * x).exp() / TAU.sqrt();
         let above = |x: f64| 0.5 * libm::erfc(x * FRAC_1_SQRT_2);
-        // The tail beyond the first sample holds 1/2n of the heights, which there is within 1/x₀ of it.
+        // The tail beyond the first sample contains 1/2n of the heights, which there lie within 1/x₀ of it.
         let tail = 1.0 / f64::from(n);
         let volume = |x: f64| density(x) - above(x) * x;
         for p in [0.001, 0.025, 0.1, 0.5, 0.8, 0.99] {
             let x = quantile(1.0 - p);
-            // Linear between samples: f″Δ²/8 with f″ = x/φ², and a tenth for the next order.
+            // Linear between samples: f″Δ²/8 with f″ = x/φ², plus a tenth for the next order.
             let curved = 1.1 * 0.125 * (tail / density(x)).powi(2) * x.abs();
             assert_abs_diff_eq!(curve.height(p), x, epsilon = curved + 1e-12);
             assert_abs_diff_eq!(curve.material_volume(p), volume(x), epsilon = tail + curved);
@@ -187,11 +186,11 @@ pub(super) mod tests {
             let Ok(curve) = BearingCurve::new(&levels) else { return Ok(()) };
             let p = f64::from(u.arbitrary::<u16>()?) / f64::from(u16::MAX);
             let z = curve.height(p);
-            // On a plateau the ratio is that of its end; a rounding puts it at the begin.
+            // On a plateau the ratio is that of its end; round-off may move it to the start.
             let n = levels.len() as f64;
             assert!(curve.ratio(z - 1e-9) >= p - 1e-12);
             assert!(curve.ratio(z + 1e-9) <= p + 1e-9 || p < 0.5 / n);
-            // With the mean at 0, what lies above a height and what lies below differ by the height.
+            // With the mean at 0, the void below a height exceeds the material above it by the height.
             assert!((curve.void_volume(p) - curve.material_volume(p) - z).abs() < 1e-12);
             assert!(curve.material_volume(p) >= -1e-13 && curve.void_volume(p) >= -1e-13);
             Ok(())
@@ -221,7 +220,7 @@ pub(super) mod tests {
         curve(n, quantile)
     }
 
-    /// Rare high peaks, and the same turned over.
+    /// Rare high peaks, and the same surface turned over.
     pub(in crate::surface::parameters) fn peaks_and_pits() -> [BearingCurve; 2] {
         [1.0, -1.0].map(|sign| curve(997, |p| sign * p.powi(3)))
     }
@@ -231,7 +230,7 @@ pub(super) mod tests {
         BearingCurve::new(&heights).unwrap()
     }
 
-    /// The height below which the part `p` of Gaussian heights lies, by Newton's method.
+    /// Height below which the fraction `p` of Gaussian heights lies, by Newton's method.
     pub(in crate::surface::parameters) fn quantile(p: f64) -> f64 {
         let step = |x: f64| (0.5 * libm::erfc(-x * FRAC_1_SQRT_2) - p) * TAU.sqrt() * (0.5 * x * x).exp();
         (0..40).fold(0.0, |x, _| x - step(x).clamp(-0.5, 0.5))

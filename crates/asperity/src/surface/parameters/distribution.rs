@@ -5,32 +5,31 @@ use crate::choice::choice;
 use crate::error::{Error, Result, check};
 use crate::surface::Topography;
 
-/// A density over classes of one width, by counting.
+/// A density over classes of equal width, by counting.
 ///
-/// The classes span the values from the lowest to the highest, which belongs to the last class. Their integral
-/// is 1.
+/// The classes span the values from the lowest to the highest, which belongs to the last class. The integral is 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
     /// The lowest value, at which the first class begins.
     pub lowest: f64,
     /// Width of a class.
     pub width: f64,
-    /// Share of the values in each class over its width: per metre of heights, a number of slopes.
+    /// Fraction of the values in each class over its width: per metre for heights, a pure number for slopes.
     pub density: Vec<f64>,
 }
 
-/// How many classes a [`Distribution`] has.
+/// Number of classes of a [`Distribution`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Classes {
     /// A given number of classes.
     Number(usize),
-    /// Classes as wide as 2 IQR n^(−1/3), with IQR the range of the middle half of the n values: Freedman and Diaconis,
-    /// Z. Wahrscheinlichkeitstheorie verw. Gebiete 57, 453 (1981). At most n; one where IQR = 0.
+    /// Classes as wide as 2 IQR n^(−1/3), with IQR the interquartile range of the n values: Freedman and Diaconis, Z.
+    /// Wahrscheinlichkeitstheorie verw. Gebiete 57, 453 (1981). At most n classes; one if IQR = 0.
     #[default]
     FreedmanDiaconis,
 }
 
-/// Which slope of a surface.
+/// A slope of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slope {
     /// ∂z/∂x.
@@ -44,11 +43,11 @@ pub enum Slope {
 choice!(Slope: "x" => X, "y" => Y, "magnitude" => Magnitude);
 
 impl Distribution {
-    /// The distribution of finite `values`.
+    /// Creates the distribution of finite `values`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no classes; [`Error::Unsupported`] without two values that differ, of which there
-    /// is no density.
+    /// [`Error::OutOfRange`] for no classes; [`Error::Unsupported`] without two different values, for which no density
+    /// exists.
     pub fn of(mut values: Vec<f64>, classes: Classes) -> Result<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let (lowest, range) = match values[..] {
@@ -69,28 +68,28 @@ impl Distribution {
         Ok(Self { lowest, width, density })
     }
 
-    /// Middle of class `index`.
+    /// Centre of class `index`.
     pub fn centre(&self, index: usize) -> f64 {
         self.lowest + (index as f64 + 0.5) * self.width
     }
 }
 
 impl Topography {
-    /// Distribution of the defined heights, from their mean.
+    /// Computes the distribution of the defined heights, relative to their mean.
     ///
     /// # Errors
-    /// As [`Distribution::of`].
+    /// The errors of [`Distribution::of`].
     pub fn height_distribution(&self, classes: Classes) -> Result<Distribution> {
         let mean = self.mean();
         let defined = self.heights().iter().filter(|z| !z.is_nan());
         Distribution::of(defined.map(|z| z - mean).collect(), classes)
     }
 
-    /// Distribution of a slope over the samples that have one, as the derivative of
-    /// [`HybridParameters`](super::HybridParameters) finds it.
+    /// Computes the distribution of a slope over the samples that have one, with the derivative of
+    /// [`HybridParameters`](super::HybridParameters).
     ///
     /// # Errors
-    /// As [`Distribution::of`].
+    /// The errors of [`Distribution::of`].
     pub fn slope_distribution(&self, slope: Slope, classes: Classes) -> Result<Distribution> {
         let pick = |[x, y]: [f64; 2]| match slope {
             Slope::X => x,
@@ -128,7 +127,8 @@ mod tests {
             let half = 0.5 * found.width;
             let ratio = |z: f64| z.clamp(-1.0, 1.0).asin() / PI;
             let exact = (ratio(found.centre(i) + half) - ratio(found.centre(i) - half)) / found.width;
-            // A class of share p has p n samples but for one at each of its ends, on each of both flanks.
+            // A class with the fraction p has p n samples, with an error of one at each of its ends, on each of both
+            // flanks.
             assert!((density - exact).abs() <= 4.0 / 4000.0 / found.width, "{i}: {density} {exact}");
         }
     }
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_rule_of_freedman_and_diaconis_widens_with_the_cube_root() {
-        // Uniform values: the middle half is ½, the width n^(−1/3).
+        // Uniform values: the interquartile range is ½, the width n^(−1/3).
         let classes = |n: usize| {
             let values = (0..n).map(|i| i as f64 / (n - 1) as f64).collect();
             Distribution::of(values, Classes::FreedmanDiaconis).unwrap().density.len()
@@ -175,7 +175,7 @@ mod tests {
             let found = waves.slope_distribution(slope, Classes::Number(10)).unwrap();
             [found.lowest, found.lowest + 10.0 * found.width]
         };
-        // Largest slopes 2π/4 and 3·2π/12, where the samples at half a pitch from the node come to cos(π/32).
+        // Largest slopes 2π/4 and 3·2π/12; samples half a pitch from the node reach cos(π/32) of them.
         let steepest = TAU / 4.0;
         for [low, high] in [span(Slope::X), span(Slope::Y)] {
             for slope in [-low, high] {

@@ -1,4 +1,4 @@
-//! Functional parameters: from the areal material ratio curve.
+//! Functional parameters, from the areal material ratio curve.
 
 use super::bearing::BearingCurve;
 use super::row::family;
@@ -6,14 +6,14 @@ use super::stratified::Core;
 use crate::surface::Topography;
 
 family! {
-    /// Functional parameters of ISO 25178-2:2021, 4.5, from the [`BearingCurve`] of the defined samples, at the
-    /// ratios that ISO 25178-3 takes where nothing else is said.
+    /// Functional parameters of ISO 25178-2:2021, 4.5, from the [`BearingCurve`] of the defined samples, at the default
+    /// ratios of ISO 25178-3.
     ///
-    /// NaN without a defined sample; those of the core also where there is none.
+    /// NaN without a defined sample; those of the core also without a core.
     FunctionalParameters: "functional" {
         /// Core height.
         ///
-        /// What the equivalent line falls from the ratio 0 to 1: [`BearingCurve::core`].
+        /// Drop of the equivalent line from the ratio 0 to 1: [`BearingCurve::core`].
         sk: Length as "Sk",
         /// Reduced peak height above the core.
         spk: Length as "Spk",
@@ -35,7 +35,7 @@ family! {
         smc: Length as "Smc",
         /// Peak extreme height, between the material ratios 2.5 % and 50 %.
         ///
-        /// Sdc(2.5 %, 50 %), in the edition of 2012 under this symbol.
+        /// Sdc(2.5 %, 50 %); the edition of 2012 has it under this symbol.
         sxp: Length as "Sxp",
         /// Peak material volume, above the material ratio 10 %.
         vmp: VolumePerArea as "Vmp",
@@ -57,12 +57,12 @@ const PEAKS: f64 = 0.1;
 const PITS: f64 = 0.8;
 
 impl FunctionalParameters {
-    /// The functional parameters of `topography`.
+    /// Computes the functional parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         topography.bearing_curve().map_or_else(|_| Self::undefined(), |curve| Self::of_curve(&curve))
     }
 
-    /// The functional parameters of a curve.
+    /// Computes the functional parameters of a curve.
     pub fn of_curve(curve: &BearingCurve) -> Self {
         let core = curve.core();
         let core = |pick: fn(&Core) -> f64| core.as_ref().map_or(f64::NAN, pick);
@@ -96,12 +96,12 @@ mod tests {
 
     #[test]
     fn a_slope_of_uniform_heights_has_the_volumes_of_triangles() {
-        // A ramp of height 1: above the ratio p lies p²/2, below it (1 − p)²/2.
+        // A ramp of height 1: p²/2 lies above the ratio p, (1 − p)²/2 below it.
         let grid = Grid::new([2000, 3], [5e-4, 1.0]).unwrap();
         let mut ramp = Form::Flat.on(&grid).unwrap();
         ramp.heights_mut().indexed_iter_mut().for_each(|((ix, _), z)| *z = grid.centre(0, ix));
         let parameters = FunctionalParameters::of(&ramp);
-        // Each height three times: the curve is off by a third of a step.
+        // Each height occurs three times: the curve has an error of a third of a step.
         let near = 1.0 / 2000.0;
         assert_relative_eq!(parameters.sk, 1.0, max_relative = 5.0 * near);
         assert_relative_eq!(parameters.smc, 0.4, max_relative = 2.5 * near);

@@ -1,12 +1,12 @@
-//! Height parameters: the distribution of the heights in a few numbers.
+//! Height parameters, which describe the distribution of the heights.
 
 use super::row::family;
 use crate::surface::Topography;
 
 family! {
-    /// Height parameters of ISO 25178-2:2021, 4.2, over the defined samples, heights taken from their mean.
+    /// Height parameters of ISO 25178-2:2021, 4.2, over the defined samples, with heights relative to their mean.
     ///
-    /// NaN without a defined sample; `ssk` and `sku` also of a plane.
+    /// NaN without a defined sample; `ssk` and `sku` also for a plane.
     HeightParameters: "height" {
         /// Arithmetical mean height, ⟨|z|⟩.
         sa: Length as "Sa",
@@ -26,12 +26,12 @@ family! {
 }
 
 impl HeightParameters {
-    /// The height parameters of `topography`.
+    /// Computes the height parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         Self::of_samples(topography.heights())
     }
 
-    /// The height parameters of `samples`, NaN where undefined.
+    /// Computes the height parameters of `samples`, NaN if undefined.
     pub(crate) fn of_samples<'a>(samples: impl IntoIterator<Item = &'a f64, IntoIter: Clone>) -> Self {
         let defined = samples.into_iter().filter(|z| !z.is_nan());
         let count = defined.clone().count() as f64;
@@ -54,7 +54,7 @@ impl HeightParameters {
             sku: fourth / count / sq.powi(4),
             sz: highest - lowest,
             sp: highest,
-            // Of a plane 0, and not −0.
+            // For a plane 0, not −0.
             sv: 0.0 - lowest,
         }
     }
@@ -82,7 +82,7 @@ mod tests {
         let grid = Grid::new([200, 20], [0.1, 0.1]).unwrap();
         let form = Form::Sinusoid { amplitude: 2.0, wavelength: [4.0, f64::INFINITY] };
         let parameters = HeightParameters::of(&form.on(&grid).unwrap());
-        // A sum over the n = 40 samples of a wave in place of the integral of |cos|: relative error π²/3n².
+        // The sum over the n = 40 samples of a wave replaces the integral of |cos|: relative error π²/3n².
         assert_relative_eq!(parameters.sa, 4.0 / PI, max_relative = (PI / 40.0).powi(2));
         assert_relative_eq!(parameters.sq, 2.0 / 2f64.sqrt(), max_relative = 1e-13);
         assert!(parameters.ssk.abs() < 1e-12);

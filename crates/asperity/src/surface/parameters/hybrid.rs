@@ -1,4 +1,4 @@
-//! Hybrid parameters: of heights and lengths along the surface together.
+//! Hybrid parameters, which depend on heights and lateral lengths together.
 
 use super::row::family;
 use super::slope::gradients;
@@ -7,26 +7,25 @@ use crate::surface::Topography;
 family! {
     /// Hybrid parameters of ISO 25178-2:2021, 4.4, over the samples that have a slope.
     ///
-    /// The standard defines the integrals; the derivatives are ISO 4287's for the local slope,
+    /// The standard defines the integrals; the derivatives are those of ISO 4287 for the local slope,
     ///
     /// ∂z/∂x = (z₊₃ − 9 z₊₂ + 45 z₊₁ − 45 z₋₁ + 9 z₋₂ − z₋₃)/60Δx,
     ///
-    /// right to the sixth power of Δx/wavelength and too small below about four samples per wave. NaN where no
-    /// sample has three defined neighbours on every side; there is no slope along a direction with one sample.
+    /// which are accurate to the sixth power of Δx/wavelength and too small below about four samples per wave. NaN if no
+    /// sample has three defined neighbours on every side; the slope along a direction with one sample is 0.
     HybridParameters: "hybrid" {
         /// Root mean square gradient, √⟨(∂z/∂x)² + (∂z/∂y)²⟩.
         sdq: Number as "Sdq",
         /// Developed interfacial area ratio, ⟨√(1 + (∂z/∂x)² + (∂z/∂y)²) − 1⟩.
         ///
-        /// The standard's integral; the area of triangles between the samples, which some programs take in its
-        /// place, has an error of the second power of Δx/wavelength. At most Sdq²/2, and near it where slopes are
-        /// small.
+        /// The integral of the standard. The area of triangles between the samples, which some programs use instead, has an
+        /// error of the second power of Δx/wavelength. At most Sdq²/2, and close to it if slopes are small.
         sdr: Share as "Sdr",
     }
 }
 
 impl HybridParameters {
-    /// The hybrid parameters of `topography`.
+    /// Computes the hybrid parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         let (mut squares, mut excess, mut count) = (0.0, 0.0, 0usize);
         for [x, y] in gradients(topography) {
@@ -39,7 +38,7 @@ impl HybridParameters {
     }
 }
 
-/// √(1 + s) − 1 without cancellation: what a surface of squared slope `square` has more than its projection.
+/// √(1 + s) − 1 without cancellation: the relative excess area over the projection for the squared slope `square`.
 pub(crate) fn area_excess(square: f64) -> f64 {
     square / ((1.0 + square).sqrt() + 1.0)
 }
@@ -56,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_sinusoid_has_the_slope_and_the_area_of_its_derivative() {
-        // The samples with three neighbours on every side hold one whole wave; relative error (2π/40)⁶/140.
+        // The samples with three neighbours on every side span one whole wave; relative error (2π/40)⁶/140.
         let whole = Grid::new([46, 20], [0.1, 0.1]).unwrap();
         let wave = Form::Sinusoid { amplitude: 2.0, wavelength: [4.0, f64::INFINITY] };
         let parameters = HybridParameters::of(&wave.on(&whole).unwrap());
@@ -64,7 +63,8 @@ mod tests {
         assert_relative_eq!(parameters.sdq, steepest / 2f64.sqrt(), max_relative = 1.1e-7);
         let excess = |t: f64| (1.0 + (steepest * (TAU * t).sin()).powi(2)).sqrt() - 1.0;
         let exact = crate::math::integrate(0.0, 1.0, excess);
-        // The trapezoidal rule of a periodic function: nothing against the error of the slope, at most doubled.
+        // The trapezoidal rule for a periodic function: negligible compared with the error of the slope, which is at most
+        // doubled.
         assert_relative_eq!(parameters.sdr, exact, max_relative = 2.2e-7);
     }
 

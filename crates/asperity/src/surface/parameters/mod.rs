@@ -1,4 +1,4 @@
-//! Roughness in numbers, after ISO 25178-2:2021: a file per family of parameters.
+//! Roughness parameters of ISO 25178-2:2021, with one file per family of parameters.
 
 mod bearing;
 mod distribution;
@@ -30,8 +30,8 @@ use crate::units::Metre;
 
 /// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
 ///
-/// No filter is applied: level and filter first. Values are SI, shares parts of one. A parameter without meaning
-/// is NaN, `null` in JSON: its family says where.
+/// No filter is applied: level and filter first. Values are SI, ratios are fractions of one. An undefined parameter is NaN,
+/// `null` in JSON; its family describes when this occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Parameters {
@@ -53,12 +53,12 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The parameters of `topography`.
+    /// Computes the parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         Self::until(topography, NEVER).expect("nobody stops it, and the pruning is a share")
     }
 
-    /// As [`of`](Self::of), unless `stop` says so first.
+    /// [`of`](Self::of) that can be stopped by `stop`.
     ///
     /// # Errors
     /// [`crate::Error::Interrupted`].
@@ -76,7 +76,7 @@ impl Parameters {
         })
     }
 
-    /// All parameters with symbols, units and meanings: what tables are printed from.
+    /// Returns all parameters with symbols, units and meanings, for tables.
     pub fn rows(&self) -> Vec<Parameter> {
         let Self { height, spatial, hybrid, functional, feature } = self;
         [height.rows(), spatial.rows(), hybrid.rows(), functional.rows(), feature.rows()].concat()
@@ -84,8 +84,8 @@ impl Parameters {
 }
 
 impl Topography {
-    /// The ISO 25178 parameters of the defined samples. Who wants one family asks it alone, as
-    /// [`HeightParameters::of`]: the heights are sorted for others.
+    /// Computes the ISO 25178 parameters of the defined samples. For one family alone use for example
+    /// [`HeightParameters::of`]: other families sort the heights.
     pub fn parameters(&self) -> Parameters {
         Parameters::of(self)
     }

@@ -1,28 +1,28 @@
-//! A parameter as a row of a table, and the families that the rows come from.
+//! A parameter as a row of a table, and the macro for families of such rows.
 
 use crate::units::{Dimension, Multiple, format_number};
 
-/// A roughness parameter with what is needed to print it.
+/// A roughness parameter with the data needed to print it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
     /// Symbol of the standard, `Sq`.
     pub symbol: &'static str,
-    /// Value, SI; NaN where it has no meaning.
+    /// Value, SI; NaN if undefined.
     pub value: f64,
-    /// What it is measured in.
+    /// Unit of the value.
     pub unit: Unit,
-    /// The family of the standard that it belongs to, `height`.
+    /// Family of the standard, `height`.
     pub family: &'static str,
-    /// What it is, in a few words.
+    /// Meaning, in a few words.
     pub meaning: &'static str,
 }
 
-/// What a roughness parameter is measured in.
+/// Unit of a roughness parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// A pure number.
     Number,
-    /// A part of one; printed in per cent.
+    /// A fraction of one, printed in per cent.
     Share,
     /// Metres.
     Length,
@@ -41,7 +41,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// The SI unit of the values.
+    /// SI unit of the values.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Number | Self::Share => "1",
@@ -55,8 +55,8 @@ impl Unit {
         }
     }
 
-    /// The multiple in which `values`, SI, are written side by side: the one that suits the smaller of them,
-    /// a third of the way up.
+    /// Returns the multiple for a column of `values`, SI: the one that suits the value a third of the way up from the
+    /// smallest.
     pub fn multiple(self, values: impl IntoIterator<Item = f64>) -> Multiple {
         let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite() && *size > 0.0);
         let mut sizes: Vec<f64> = sizes.collect();
@@ -80,7 +80,7 @@ impl Unit {
         }
     }
 
-    /// Writes a value with four digits and a unit that suits it: `0.2 µm`, `9.31 %`; `–` for NaN.
+    /// Writes a value with four digits and a suitable unit: `0.2 µm`, `9.31 %`; `–` for NaN.
     pub fn format(self, value: f64) -> String {
         let Multiple { factor, symbol } = self.multiple([value]);
         let number = format_number(value / factor);
@@ -93,8 +93,8 @@ impl Unit {
     }
 }
 
-/// A family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a struct of public
-/// `f64`, serialised under the symbols, and its [`Parameter`] rows, whose meaning is the comment's first line.
+/// Defines a family of parameters from a list of `field: Unit as "Symbol"`, each below its doc comment: a struct of public
+/// `f64`, serialised under the symbols, and its [`Parameter`] rows, whose meaning is the first line of the comment.
 macro_rules! family {
     (
         $(#[$about:meta])*
@@ -114,7 +114,7 @@ macro_rules! family {
         }
 
         impl $name {
-            /// The parameters in their order, with symbols, units and meanings.
+            /// Returns the parameters in order, with symbols, units and meanings.
             pub fn rows(&self) -> Vec<$crate::surface::Parameter> {
                 vec![$(
                     $crate::surface::Parameter {
@@ -127,12 +127,12 @@ macro_rules! family {
                 )*]
             }
 
-            /// Parameters without meaning: all NaN.
+            /// Returns undefined parameters: all NaN.
             pub fn undefined() -> Self {
                 Self::from_each(|_| f64::NAN)
             }
 
-            /// The parameters, each from its place in the family.
+            /// Creates the parameters, each from its getter.
             pub(crate) fn from_each(value: impl Fn(fn(&Self) -> f64) -> f64) -> Self {
                 Self { $($field: value(|family| family.$field),)* }
             }

@@ -1,23 +1,23 @@
-//! Local slopes, on which the hybrid parameters and the distribution of slopes stand.
+//! Local slopes, for the hybrid parameters and the distribution of slopes.
 
 use crate::surface::Topography;
 
-/// Derivative at a sample from the six around it, of which `pair(k)` is z₊ₖ − z₋ₖ:
+/// Derivative at a sample from the six around it, with `pair(k)` = z₊ₖ − z₋ₖ:
 ///
 /// dz/dx = (pair(3) − 9 pair(2) + 45 pair(1))/60Δx,
 ///
-/// ISO 4287's local slope, right to the sixth power of Δx/wavelength and too small below about four samples per
+/// The local slope of ISO 4287, accurate to the sixth power of Δx/wavelength and too small below about four samples per
 /// wave.
 pub(crate) fn derivative(pair: impl Fn(usize) -> f64, pitch: f64) -> f64 {
     (pair(3) - 9.0 * pair(2) + 45.0 * pair(1)) / (60.0 * pitch)
 }
 
-/// Samples on either side that a [`derivative`] needs.
+/// Number of samples on either side for a [`derivative`].
 pub(crate) const REACH: usize = 3;
 
-/// ∂z/∂x and ∂z/∂y at each sample that has three defined neighbours on every side, x slowest.
+/// Iterates over ∂z/∂x and ∂z/∂y at each sample with three defined neighbours on every side, x slowest.
 ///
-/// There is no slope along a direction with one sample.
+/// The slope along a direction with one sample is 0.
 pub(crate) fn gradients(topography: &Topography) -> impl Iterator<Item = [f64; 2]> {
     let (grid, z) = (*topography.grid(), topography.heights());
     let [inner_x, inner_y] = grid.shape.map(|n| {

@@ -6,43 +6,43 @@ use super::row::family;
 use crate::surface::{Correlation, Spectrum, Topography, Window};
 use crate::units::Metre;
 
-/// Value to which the autocorrelation decays for Sal and Str: the default of ISO 25178-3.
+/// Level of the autocorrelation for Sal and Str: the default of ISO 25178-3.
 const DECAY: f64 = 0.2;
 
-/// Directions of the angular spectrum that Std is chosen from: half a degree apart.
+/// Number of directions of the angular spectrum for Std, half a degree apart.
 const DIRECTIONS: usize = 360;
 
 family! {
-    /// Spatial parameters of ISO 25178-2:2021, 4.3, heights taken from their mean.
+    /// Spatial parameters of ISO 25178-2:2021, 4.3, with heights relative to their mean.
     ///
-    /// No filter is applied: level and filter first. A parameter without meaning is NaN.
+    /// No filter is applied: level and filter first. An undefined parameter is NaN.
     SpatialParameters: "spatial" {
         /// Autocorrelation length, of the fastest decay to 0.2.
         ///
-        /// By [`Correlation`], of lags up to half the topography, around undefined samples. NaN if it does not decay so
-        /// far in any direction.
+        /// By [`Correlation`], with lags up to half the topography, and undefined samples left out. NaN if it does not
+        /// decay to this level in any direction.
         sal: Length as "Sal",
         /// Texture aspect ratio, the fastest decay over the slowest; 1 if isotropic.
         ///
-        /// NaN if there is a direction in which the autocorrelation stays above 0.2 up to half the topography: the lay
-        /// is then too long to be measured.
+        /// NaN if the autocorrelation stays above 0.2 up to half the topography in some direction: the lay is then too long
+        /// to be measured.
         str: Number as "Str",
         /// Texture direction, of the largest angular spectrum, from the x axis towards the y axis.
         ///
-        /// 0 ≤ Std < π, to half a degree, by [`Spectrum::angular`] under Hann's window. It is that of the wave vectors:
-        /// the lay is at right angles to it, so that 0 means grooves along y. Of no meaning for an isotropic surface,
-        /// whose Str is near 1. NaN where all heights are equal, and for a single line of samples.
+        /// 0 ≤ Std < π, to half a degree, by [`Spectrum::angular`] with Hann's window. It is the direction of the wave
+        /// vectors. The lay is at right angles to it, so that 0 means grooves along y. It is meaningless for an isotropic
+        /// surface, whose Str is near 1. NaN if all heights are equal, and for a single line of samples.
         std: Angle as "Std",
         /// Dominant spatial wavelength, of the largest amplitude in the Fourier transform.
         ///
-        /// By the spectrum under Hann's window, and between its wave numbers as for a single sinusoid (Grandke, IEEE
-        /// Trans. Instrum. Meas. 32, 350, 1983). NaN where all heights are equal.
+        /// By the spectrum with Hann's window, interpolated between its wave numbers as for a single sinusoid (Grandke,
+        /// IEEE Trans. Instrum. Meas. 32, 350, 1983). NaN if all heights are equal.
         ssw: Length as "Ssw",
     }
 }
 
 impl SpatialParameters {
-    /// The spatial parameters of `topography`.
+    /// Computes the spatial parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
         let [fastest, slowest] = Correlation::of(topography).decay_lengths(DECAY);
         let spectrum = Spectrum::of(topography, Window::Hann);
@@ -56,7 +56,7 @@ impl SpatialParameters {
     }
 }
 
-/// Direction of the wave vectors of the highest power, in radians.
+/// Returns the direction of the wave vectors with the highest power, in radians.
 fn direction(spectrum: &Spectrum) -> f64 {
     let angular = spectrum.angular(DIRECTIONS);
     let highest =
@@ -64,7 +64,7 @@ fn direction(spectrum: &Spectrum) -> f64 {
     highest.map_or(f64::NAN, |k| k as f64 * PI / DIRECTIONS as f64)
 }
 
-/// Wavelength of the highest density of a spectrum under Hann's window.
+/// Returns the wavelength of the highest density of a spectrum with Hann's window.
 fn dominant_wavelength(spectrum: &Spectrum) -> Metre {
     let highest = spectrum
         .density()
@@ -77,9 +77,9 @@ fn dominant_wavelength(spectrum: &Spectrum) -> Metre {
     TAU / q[0].hypot(q[1])
 }
 
-/// Distance of a sinusoid's wave number from that of the highest entry along `axis`, in steps, −½ to ½.
+/// Returns the distance of a sinusoid's wave number from that of the highest entry along `axis`, in steps, −½ to ½.
 ///
-/// Under Hann's window its amplitude at the larger neighbour is (1 + δ)/(2 − δ) of the highest.
+/// With Hann's window its amplitude at the larger neighbour is (1 + δ)/(2 − δ) of the highest.
 fn offset(spectrum: &Spectrum, highest: [usize; 2], axis: usize) -> f64 {
     let at = |step: isize| {
         let mut wave = highest.map(|index| index as isize);
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn an_exponential_surface_decays_as_it_was_made() {
-        // R = 10^(−√((x/βx)² + (y/βy)²)): Sal = βx log 5 where βx is the shorter, Str = βx/βy.
+        // R = 10^(−√((x/βx)² + (y/βy)²)): Sal = βx log 5 if βx is the shorter, Str = βx/βy.
         let (beta, shape) = ([8.0, 16.0], [512, 512]);
         let method = Autocorrelation::new(1.0, beta);
         let grid = Grid::new(shape, [1.0; 2]).unwrap();
@@ -121,7 +121,7 @@ mod tests {
             sal += parameters.sal / seeds as f64;
             aspect += parameters.str / seeds as f64;
         }
-        // R scatters by 1/√spots, and by its mean, which is set to 0; its slope at 0.2 is 0.2 ln 5 per length of decay.
+        // R scatters by 1/√spots, and by its mean, which is set to 0. Its slope at 0.2 is 0.2 ln 5 per decay length.
         let spots = 512.0 * 512.0 / (TAU * beta[0] * beta[1] / 4.605f64.powi(2));
         let error = (4.0 / (seeds as f64 * spots).sqrt() + 2.0 / spots) / (0.2 * 5f64.ln());
         assert_relative_eq!(sal, 8.0 * 5f64.log10(), max_relative = error);
@@ -138,7 +138,7 @@ mod tests {
             .filter(|(n, _)| (n.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40).is_multiple_of(5))
             .for_each(|(_, z)| *z = f64::NAN);
         let (whole, holed) = (SpatialParameters::of(&whole), SpatialParameters::of(&holed));
-        // R differs by the scatter of the pairs that are missing, √(2 · 0.36/0.64/n), over its slope.
+        // R differs by the scatter of the missing pairs, √(2 · 0.36/0.64/n), over its slope.
         let error = 4.0 * (2.0 * 0.36 / 0.64 / 65536.0f64).sqrt() / (0.2 * 5f64.ln());
         assert_relative_eq!(holed.sal, whole.sal, max_relative = error);
         assert_relative_eq!(holed.str, whole.str, max_relative = 2.0 * error);
@@ -155,7 +155,7 @@ mod tests {
             // Half a step of the directions, and half a step 2π/L of the wave number over q.
             let step = 0.5 * (TAU / 100.0 / q).to_degrees();
             assert!(distance.abs() <= 0.25 + step, "{}°, not {degrees}°", found.std.to_degrees());
-            // Grandke's formula leaves out the wave −q: (qL/2π)⁻² of a step, here and 1/14 of a wave number.
+            // Grandke's formula neglects the wave −q: (qL/2π)⁻² of a step, here and 1/14 of a wave number.
             assert_relative_eq!(found.ssw, wavelength, max_relative = (wavelength / 100.0f64).powi(2));
         }
     }
@@ -163,7 +163,8 @@ mod tests {
     #[test]
     fn grooves_longer_than_the_map_have_no_aspect_ratio() {
         let found = SpatialParameters::of(&wave([200, 150], [0.5, 1.0], [TAU / 10.0, 0.0]));
-        // R = cos(2πx/λ)/2: 0.2 of R(0) at λ arccos(0.2)/2π. Its estimate is off by the part of a wave at the ends, λ/πL.
+        // R = cos(2πx/λ)/2 reaches 0.2 of R(0) at λ arccos(0.2)/2π. The error of its estimate is the fraction of a wave at
+        // the ends, λ/πL.
         assert_relative_eq!(found.sal, 10.0 * 0.2f64.acos() / TAU, max_relative = 10.0 / (TAU / 2.0 * 100.0));
         assert!(found.str.is_nan());
         assert_eq!(found.std, 0.0);

@@ -1,20 +1,20 @@
-//! Stratified surfaces: the core of a material ratio curve, and what protrudes from it.
+//! Stratified surfaces: the core of a material ratio curve, its peaks and its pits.
 
 use super::bearing::BearingCurve;
 use crate::units::Metre;
 
-/// The core of a bearing curve, and what protrudes from it: Sk, Spk and their kin by the letters after S or R.
+/// The core of a bearing curve with its peaks and pits: Sk, Spk and related parameters, by the letters after S or R.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Core {
-    /// Height of the equivalent line at the ratio 0, from the mean.
+    /// Height of the equivalent line at the ratio 0, relative to the mean.
     pub upper: Metre,
-    /// Height of the equivalent line at the ratio 1, from the mean.
+    /// Height of the equivalent line at the ratio 1, relative to the mean.
     pub lower: Metre,
     /// Height of the core, `upper` − `lower`.
     pub k: Metre,
-    /// Reduced height of what protrudes above: of a right triangle of area `ak1` on the base `mrk1`.
+    /// Reduced height of the peaks above: of a right triangle with the area `ak1` and the base `mrk1`.
     pub pk: Metre,
-    /// Reduced depth of what lies below: of a right triangle of area `ak2` on the base 1 − `mrk2`.
+    /// Reduced depth of the pits below: of a right triangle with the area `ak2` and the base 1 − `mrk2`.
     pub vk: Metre,
     /// Height of the highest sample above the core, not reduced.
     pub pkx: Metre,
@@ -24,27 +24,26 @@ pub struct Core {
     pub mrk1: f64,
     /// Material ratio at the lower end of the core.
     pub mrk2: f64,
-    /// Material above the core, m³/m² (of a profile m²/m).
+    /// Material above the core, m³/m² (for a profile m²/m).
     pub ak1: Metre,
-    /// Void below the core, m³/m² (of a profile m²/m).
+    /// Void below the core, m³/m² (for a profile m²/m).
     pub ak2: Metre,
 }
 
-/// Share of the material ratio that the equivalent straight line is fitted to.
+/// Fraction of the material ratio to which the equivalent straight line is fitted.
 const CENTRAL_REGION: f64 = 0.4;
 
 impl BearingCurve {
-    /// The parameters of stratified surfaces, Sk and its kin.
+    /// Computes the parameters of stratified surfaces, Sk and related ones.
     ///
-    /// The 40 % of the ratio over which the secant is least steep, the first if there are several, are fitted by
-    /// a straight line, least squares of the heights. Where it meets the ratios 0 and 1 the core ends. ISO
-    /// 13565-2:1996, 4.2, as ISO 25178-2 and ISO 21920-2 take it. None below about five samples, where 40 % hold
-    /// fewer than two.
+    /// A least-squares line of the heights is fitted to the 40 % of the ratio with the flattest secant; the first if there
+    /// are several. The core ends where this line meets the ratios 0 and 1. ISO 13565-2:1996, 4.2, adopted by ISO 25178-2
+    /// and ISO 21920-2. `None` below about five samples, where 40 % contain fewer than two.
     pub fn core(&self) -> Option<Core> {
         let [upper, lower] = self.equivalent_line()?;
         let (mrk1, mrk2) = (self.ratio(upper), self.ratio(lower));
         let (ak1, ak2) = (self.material_volume(mrk1), self.void_volume(mrk2));
-        // A triangle of that area on that base; none where nothing protrudes.
+        // Height of a triangle with this area and base; 0 without peaks or pits.
         let triangle = |area: f64, base: f64| if base > 0.0 { 2.0 * area / base } else { 0.0 };
         Some(Core {
             upper,
@@ -61,11 +60,11 @@ impl BearingCurve {
         })
     }
 
-    /// Heights at the ratios 0 and 1 of the straight line through the central region.
+    /// Returns the heights at the ratios 0 and 1 of the straight line through the central region.
     fn equivalent_line(&self) -> Option<[Metre; 2]> {
         let n = self.heights().len() as f64;
         let start = self.central_region();
-        // The samples within, a rounding of the ends put aside.
+        // The samples within, with tolerance for round-off at the ends.
         let first = (start * n - 0.5 - 1e-9).ceil().max(0.0) as usize;
         let last = ((start + CENTRAL_REGION) * n - 0.5 + 1e-9).floor().clamp(0.0, n - 1.0) as usize;
         let inside = || (first..=last).map(|i| ((i as f64 + 0.5) / n, self.heights()[i]));
@@ -78,10 +77,10 @@ impl BearingCurve {
         (last > first).then_some([height - slope * ratio, height + slope * (1.0 - ratio)])
     }
 
-    /// The ratio at which the flattest 40 % of the curve begin.
+    /// Returns the ratio at which the flattest 40 % of the curve begin.
     ///
-    /// What the curve falls over 40 % is linear in their begin between the places where either end passes a
-    /// sample: one of these is the least.
+    /// The drop over 40 % is linear in their start between the places where either end passes a sample, so that one of
+    /// these places is the minimum.
     fn central_region(&self) -> f64 {
         let n = self.heights().len();
         let last = 1.0 - CENTRAL_REGION;
@@ -92,7 +91,7 @@ impl BearingCurve {
             .chain([0.0, last])
             .map(|begin| (self.height(begin) - self.height(begin + CENTRAL_REGION), begin))
             .collect();
-        // What differs by a rounding is equal.
+        // Differences within round-off count as equal.
         let rounding = 1e-12 * (self.heights()[0] - self.heights()[n - 1]);
         let least = falls.iter().fold(f64::INFINITY, |least, &(fall, _)| least.min(fall)) + rounding;
         let flattest = falls.iter().filter(|(fall, _)| *fall <= least).map(|(_, begin)| *begin);
@@ -128,10 +127,10 @@ mod tests {
         let slope = 12.0 / w.powi(3) * (0.5 * w * (PI * w).sin() / PI + ((PI * w).cos() - 1.0) / PI.powi(2));
         let upper = (PI * w).sin() / (PI * w) - 0.5 * w * slope;
         let core = wave(n).core().unwrap();
-        // Of the line, samples off by δ turn the slope by at most 3δ/w.
+        // Samples of the line with an error δ change its slope by at most 3δ/w.
         assert_abs_diff_eq!(core.k, -slope, epsilon = 3.0 / w * off);
         assert_abs_diff_eq!(core.upper, upper, epsilon = 4.0 * off);
-        // It starts above the crests, so that nothing protrudes there; below, it ends at upper + slope.
+        // It starts above the crests, so that there are no peaks; below, it ends at upper + slope.
         assert!(upper > 1.0 && core.mrk1 == 0.0 && core.pk == 0.0);
         let mrk2 = ((upper + slope).acos() / PI, volume(1.0 - (upper + slope).acos() / PI));
         assert_abs_diff_eq!(core.mrk2, mrk2.0, epsilon = 10.0 * off);
@@ -150,7 +149,7 @@ mod tests {
         let moment = integrate(-end, end, |x| (0.5 - above(x)) * x * density(x));
         let sk = 12.0 / CENTRAL_REGION.powi(3) * moment;
         let core = gaussian(n).core().unwrap();
-        // With one sample more or less: over the width w, Sk = √2π (1 + πw²/20 …), and a fifth for the next order.
+        // With one sample more or less: over the width w, Sk = √2π (1 + πw²/20 …), plus a fifth for the next order.
         assert_relative_eq!(core.k, sk, max_relative = 1.2 * PI / 10.0 * CENTRAL_REGION * tail);
         assert_abs_diff_eq!(core.mrk1, above(0.5 * sk), epsilon = tail);
         assert_abs_diff_eq!(core.pk, 2.0 * volume(0.5 * sk) / above(0.5 * sk), epsilon = 20.0 * tail);

@@ -6,35 +6,34 @@ use crate::grid::Field;
 use crate::math::parallel;
 use crate::surface::{NEVER, Stop, Topography, go_on};
 
-/// Samples around the one judged, on each side of it along x and y: 5 × 5 in all.
+/// Samples on each side of the judged one along x and y: 5 × 5 in all.
 const REACH: usize = 2;
 
-/// Distances of the samples around, one after the other: of every second one first, over 9 × 9.
+/// Strides of the neighbouring samples, in turn: first every second sample, over 9 × 9.
 const STRIDES: [usize; 2] = [2, 1];
 
-/// Distance to which the surroundings of a spike reach.
+/// Width of the surroundings of a spike.
 const SURROUNDINGS: usize = 2;
 
-/// Largest share of the samples next to a spike that may stand out with it.
+/// Largest fraction of the samples next to a spike that may stand out with it.
 const OPEN: f64 = 0.25;
 
 impl Topography {
-    /// The topography with its spikes undefined: samples, and groups of up to about 5 × 5 that touch each other, that
-    /// deviate from their
-    /// surroundings by more than `factor` standard deviations, both those of the surroundings and those of the deviations
-    /// over the whole topography; 5 to 10 is usual.
+    /// Makes the spikes of the topography undefined: samples, and groups of adjacent samples up to about 5 × 5, whose
+    /// deviation exceeds `factor` standard deviations. It must exceed them both for the surroundings and for the deviations
+    /// over the whole topography. Factors of 5 to 10 are usual.
     ///
-    /// Candidates deviate so from the median of 5 × 5 samples, first of every second one, among which a spike of 5 × 5 is no
-    /// majority, then of every one: Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc. 88, 782 (1993)), which spares a
-    /// rough part of a smooth surface. Candidates that touch and deviate alike, to the same side and neither by more than
-    /// twice the other, are judged together, by the samples around all of them, within two of any. They stay if along x or y
-    /// they are longer than the 5 samples reach, as a groove is, or if they go on: if more than a quarter of the samples next
-    /// to them stand out by half as much as they do, as at the corner of a step.
+    /// Candidates have such a deviation from the median of 5 × 5 samples. First every second sample is used, so that a
+    /// spike of 5 × 5 is not a majority, then every one. This is Hampel's identifier (Davies & Gather, J. Am. Stat. Assoc.
+    /// 88, 782 (1993)), which preserves a rough part of a smooth surface. Adjacent candidates with similar deviations, of
+    /// the same sign and within a factor of two, are judged together, using the samples around all of them, within two of
+    /// any. They stay if they are longer along x or y than the 5 samples, like a groove, or if they continue. They continue
+    /// if more than a quarter of the samples next to them stand out by half as much as they do, as at the corner of a step.
     ///
-    /// The standard deviations are robust ones, 1.4826 times the median of the absolute deviations, which spikes do not
-    /// widen. Of the whole topography it is 1.2533 times their mean where the median is 0 because more than half of the
-    /// samples do not deviate (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). Only defined samples count.
-    /// Towards a rim the neighbourhood of the median shrinks so that it stays symmetric: no plane has spikes.
+    /// The standard deviations are robust: 1.4826 times the median of the absolute deviations, on which spikes have little
+    /// effect. If the median over the whole topography is 0, because more than half of the samples do not deviate, it is
+    /// 1.2533 times their mean (Iglewicz & Hoaglin, How to Detect and Handle Outliers, 1993). Only defined samples count.
+    /// Towards a boundary the neighbourhood of the median shrinks symmetrically, so that a plane has no spikes.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the factor is above 0.
@@ -42,10 +41,10 @@ impl Topography {
         self.despike_until(factor, NEVER)
     }
 
-    /// As [`despike`](Self::despike), unless `stop` says so first.
+    /// [`despike`](Self::despike) that can be stopped by `stop`.
     ///
     /// # Errors
-    /// As [`despike`](Self::despike); [`crate::Error::Interrupted`].
+    /// The errors of [`despike`](Self::despike); [`crate::Error::Interrupted`].
     pub fn despike_until(mut self, factor: f64, stop: Stop<'_>) -> Result<Self> {
         check("despike", factor, factor > 0.0 && factor.is_finite(), "a number above 0 such as 6")?;
         for stride in STRIDES {
@@ -56,10 +55,10 @@ impl Topography {
     }
 }
 
-/// Standard deviation of Gaussian heights over the median of their absolute deviations.
+/// Ratio of the standard deviation of Gaussian heights to the median of their absolute deviations.
 const SIGMA: f64 = 1.4826;
 
-/// The spikes that stand out from medians of samples so far from each other.
+/// Returns the spikes relative to medians of samples with this stride.
 fn spikes(z: &Field, factor: f64, stride: usize, stop: Stop<'_>) -> Result<Vec<(usize, usize)>> {
     let deviations = deviations(z, stride, stop)?;
     let mut sizes: Vec<f64> = deviations.iter().filter(|d| !d.is_nan()).map(|d| d.abs()).collect();
@@ -99,7 +98,7 @@ fn spikes(z: &Field, factor: f64, stride: usize, stop: Stop<'_>) -> Result<Vec<(
     Ok(spikes)
 }
 
-/// The samples of a group that stand out from what is around all of them.
+/// Returns the samples of a group that stand out from the surroundings of the whole group.
 fn outliers(z: &Field, group: Vec<(usize, usize)>, factor: f64, sigma: f64) -> Vec<(usize, usize)> {
     let mut around: Vec<_> = group
         .iter()
@@ -129,8 +128,8 @@ fn outliers(z: &Field, group: Vec<(usize, usize)>, factor: f64, sigma: f64) -> V
     if open as f64 > OPEN * next.len() as f64 { Vec::new() } else { found }
 }
 
-/// The groups of candidates, those whose deviation is not 0, that touch each other, also at a corner, and deviate alike: to
-/// the same side, neither by more than twice the other. Each group is sorted.
+/// Groups the candidates, which have a nonzero deviation. Adjacent candidates, also at a corner, belong together if their
+/// deviations have the same sign and agree within a factor of two. Each group is sorted.
 fn groups(mut candidates: Field) -> Vec<Vec<(usize, usize)>> {
     let starts: Vec<_> = candidates.indexed_iter().filter(|(_, d)| **d != 0.0).map(|(at, _)| at).collect();
     let mut groups = Vec::new();
@@ -155,7 +154,7 @@ fn groups(mut candidates: Field) -> Vec<Vec<(usize, usize)>> {
     groups
 }
 
-/// Samples along x or y, whichever are more, of the part that a group lies in.
+/// Extent of a group in samples along x or y, whichever is larger.
 fn extent(group: &[(usize, usize)]) -> usize {
     let along = |place: fn(&(usize, usize)) -> usize| {
         let places = group.iter().map(place);
@@ -164,7 +163,7 @@ fn extent(group: &[(usize, usize)]) -> usize {
     along(|at| at.0).max(along(|at| at.1))
 }
 
-/// Height of each sample above the median of those around, which become fewer towards a rim so that they stay symmetric.
+/// Height of each sample above the median of its neighbourhood, which shrinks symmetrically towards a boundary.
 fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
     let mut deviations = z.clone();
     let rows = deviations.as_slice_mut().expect("fields are in standard layout").chunks_mut(z.ncols());
@@ -186,14 +185,14 @@ fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
     done.map(|()| deviations)
 }
 
-/// The median, and the median of the absolute deviations from it, which take the values' place.
+/// Returns the median, and the median of the absolute deviations from it, which overwrite the values.
 fn median_deviation(values: &mut [f64]) -> (f64, f64) {
     let middle = median(values);
     values.iter_mut().for_each(|value| *value = (*value - middle).abs());
     (middle, median(values))
 }
 
-/// The samples up to `reach` to each side of one, of those there are.
+/// Returns the existing samples up to `reach` on each side of one.
 fn within(
     (nx, ny): (usize, usize),
     (x, y): (usize, usize),
@@ -204,7 +203,7 @@ fn within(
     xs.flat_map(move |x| ys.clone().map(move |y| (x, y)))
 }
 
-/// The defined heights at these places.
+/// Returns the defined heights at these places.
 fn defined(
     z: &Field,
     xs: impl Iterator<Item = usize>,
@@ -234,7 +233,7 @@ mod tests {
         Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, j)| height(i, j))).unwrap()
     }
 
-    /// Tilted, with waves of amplitude 1.
+    /// A tilted plane with waves of amplitude 1.
     fn rough(i: usize, j: usize) -> f64 {
         0.4 * i as f64 - 0.1 * j as f64 + (0.9 * i as f64).sin() * (1.1 * j as f64).cos()
     }
@@ -258,7 +257,7 @@ mod tests {
     fn a_spike_on_a_flat_is_found_although_the_median_deviation_is_nought() {
         let flat = with_heights(|i, j| if (i, j) == (7, 9) { 1e-9 } else { 0.0 });
         assert_eq!(undefined(&flat.despike(10.0).unwrap()), [(7, 9)]);
-        // Steps of the last digit are no spikes.
+        // Steps of the last digit are not spikes.
         let quantised = with_heights(|i, j| if (7 * i + 3 * j * j) % 10 == 0 { 1.0 } else { 0.0 });
         assert_eq!(quantised.despike(10.0).unwrap().undefined(), 0);
     }
@@ -284,7 +283,7 @@ mod tests {
         assert_eq!(streaked.despike(8.0).unwrap().undefined(), 0);
     }
 
-    /// Normal deviates of standard deviation 1.
+    /// Normal deviates with standard deviation 1.
     fn noise() -> impl FnMut(usize, usize) -> f64 {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         move |_, _| StandardNormal.sample(&mut random)
@@ -292,7 +291,7 @@ mod tests {
 
     type Height = fn(usize, usize) -> f64;
 
-    /// Heights over noise of standard deviation 1 that are no spikes, with their names.
+    /// Surfaces without spikes on noise of standard deviation 1, with their names.
     fn surfaces() -> [(&'static str, Height); 5] {
         let grooves = |i: usize, _: usize| match i {
             20 | 40..42 | 60..63 | 80..84 => -40.0,
@@ -340,7 +339,7 @@ mod tests {
                 };
                 let right = found.iter().filter(is_spike).count();
                 assert_eq!(found.len(), right, "{name}, {size} × {size}");
-                // Beside a groove or a step a spike of more than three samples is no longer among a majority of others.
+                // Beside a groove or a step, a spike of more than three samples is no longer in a minority.
                 let is_beside = size > 3 && ["grooved", "stepped"].contains(&name);
                 let least = if is_beside { 0.8 } else { 1.0 } * (36 * size * size) as f64;
                 assert!(right as f64 >= least, "{name}, {size} × {size}: {right} found");
@@ -348,7 +347,7 @@ mod tests {
         }
     }
 
-    /// Places of spikes of 1 × 1 to 5 × 5 samples, apart from each other and from the rim.
+    /// Places of spikes of 1 × 1 to 5 × 5 samples, separated from each other and from the boundary.
     fn places(random: &mut ChaCha8Rng) -> Vec<[std::ops::Range<usize>; 2]> {
         let mut places: Vec<[std::ops::Range<usize>; 2]> = Vec::new();
         for _ in 0..60 {
@@ -393,7 +392,7 @@ mod tests {
                     n_others += usize::from(!is_spike && is_found);
                 }
             }
-            // Pieces of a groove between a spike and a missing sample look like spikes themselves.
+            // Pieces of a groove between a spike and a missing sample look like spikes.
             assert!(n_found as f64 > 0.96 * n_spikes as f64, "{name}: {n_found} of {n_spikes}");
             assert!((n_others as f64) < 0.02 * n_spikes as f64, "{name}: {n_others} beside {n_spikes}");
         }
@@ -433,7 +432,7 @@ mod tests {
 
     #[test]
     fn a_pit_beside_missing_samples_is_found() {
-        // A pit with a hole at each end, as an instrument leaves where the light does not return.
+        // A pit with a hole at each end, as instruments leave it where no light returns.
         let (deep, gone) = (
             [(7, 2), (7, 3), (7, 4), (8, 2), (8, 3), (8, 4), (9, 3)],
             [(6, 3), (6, 4), (9, 1), (9, 2), (10, 2)],

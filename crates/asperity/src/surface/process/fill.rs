@@ -1,4 +1,4 @@
-//! Heights for undefined samples.
+//! Filling of undefined samples.
 
 use super::harmonic::harmonic;
 use crate::choice::choice;
@@ -6,27 +6,27 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::surface::Topography;
 
-/// The source of the heights of undefined samples. Defined samples are never changed.
+/// Method to fill undefined samples. Defined samples are never changed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Fill {
-    /// No source: undefined samples are an error.
+    /// No filling: undefined samples are an error.
     #[default]
     None,
-    /// The nearest defined sample, distance measured in metres.
+    /// The height of the nearest defined sample, with the distance in metres.
     Nearest,
-    /// Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary: a membrane spanned
-    /// over the hole, without peaks of its own. The rim of the grid is free (no slope across it).
+    /// Laplace's equation ∂²z/∂x² + ∂²z/∂y² = 0 with the defined samples as boundary values: a membrane over the hole,
+    /// without extrema inside. The boundary of the grid is free (zero slope across it).
     Harmonic,
 }
 
 choice!(Fill: "none" => None, "nearest" => Nearest, "harmonic" => Harmonic);
 
 impl Topography {
-    /// The topography with every sample defined.
+    /// Fills every undefined sample.
     ///
     /// # Errors
-    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`]
-    /// if there is nothing to fill from.
+    /// [`Error::UndefinedSamples`] if there are any and `fill` is [`Fill::None`]; [`Error::NothingDefined`] if no sample is
+    /// defined.
     pub fn fill(mut self, fill: Fill) -> Result<Self> {
         let undefined = self.undefined();
         let samples = self.grid().cells();
@@ -46,8 +46,8 @@ impl Topography {
     }
 }
 
-/// Gives each undefined sample the height of the nearest defined one: the exact Euclidean distance transform,
-/// first along y, then along x by the lower envelope of the parabolas of distance squared.
+/// Gives each undefined sample the height of the nearest defined one. It uses the exact Euclidean distance transform, first
+/// along y, then along x by the lower envelope of the parabolas of squared distance.
 ///
 /// Felzenszwalb & Huttenlocher, Theory of Computing 8, 415 (2012). Linear in the number of samples.
 fn nearest(grid: &Grid, z: &mut Field) {
@@ -57,10 +57,9 @@ fn nearest(grid: &Grid, z: &mut Field) {
     let source = z.clone();
     let ratio = (grid.pitch[1] / grid.pitch[0]).powi(2);
     for iy in 0..ny {
-        // Distance squared, in units of the pitch along x, from (ix, iy) to the nearest defined sample of
-        // line ix.
+        // Squared distance, in units of the pitch along x, from (ix, iy) to the nearest defined sample of line ix.
         let offset = |ix: usize| in_line[ix][iy].map(|jy| jy.abs_diff(iy).pow(2) as f64 * ratio);
-        // The envelope: its lines and the x from which on each is the nearest.
+        // The envelope: its lines, and the x from which each is the nearest.
         let mut envelope: Vec<(usize, f64)> = Vec::new();
         for ix in 0..nx {
             let Some(new) = offset(ix) else { continue };
@@ -90,7 +89,7 @@ fn nearest(grid: &Grid, z: &mut Field) {
     }
 }
 
-/// For each sample of a line, the index of the nearest defined one, the earlier of two.
+/// Returns for each sample of a line the index of the nearest defined one; the earlier of two.
 fn nearest_in_line(defined: &[bool]) -> Vec<Option<usize>> {
     let mut before = None;
     let mut nearest: Vec<Option<usize>> = defined

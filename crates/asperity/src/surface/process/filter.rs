@@ -1,4 +1,4 @@
-//! Filters that part the short waves of a topography from the long ones.
+//! Filters that separate short and long waves of a topography.
 
 use std::f64::consts::{LN_2, PI};
 
@@ -13,28 +13,28 @@ use crate::units::{Dimension, Metre};
 use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::{Fft, Precision};
 
-/// How the smooth surface of a filter is found.
+/// Method to compute the smooth surface of a filter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// The weighted mean of the heights around, by the areal Gaussian of ISO 16610-61:
-    /// w = exp(−π r²/(αλ)²)/(αλ)², α = √(ln 2/π), of which a wave of length Λ keeps exp(−π(αλ/Λ)²), half at Λ = λ.
+    /// The mean of the neighbouring heights weighted by the areal Gaussian of ISO 16610-61: w = exp(−π r²/(αλ)²)/(αλ)², α =
+    /// √(ln 2/π). A wave of length Λ keeps the fraction exp(−π(αλ/Λ)²), which is half at Λ = λ.
     #[default]
     Gaussian,
-    /// The weighted mean of the heights around with weights that also fall with the distance r from the smooth
-    /// surface, as in ISO 16610-71, so
-    /// that deep scratches and high peaks do not bend it: (1 − (r/c)²)² for |r| < c (Tukey's biweight) and 0 beyond,
-    /// c = 4.4478 times the median of |r|, until c has settled to 10⁻³. The regression is of order 0, where the
-    /// standard's is of order 2.
+    /// The weighted mean of the neighbouring heights, with weights that also decrease with the distance r from the smooth
+    /// surface, as in ISO 16610-71. Deep scratches and high peaks then do not distort it. The additional weight is Tukey's
+    /// biweight, (1 − (r/c)²)² for |r| < c and 0 beyond. c is 4.4478 times the median of |r|, iterated until c converges to
+    /// 10⁻³. The regression is of order 0, that of the standard of order 2.
     Robust,
 }
 
 choice!(Filter: "gaussian" => Gaussian, "robust" => Robust);
 
 impl Topography {
-    /// The topography without the waves shorter than the nesting index: the S-filter of ISO 25178-2, a low-pass.
+    /// Removes the waves shorter than the nesting index: the S-filter of ISO 25178-2, a low-pass filter.
     ///
-    /// The mean is taken over the defined samples within the grid, so that a constant height stays and a hole draws
-    /// nothing; along a slope the smooth surface is bent over half a cut-off from a rim. Undefined samples stay so.
+    /// The mean is over the defined samples of the grid, so that a constant height is preserved and holes have no
+    /// influence. On a slope the smooth surface is distorted within half a cut-off of the boundary. Undefined samples stay
+    /// undefined.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the nesting index is below two pitches.
@@ -44,12 +44,11 @@ impl Topography {
         Ok(self)
     }
 
-    /// The topography without the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass. What
-    /// the S-filter of
-    /// the same index keeps is subtracted.
+    /// Removes the waves longer than the nesting index: the L-filter of ISO 25178-2, a high-pass filter. It subtracts the
+    /// result of the S-filter with the same index.
     ///
     /// # Errors
-    /// As those of [`Topography::s_filter`].
+    /// The errors of [`Topography::s_filter`].
     pub fn l_filter(mut self, nesting_index: Metre, filter: Filter) -> Result<Self> {
         let smooth = smooth(&self, "l_filter", nesting_index, filter)?;
         *self.heights_mut() -= &smooth;
@@ -57,7 +56,7 @@ impl Topography {
     }
 }
 
-/// The smooth surface at the defined samples.
+/// Computes the smooth surface at the defined samples.
 fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Filter) -> Result<Field> {
     let grid = topography.grid();
     let good = length.is_finite() && grid.pitch.iter().all(|pitch| length >= 2.0 * pitch);
@@ -66,7 +65,7 @@ fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Fi
     if topography.defined() == 0 {
         return Ok(z);
     }
-    // Heights of order 1 keep their digits beside the weights in one complex number.
+    // Heights of order 1 keep their digits next to the weights in one complex number.
     let mean = topography.mean();
     let largest = z.iter().filter(|z| !z.is_nan()).fold(0.0, |m, z| (z - mean).abs().max(m));
     let scale = if largest > 0.0 { largest } else { 1.0 };
@@ -80,11 +79,11 @@ fn smooth(topography: &Topography, name: &'static str, length: Metre, filter: Fi
 }
 
 fn robust(gaussian: &Gaussian, z: &Field) -> Field {
-    /// The constant of the standard: 3 times the ratio of standard deviation and median of |r| of Gaussian heights.
+    /// Constant of the standard: 3 times the ratio of standard deviation to median of |r| for Gaussian heights.
     const BIWEIGHT: f64 = 4.4478;
-    /// Relative change of the scale at which the iteration has converged.
+    /// Relative change of the scale at convergence.
     const TOLERANCE: f64 = 1e-3;
-    /// Iterations after which the mean is taken as it is.
+    /// Number of iterations after which the mean is accepted.
     const MAX_ITERATIONS: usize = 50;
     let mut smooth = gaussian.mean(z, |_| 1.0, None);
     let mut last = f64::INFINITY;
@@ -92,7 +91,7 @@ fn robust(gaussian: &Gaussian, z: &Field) -> Field {
         let mut distances: Vec<f64> =
             z.iter().zip(&smooth).filter(|(z, _)| !z.is_nan()).map(|(z, s)| (z - s).abs()).collect();
         let c = BIWEIGHT * median(&mut distances);
-        // Most of the surface lies on the smooth one already: nothing is left to part.
+        // Most of the surface already lies on the smooth one, so that there is nothing to separate.
         if (last - c).abs() <= TOLERANCE * c || c <= f64::EPSILON {
             break;
         }
@@ -103,7 +102,7 @@ fn robust(gaussian: &Gaussian, z: &Field) -> Field {
     smooth
 }
 
-/// Weighted means of the samples around each, the weight a Gaussian of the distance along x times one along y.
+/// Weighted means of the samples around each one; the weight is a Gaussian of the distance along x times one along y.
 struct Gaussian {
     axes: [Line; 2],
 }
@@ -113,10 +112,10 @@ impl Gaussian {
         Self { axes: [0, 1].map(|axis| Line::new(grid.shape[axis], length / grid.pitch[axis])) }
     }
 
-    /// Σ w δ z/Σ w δ over the defined samples, δ the `weight` of the sample; where the weights around vanish, what was
-    /// `before`.
+    /// Computes Σ w δ z/Σ w δ over the defined samples, with δ the `weight` of the sample; `before` where all weights
+    /// vanish.
     fn mean(&self, z: &Field, weight: impl Fn([usize; 2]) -> f64, before: Option<&Field>) -> Field {
-        /// Share of the full weight below which the rest is round-off.
+        /// Fraction of the full weight below which only round-off remains.
         const VANISHED: f64 = 1e-9;
         let mut sums = ndarray::Array2::from_shape_fn(z.dim(), |(ix, iy)| {
             if z[[ix, iy]].is_nan() {
@@ -136,7 +135,7 @@ impl Gaussian {
     }
 }
 
-/// Convolution of a line with a Gaussian, the samples beyond its ends being 0.
+/// Convolution of a line with a Gaussian, with zeros beyond its ends.
 struct Line {
     forward: std::sync::Arc<dyn Fft<f64>>,
     inverse: std::sync::Arc<dyn Fft<f64>>,
@@ -145,9 +144,9 @@ struct Line {
 }
 
 impl Line {
-    /// A line filter for `n` samples and a cut-off of `length` pitches.
+    /// Creates a line filter for `n` samples and a cut-off of `length` pitches.
     fn new(n: usize, length: f64) -> Self {
-        /// Reach of the Gaussian in cut-offs, where it has fallen to 10⁻¹⁶ of its sum.
+        /// Reach of the Gaussian in cut-offs, where it has decreased to 10⁻¹⁶ of its sum.
         const REACH: f64 = 1.65;
         let reach = ((REACH * length).ceil() as usize).min(n - 1);
         let size = if n == 1 { 1 } else { good_size(n + reach) };
@@ -210,7 +209,7 @@ mod tests {
             let inverse2 = (1.0 / long_x).powi(2) + (1.0 / long_y).powi(2);
             let share = (-LN_2 * (cutoff * 1e6).powi(2) * inverse2).exp();
             let rough = surface.clone().l_filter(cutoff, Filter::Gaussian).unwrap();
-            // Beyond the reach of the rim; the sum over samples is off by the alias, exp(−ln 2 (λ/p − λ/Λ)²).
+            // Beyond the reach of the boundary, the sum over samples has only the aliasing error exp(−ln 2 (λ/p − λ/Λ)²).
             for at in [[80, 60], [50, 40], [101, 77]] {
                 let exact = surface.heights()[at];
                 assert!((smooth.heights()[at] - share * exact).abs() < 1e-20, "{long_x} {long_y}");
@@ -267,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_scratch_bends_the_gaussian_surface_but_not_the_robust_one() {
-        // Fine roughness of amplitude 1, and a scratch 40 deep and an eighth of the cut-off wide.
+        // Fine roughness of amplitude 1, with a scratch 40 deep and an eighth of the cut-off wide.
         let rough = |x: f64, y: f64| (2.1 * x).sin() * (1.7 * y).cos();
         let clean = with_heights([200, 40], [1.0, 1.0], rough);
         let scratched = with_heights([200, 40], [1.0, 1.0], |x, y| {
@@ -278,9 +277,9 @@ mod tests {
                 |surface: &Topography| surface.clone().s_filter(40.0, filter).unwrap().into_heights();
             (smooth(&clean) - smooth(&scratched)).iter().fold(0.0, |m: f64, d| d.abs().max(m))
         };
-        // By the mean of the scratch over the Gaussian: 40 · 5/(αλ), less its width's second order.
+        // By the mean of the scratch over the Gaussian: 40 · 5/(αλ), minus the second order of its width.
         assert!((bent(Filter::Gaussian) / (200.0 / (0.4697 * 40.0)) - 1.0).abs() < 0.1);
-        // The robust one loses the roughness in the scratch, which it averages over: 5 of 19 samples.
+        // The robust filter loses the roughness in the scratch from its average: 5 of 19 samples.
         assert!(bent(Filter::Robust) < 0.1, "{}", bent(Filter::Robust));
     }
 

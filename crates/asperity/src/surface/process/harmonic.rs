@@ -1,17 +1,17 @@
-//! Laplace's equation over the holes of a topography: conjugate gradients, preconditioned by multigrid.
+//! Laplace's equation over the holes of a topography, by conjugate gradients preconditioned with multigrid.
 
 use crate::grid::{Field, Grid};
 use crate::units::Metre;
 
-/// Relative residual at which the iteration ends.
+/// Relative residual at convergence.
 const TOLERANCE: f64 = 1e-12;
-/// Iterations after which it ends in any case; a disc of two million samples needs 35.
+/// Largest number of iterations; a disc of two million samples needs 35.
 const MAX_ITERATIONS: usize = 200;
 
 /// Replaces the undefined heights by the discrete harmonic surface through the defined ones.
 ///
-/// The five-point equation Σ g (z − z') = 0 over the neighbours z', g = Δy/Δx along x and Δx/Δy along y;
-/// neighbours beyond the rim of the grid are left out, so that the surface meets the rim without slope.
+/// The five-point equation is Σ g (z − z') = 0 over the neighbours z', with g = Δy/Δx along x and Δx/Δy along y. Neighbours
+/// beyond the grid are left out, so that the surface has zero slope at its boundary.
 ///
 /// # Panics
 /// If no height is defined.
@@ -28,14 +28,14 @@ pub(super) fn harmonic(grid: &Grid, z: &mut Field) {
     }
 }
 
-/// A graph of nodes with up to four neighbours, linked by conductances, some of them to ground.
+/// A graph of nodes with up to four neighbours, connected by conductances, some of them to ground.
 ///
-/// Its matrix is A = ground + conductances on the diagonal, −conductances off it: symmetric, and positive
-/// definite when every part has a link to ground.
+/// Its matrix A has ground + conductances on the diagonal and −conductances off it. It is symmetric, and positive definite
+/// if every part has a connection to ground.
 struct Network {
-    /// Conductance from the node to ground.
+    /// Conductance from each node to ground.
     ground: Vec<f64>,
-    /// The neighbours at −x, +x, −y, +y; the node itself, with no conductance, where there is none.
+    /// Neighbours at −x, +x, −y, +y; the node itself, with zero conductance, if there is none.
     neighbours: Vec<[u32; 4]>,
     conductances: Vec<[f64; 4]>,
     /// Position on the grid of this network.
@@ -43,7 +43,8 @@ struct Network {
 }
 
 impl Network {
-    /// The undefined samples as nodes, the defined ones as ground; and the currents from the latter.
+    /// Creates the network with undefined samples as nodes and defined ones as ground; also returns the currents from
+    /// ground.
     fn of_holes(grid: &Grid, z: &Field, mean: f64, cells: &[[usize; 2]]) -> (Self, Vec<f64>) {
         let number = numbering(cells, grid.shape);
         let ratio = grid.pitch[1] / grid.pitch[0];
@@ -80,11 +81,11 @@ impl Network {
         }
     }
 
-    /// The network whose nodes are this one's, joined by `block`, of 1 or 2 nodes, in each direction; and the
-    /// joint of each node. `shape` is that of the grid of this network.
+    /// Creates the coarse network, joining `block` nodes, 1 or 2, in each direction; also returns the coarse node of each
+    /// node. `shape` is that of the grid of this network.
     ///
-    /// A joint is the sum of its nodes (Galerkin, constant prolongation), which makes smooth modes twice too
-    /// stiff along a direction in which they are joined; hence the half. Braess, Computing 55, 379 (1995).
+    /// The equation of a coarse node is the sum of those of its nodes (Galerkin, constant prolongation). This makes smooth
+    /// modes twice too stiff along a joined direction, hence the factor one half. Braess, Computing 55, 379 (1995).
     fn joined(&self, shape: [usize; 2], block: [usize; 2]) -> (Self, Vec<u32>) {
         let coarse = [shape[0].div_ceil(block[0]), shape[1].div_ceil(block[1])];
         let mut number = vec![NOWHERE; coarse[0] * coarse[1]];
@@ -126,7 +127,7 @@ impl Network {
             .collect()
     }
 
-    /// Current that flows into `node` from its neighbours.
+    /// Current into `node` from its neighbours.
     fn inflow(&self, node: usize, x: &[f64]) -> f64 {
         let [a, b, c, d] = self.neighbours[node].map(|neighbour| x[neighbour as usize]);
         let [ga, gb, gc, gd] = self.conductances[node];
@@ -134,10 +135,10 @@ impl Network {
     }
 }
 
-/// What stands in a numbering where a cell is no node.
+/// Number of a cell that is not a node.
 const NOWHERE: u32 = u32::MAX;
 
-/// For each cell of the grid, which of `cells` it is.
+/// Returns for each cell of the grid its index in `cells`.
 fn numbering(cells: &[[usize; 2]], shape: [usize; 2]) -> Vec<u32> {
     assert!(cells.len() < NOWHERE as usize, "a hole of more than four thousand million samples");
     let mut number = vec![NOWHERE; shape[0] * shape[1]];
@@ -147,17 +148,17 @@ fn numbering(cells: &[[usize; 2]], shape: [usize; 2]) -> Vec<u32> {
     number
 }
 
-/// A network and the ever coarser ones made of it, down to a single node.
+/// A network and its coarser ones, down to a single node.
 struct Multigrid {
     tiers: Vec<Tier>,
 }
 
-/// One network of the multigrid.
+/// A level of the multigrid.
 struct Tier {
     network: Network,
     diagonal: Vec<f64>,
     inverse_diagonal: Vec<f64>,
-    /// Node of the next tier that each node belongs to; none on the last.
+    /// Node of the next level for each node; empty on the last.
     joint: Vec<u32>,
 }
 
@@ -180,7 +181,7 @@ impl Tier {
 }
 
 impl Multigrid {
-    /// Joins along both directions, but along the one of the smaller pitch alone until the pitches are alike.
+    /// Joins in both directions, but only along the smaller pitch until both pitches are similar.
     fn new(finest: Network, grid: &Grid) -> Self {
         let (mut shape, mut pitch, mut network) = (grid.shape, grid.pitch, finest);
         let mut tiers = Vec::new();
@@ -198,7 +199,7 @@ impl Multigrid {
         Self { tiers }
     }
 
-    /// Potentials at which the currents `sources` flow into the nodes of the finest network; and the
+    /// Computes the potentials for the currents `sources` into the nodes of the finest network; also returns the number of
     /// iterations.
     fn solve(&self, sources: &[f64]) -> (Vec<f64>, usize) {
         let tier = &self.tiers[0];
@@ -226,8 +227,8 @@ impl Multigrid {
         (x, iterations)
     }
 
-    /// An approximate A⁻¹ `right` on tier `depth`, symmetric: Gauss–Seidel forth, the coarser tiers,
-    /// Gauss–Seidel back.
+    /// Applies an approximate A⁻¹ to `right` on level `depth`, symmetrically: forward Gauss–Seidel, the coarser levels,
+    /// backward Gauss–Seidel.
     fn cycle(&self, depth: usize, right: &[f64]) -> Vec<f64> {
         let tier = &self.tiers[depth];
         let nodes = right.len();
@@ -246,8 +247,8 @@ impl Multigrid {
     }
 }
 
-/// How many nodes to join along each direction: 2 along that of the smaller pitch, and along the other one
-/// too when its pitch is less than twice as large.
+/// Returns the number of nodes to join along each direction: 2 along the smaller pitch, and along the other if its pitch is
+/// less than twice as large.
 fn block(shape: [usize; 2], pitch: [Metre; 2]) -> [usize; 2] {
     std::array::from_fn(|axis| {
         let other = 1 - axis;

@@ -10,9 +10,9 @@ use super::round::{self, Round};
 use crate::error::{Result, check};
 use crate::surface::Topography;
 
-/// What is subtracted from the heights: a least-squares fit to the defined samples.
+/// Form subtracted from the heights: a least-squares fit to the defined samples.
 ///
-/// As text, in files too: `none`, `mean`, `plane`, `quadratic`, `polynomial-3`, `sphere`, `cylinder`.
+/// Written as `none`, `mean`, `plane`, `quadratic`, `polynomial-3`, `sphere`, `cylinder`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(into = "String")]
 pub enum Level {
@@ -23,21 +23,21 @@ pub enum Level {
     Mean,
     /// A plane: 1, x, y.
     Plane,
-    /// A full polynomial of the second order: 1, x, y, x², xy, y².
+    /// A full second-order polynomial: 1, x, y, x², xy, y².
     Quadratic,
     /// All xᵃyᵇ with a + b up to the order, 0 to [`Level::MAX_ORDER`].
     Polynomial(usize),
     /// A sphere, convex or concave, see [`Topography::best_sphere`].
     Sphere,
-    /// A circular cylinder that lies in any direction, see [`Topography::best_cylinder`].
+    /// A circular cylinder with its axis in any direction, see [`Topography::best_cylinder`].
     Cylinder,
 }
 
 impl Level {
-    /// The highest order of a polynomial. It has 153 terms.
+    /// Largest order of a polynomial, which has 153 terms.
     pub const MAX_ORDER: usize = 16;
 
-    /// What [`Level::from_str`] reads, for messages.
+    /// Texts accepted by [`Level::from_str`], for messages.
     pub const WORDS: [&str; 7] = ["none", "mean", "plane", "quadratic", "polynomial-3", "sphere", "cylinder"];
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for Level {
     }
 }
 
-/// A text that is not that of a [`Level`].
+/// Error of a text that names no [`Level`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "expected one of {}; the order of a polynomial is from 0 to {}",
@@ -94,9 +94,9 @@ impl From<Level> for String {
 }
 
 impl Topography {
-    /// Levelled: the least-squares fit that `level` names is subtracted. Undefined samples stay so.
+    /// Subtracts the least-squares fit given by `level`. Undefined samples stay undefined.
     ///
-    /// A term that the samples do not determine (x on a single column, say) is left out of the fit.
+    /// Terms that the samples do not determine (x for a single column, for example) are left out of the fit.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the order of a polynomial is above [`Level::MAX_ORDER`].
@@ -105,7 +105,7 @@ impl Topography {
         Ok(self)
     }
 
-    /// Subtracts what `level` names, and says which sphere or cylinder it was.
+    /// Subtracts the form given by `level`; returns the sphere or cylinder, if it was one.
     pub(super) fn remove(&mut self, level: Level) -> Result<Option<Round>> {
         let order = match level {
             Level::None => return Ok(None),
@@ -191,7 +191,7 @@ mod tests {
             (12..15).for_each(|i| (3..20).for_each(|j| surface.heights_mut()[[i, j]] = f64::NAN));
             let left = |order| largest(&surface.clone().level(Level::Polynomial(order)).unwrap());
             assert!(left(order) < 1e-13, "order {order}: {:e}", left(order));
-            // What a lower order leaves of xⁿ alone is at least its Chebyshev bound 2¹⁻ⁿ.
+            // The residual of xⁿ with a lower order is at least its Chebyshev bound 2¹⁻ⁿ.
             assert!(left(order - 1) > 2f64.powi(1 - n), "order {order}: {:e}", left(order - 1));
         }
         let quadratic = with_heights(|x, y| (x * y).sin());

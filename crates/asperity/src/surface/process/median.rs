@@ -1,9 +1,9 @@
 //! The median.
 
-/// The median of the values, none of which is NaN; of an even number the mean of the two in the middle.
+/// Returns the median of the values, without NaN; for an even number the mean of the two in the middle.
 ///
 /// # Panics
-/// If there are none.
+/// If there are no values.
 pub(super) fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     let odd = values.len() % 2 == 1;

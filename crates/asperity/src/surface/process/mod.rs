@@ -1,5 +1,5 @@
-//! From a measured topography to one that can be mounted: cut, cleared of spikes and holes, freed of its form, turned,
-//! filtered, resampled, tapered. [`Preparation`] does it all in one order.
+//! Preparation of a measured topography for mounting: windowing, despiking, filling, form removal, rotation, filters,
+//! resampling, taper. [`Preparation`] applies all steps in a fixed order.
 
 mod despike;
 mod fill;

@@ -1,16 +1,16 @@
-//! The normal equations of a linear least-squares fit.
+//! Normal equations of a linear least-squares fit.
 
-/// JᵀJ of a fit with its factors L D Lᵀ; an unknown that the others determine is left out of the fit.
+/// JᵀJ of a fit with its factors L D Lᵀ. An unknown that depends on the others is left out of the fit.
 pub(super) struct NormalEquations {
     lower: Vec<Vec<f64>>,
     pivots: Vec<f64>,
 }
 
-/// Share of a diagonal entry below which its pivot counts as round-off.
+/// Fraction of a diagonal entry below which its pivot is round-off.
 const VANISHED: f64 = 1e-12;
 
 impl NormalEquations {
-    /// The equations from the lower triangle of JᵀJ, row by row, which is positive semi-definite.
+    /// Creates the equations from the lower triangle of JᵀJ, row by row, which is positive semi-definite.
     pub(super) fn new(mut lower: Vec<Vec<f64>>) -> Self {
         let n = lower.len();
         let mut pivots = vec![0.0; n];
@@ -25,7 +25,7 @@ impl NormalEquations {
         Self { lower, pivots }
     }
 
-    /// The coefficients for the right side Jᵀz; 0 for an unknown that is left out.
+    /// Returns the coefficients for the right side Jᵀz; 0 for an unknown that is left out.
     pub(super) fn solve(&self, mut x: Vec<f64>) -> Vec<f64> {
         let n = x.len();
         for i in 0..n {

@@ -3,16 +3,16 @@
 use super::normal_equations::NormalEquations;
 use crate::grid::Field;
 
-/// The products of Legendre polynomials P_a(ξ) P_b(η), a + b ≤ order, with ξ and η from −1 to 1 over the part of the
-/// field that holds its defined samples: nearly orthogonal on them, so that high orders lose no digits.
+/// Products of Legendre polynomials P_a(ξ) P_b(η), a + b ≤ order. ξ and η range from −1 to 1 over the part of the field
+/// with defined samples. There the products are nearly orthogonal, so that high orders lose no digits.
 pub(super) struct Polynomial {
     order: usize,
-    /// The polynomials P_0 … P_order on each row of the defined part, and its first row; and so for the columns.
+    /// First row of the defined part, with the polynomials P_0 … P_order on each of its rows; the same for the columns.
     along: [(usize, Vec<Vec<f64>>); 2],
 }
 
 impl Polynomial {
-    /// The polynomials of total degree up to `order`; none if no sample is defined.
+    /// Creates the polynomials of total degree up to `order`; `None` if no sample is defined.
     pub(super) fn on(z: &Field, order: usize) -> Option<Self> {
         let mut range = [[usize::MAX, 0]; 2];
         for ((ix, iy), _) in z.indexed_iter().filter(|(_, z)| !z.is_nan()) {
@@ -29,10 +29,10 @@ impl Polynomial {
         Some(Self { order, along: [x, y] })
     }
 
-    /// Subtracts the least-squares fit to the defined samples from them, and returns its coefficients, in the order of
+    /// Subtracts the least-squares fit from the defined samples; returns its coefficients, in the order of
     /// [`Polynomial::terms`].
     ///
-    /// The second fit takes away what round-off has left of the first.
+    /// A second fit removes the round-off of the first.
     pub(super) fn remove(&self, z: &mut Field) -> Vec<f64> {
         let normal = NormalEquations::new(self.products(z));
         let mut coefficients = vec![0.0; self.terms().count()];
@@ -44,19 +44,19 @@ impl Polynomial {
         coefficients
     }
 
-    /// The degrees (a, b), lower ones first.
+    /// Iterates over the degrees (a, b), lower ones first.
     fn terms(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let order = self.order;
         (0..=order).flat_map(|degree| (0..=degree).map(move |b| (degree - b, b)))
     }
 
-    /// Sum over the defined samples of the products of two terms, lower triangle.
+    /// Sums the products of two terms over the defined samples, lower triangle.
     fn products(&self, z: &Field) -> Vec<Vec<f64>> {
         let terms: Vec<_> = self.terms().collect();
         let mut sums: Vec<Vec<f64>> = (1..=terms.len()).map(|row| vec![0.0; row]).collect();
         let [(x0, along_x), (y0, along_y)] = &self.along;
         for (i, px) in along_x.iter().enumerate() {
-            // Along the row first: the products of two polynomials of η.
+            // First along the row: the products of two polynomials of η.
             let mut row = vec![vec![0.0; self.order + 1]; self.order + 1];
             for (j, py) in along_y.iter().enumerate() {
                 if !z[[x0 + i, y0 + j]].is_nan() {
@@ -72,7 +72,7 @@ impl Polynomial {
         sums
     }
 
-    /// Sum over the defined samples of height times term.
+    /// Sums height times term over the defined samples.
     fn moments(&self, z: &Field) -> Vec<f64> {
         let mut sums = vec![0.0; self.terms().count()];
         let [(x0, along_x), (y0, along_y)] = &self.along;

@@ -1,4 +1,4 @@
-//! All steps from a measured topography to one that can be used, in their order.
+//! All preparation steps of a measured topography, in their order.
 
 use serde::Serialize;
 
@@ -11,46 +11,47 @@ use crate::grid::Grid;
 use crate::surface::{Axis, NEVER, Stop, Topography, go_on};
 use crate::units::{Dimension, Metre};
 
-/// What is done with a topography; by default nothing.
+/// Preparation steps of a topography; none by default.
 ///
-/// The steps act in the order of the fields: what belongs to the instrument first (the part to keep, spikes, holes),
-/// then the form, which wants defined heights without spikes, then the direction, then the waves, whose filters want a
-/// surface without form, then the grid, whose cells may be as large as the shortest wave left allows, last the rim.
+/// The steps act in the order of the fields. First are the effects of the instrument: the part to keep, spikes, holes. Then
+/// comes the form, which needs defined heights without spikes, then the direction. The filters follow, because they need a
+/// surface without form. Then comes the grid, whose cells may be as large as the shortest remaining wave allows, and last
+/// the taper.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Preparation {
     /// The part to keep, `[x0, y0, nx, ny]` in samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[usize; 4]>,
-    /// The factor of [`Topography::despike`]; nothing is removed if absent.
+    /// The factor of [`Topography::despike`]; `None` to keep spikes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub despike: Option<f64>,
-    /// The source of the heights of undefined samples; with [`Fill::None`] they stay undefined.
+    /// Method to fill undefined samples; with [`Fill::None`] they stay undefined.
     #[serde(skip_serializing_if = "is_default")]
     pub fill: Fill,
-    /// What is subtracted.
+    /// The form to subtract.
     pub level: Level,
-    /// The direction in which it is mirrored.
+    /// Direction of mirroring.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<Axis>,
-    /// The angle by which it is turned, in radians, see [`Topography::rotate`].
+    /// Rotation angle, in radians, see [`Topography::rotate`].
     #[serde(skip_serializing_if = "is_default")]
     pub rotate: f64,
-    /// Nesting index of the S-filter, which takes short waves away.
+    /// Nesting index of the S-filter, which removes short waves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s_filter: Option<Metre>,
-    /// Nesting index of the L-filter, which takes long waves away; above that of the S-filter.
+    /// Nesting index of the L-filter, which removes long waves; above that of the S-filter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l_filter: Option<Metre>,
-    /// How both filters find their smooth surface.
+    /// Smooth surface of both filters.
     #[serde(skip_serializing_if = "is_default")]
     pub filter: Filter,
-    /// The grid to bring it to.
+    /// The grid to resample to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resample: Option<Resample>,
-    /// What stands between samples where cells become smaller.
+    /// Interpolation between samples to smaller cells.
     #[serde(skip_serializing_if = "is_default")]
     pub interpolate: Interpolation,
-    /// Width of the rim that is brought down to the mean, see [`Topography::taper`].
+    /// Width of the taper towards the mean, see [`Topography::taper`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub taper: Option<Metre>,
 }
@@ -59,29 +60,29 @@ pub struct Preparation {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Resample {
-    /// A number of cells along x and y on the same extent, see [`Topography::resample_to_shape`].
+    /// This number of cells along x and y on the same extent, see [`Topography::resample_to_shape`].
     Shape([usize; 2]),
     /// Cells of this size, see [`Topography::resample_to_pitch`].
     Pitch([Metre; 2]),
 }
 
-/// What a preparation came upon.
+/// Findings of a preparation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Findings {
-    /// Undefined samples of the window, before anything was done about them.
+    /// Number of undefined samples in the window, before filling.
     pub undefined: usize,
-    /// Samples removed as spikes.
+    /// Number of samples removed as spikes.
     pub spikes: usize,
-    /// The sphere or cylinder that was subtracted; its lengths count from the corner of the window.
+    /// The sphere or cylinder that was subtracted; its lengths are relative to the corner of the window.
     pub form: Option<Round>,
 }
 
 impl Preparation {
-    /// The grid after all steps, told without doing any.
+    /// Returns the grid after all steps, without applying them.
     ///
     /// # Errors
-    /// Returns the errors of the steps that change the grid.
+    /// The errors of the steps that change the grid.
     pub fn grid(&self, mut grid: Grid) -> Result<Grid> {
         if let Some(window) = self.window {
             grid = within(&grid, window)?;
@@ -94,18 +95,18 @@ impl Preparation {
         }
     }
 
-    /// The topography after all steps, and what they came upon. Samples stay undefined where nothing fills them.
+    /// Applies all steps; returns the topography and the findings. Samples stay undefined if no step fills them.
     ///
     /// # Errors
-    /// Returns the errors of the steps; [`crate::Error::OutOfRange`] also if the S-filter leaves nothing below the L-filter.
+    /// The errors of the steps; [`crate::Error::OutOfRange`] also if no waves remain between S-filter and L-filter.
     pub fn apply(&self, topography: Topography) -> Result<(Topography, Findings)> {
         self.apply_until(topography, NEVER)
     }
 
-    /// As [`apply`](Self::apply), unless `stop` says so first.
+    /// [`apply`](Self::apply) that can be stopped by `stop`.
     ///
     /// # Errors
-    /// As [`apply`](Self::apply); [`crate::Error::Interrupted`].
+    /// The errors of [`apply`](Self::apply); [`crate::Error::Interrupted`].
     pub fn apply_until(&self, mut topography: Topography, stop: Stop<'_>) -> Result<(Topography, Findings)> {
         go_on(stop)?;
         if let (Some(shortest), Some(longest)) = (self.s_filter, self.l_filter) {

@@ -1,4 +1,4 @@
-//! The same topography on another grid.
+//! Resampling of a topography to another grid.
 
 use super::{Fill, spline};
 use crate::choice::choice;
@@ -8,29 +8,29 @@ use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 use ndarray::{Axis, Zip};
 
-/// What stands between samples where cells become smaller.
+/// Interpolation between samples to smaller cells.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The straight line between neighbours: no height leaves the range of the samples, and short waves are flattened.
-    /// Right to the second order in the pitch.
+    /// Linear interpolation: heights stay within the range of the samples, and short waves are flattened. Second order in
+    /// the pitch.
     #[default]
     Linear,
-    /// The cubic spline through all samples: smooth, right to the fourth order, and it overshoots at steps.
+    /// Cubic spline through all samples: smooth, of fourth order, with overshoot at steps.
     Spline,
 }
 
 choice!(Interpolation: "linear" => Linear, "spline" => Spline);
 
 impl Topography {
-    /// The topography with `shape` cells on the same extent.
+    /// Resamples to `shape` cells on the same extent.
     ///
-    /// In each direction by itself. Where cells become larger, a new height is the average over the new cell,
-    /// within an old one that is cut of the straight line with the slope between its neighbours: the plain
-    /// average of the old cells when the ratio is whole, the same mean height and the same planes for any
-    /// ratio. Of a wave of length Λ that is sin(πp/Λ)/(πp/Λ) at the new pitch p, so that of the waves shorter than two
-    /// new cells at most 2/π are folded down; [`Topography::s_filter`] takes away the rest. Where cells become smaller,
-    /// it is interpolated between the centres of the old cells, and constant beyond the outermost ones. A height that
-    /// draws on an undefined sample, or lies beside one, is undefined; a spline bridges it by the nearest defined one.
+    /// Each direction is treated separately. To larger cells, a new height is the average over the new cell. Within a
+    /// partly covered old cell, the height varies linearly with the slope between its neighbours. For a whole ratio this is
+    /// the plain average of the old cells; for any ratio it preserves the mean height and planes. A wave of length Λ is
+    /// reduced to sin(πp/Λ)/(πp/Λ) at the new pitch p. Waves shorter than two new cells are therefore aliased by at most
+    /// 2/π; [`Topography::s_filter`] removes the rest. To smaller cells, heights are interpolated between the centres of
+    /// the old cells, and constant beyond the outermost ones. A height that uses an undefined sample, or lies beside one,
+    /// is undefined; a spline bridges it by the nearest defined one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a number of cells is 0.
@@ -38,8 +38,8 @@ impl Topography {
         self.on_grid(grid_of_shape(self.grid(), shape)?, interpolation)
     }
 
-    /// Cells of size `pitch`, as many as fit into the extent from its corner on; what is left over at the far
-    /// edges, less than a cell, is cut off. By the method of [`Topography::resample_to_shape`].
+    /// Resamples to cells of size `pitch`, as many as fit into the extent from its corner. The remainder at the far edges,
+    /// less than a cell, is cut off. The method is that of [`Topography::resample_to_shape`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a pitch is not positive, or longer than the topography.
@@ -68,7 +68,7 @@ impl Topography {
     }
 }
 
-/// The extent of `old` with `shape` cells.
+/// Returns the grid with the extent of `old` and `shape` cells.
 pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
     if shape.contains(&0) {
         let expected = "at least one cell along x and y";
@@ -78,7 +78,7 @@ pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
     Grid::new(shape, [extent[0] / shape[0] as f64, extent[1] / shape[1] as f64])
 }
 
-/// The grid of as many cells of size `pitch` as fit into the extent of `old`.
+/// Returns the grid with as many cells of size `pitch` as fit into the extent of `old`.
 pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
     let extent = old.extent();
     let mut shape = [0; 2];
@@ -97,7 +97,7 @@ pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
     Grid::new(shape, pitch)
 }
 
-/// `field` with the cells that `new` has along `axis`.
+/// Resamples `field` to the cells of `new` along `axis`.
 fn resampled(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Field {
     let Axis(a) = axis;
     let mut shape = [field.nrows(), field.ncols()];
@@ -111,7 +111,7 @@ fn resampled(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Field {
     result
 }
 
-/// [`resampled`], but by a spline where cells become smaller.
+/// [`resampled`], but by a spline to smaller cells.
 fn resampled_by_spline(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Field {
     let Axis(a) = axis;
     let ratio = new.pitch[a] / old.pitch[a];
@@ -133,18 +133,19 @@ fn resampled_by_spline(field: &Field, axis: Axis, old: &Grid, new: &Grid) -> Fie
     result
 }
 
-/// The sample, of `n`, at or below the centre of new cell `index`, and how far that is on the way to the next one.
+/// Returns the sample, of `n`, at or below the centre of new cell `index`, and the fraction of the distance to the next
+/// one.
 fn between(index: usize, ratio: f64, n: usize) -> (usize, f64) {
     let centre = ((index as f64 + 0.5) * ratio - 0.5).clamp(0.0, n as f64 - 1.0);
     let below = (centre as usize).min(n.saturating_sub(2));
     (below, centre - below as f64)
 }
 
-/// Share of a cell below which it counts as round-off.
+/// Fraction of a cell below which it is round-off.
 const CRUMB: f64 = 1e-9;
 
-/// The samples, of `n`, that new cell `index` draws on, and their weights, which sum to 1; `ratio` is the new
-/// pitch over the old one.
+/// Returns the samples, of `n`, used for new cell `index`, and their weights, which sum to 1; `ratio` is the new pitch over
+/// the old one.
 fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
     let mut drawn: Vec<(usize, f64)> = Vec::new();
     let mut draw = |sample: usize, weight: f64| match drawn.iter_mut().find(|(i, _)| *i == sample) {
@@ -156,8 +157,8 @@ fn weights(index: usize, ratio: f64, n: usize) -> Vec<(usize, f64)> {
         for i in start as usize..(end.ceil() as usize).min(n) {
             let (from, to) = (start.max(i as f64), end.min(i as f64 + 1.0));
             let (before, after) = (i.saturating_sub(1), (i + 1).min(n - 1));
-            // Distance from the centre of the old cell to that of the shared part, over the distance of the
-            // samples between which the slope is taken.
+            // Distance from the centre of the old cell to that of the shared part, over the distance of the samples used
+            // for the slope.
             let lever = (0.5 * (from + to) - i as f64 - 0.5) / ((after - before).max(1)) as f64;
             draw(i, to - from);
             draw(after, (to - from) * lever);
@@ -309,7 +310,7 @@ mod tests {
         let whole = smooth(40).resample_to_shape(shape, Interpolation::Spline).unwrap();
         for (at, z) in by_spline.heights().indexed_iter() {
             assert_eq!(z.is_nan(), linear.heights()[at].is_nan());
-            // The spline forgets by a factor 2 + √3 with each sample.
+            // The influence of a sample on the spline decays by a factor 2 + √3 per sample.
             if at.0 > 75 {
                 assert!((z - whole.heights()[at]).abs() < 1e-6);
             }
@@ -325,7 +326,7 @@ mod tests {
             let coarse = Topography::new(grid, heights).unwrap();
             let coarse = coarse.resample_to_shape([120, 2], Interpolation::Spline).unwrap();
             let turn = std::f64::consts::PI * 8.0 / long;
-            // Eight samples for the integral: the sine of the half sample stands in place of its arc.
+            // Eight samples for the integral: the sine of the half sample replaces its arc.
             let average = (turn.sin() / (8.0 * (turn / 8.0).sin())).abs();
             let most = coarse.heights().iter().fold(0.0, |m: f64, z| z.abs().max(m));
             assert!(most < average * (1.0 + 1e-12) && most > 0.9 * average, "{long}: {most} of {average}");

@@ -10,32 +10,31 @@ use crate::units::Metre;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Round {
-    /// The radius, positive where the surface is convex (a ball), negative where it is concave (a cup); infinite for a
-    /// plane.
+    /// Radius, positive for a convex surface (a ball), negative for a concave one (a cup); infinite for a plane.
     pub radius: Metre,
-    /// The sphere's centre, or the point of the cylinder's axis that is next to the middle of the samples; x and y from
-    /// the grid's corner, z as the heights.
+    /// Centre of the sphere, or the point of the cylinder's axis closest to the middle of the samples; x and y relative to
+    /// the grid's corner, z like the heights.
     pub centre: [Metre; 3],
-    /// The direction of a cylinder's axis in the plane, from x towards y, −π/2 < θ ≤ π/2.
+    /// Direction of a cylinder's axis in the plane, from x towards y, −π/2 < θ ≤ π/2.
     pub axis: Option<f64>,
 }
 
 impl Topography {
-    /// The sphere of least squares: of the vertical distances of the defined samples from it, not of those along its
-    /// radius, which differ from them by the cosine of the slope. `None` if no sample is defined.
+    /// Fits a sphere by least squares of the vertical distances of the defined samples. They differ from the radial
+    /// distances by the cosine of the slope. `None` if no sample is defined.
     ///
-    /// The side of the sphere that faces up or down is z = z₀ + v, v − (c/2)v² = b·r + (c/2)r² with r from the middle of
-    /// the samples and the curvature c = −√(1 + b²)/R, which passes through 0 without harm. Levenberg–Marquardt, from
-    /// the plane on; Marquardt, J. SIAM 11, 431 (1963). A fit that samples do not determine ends at one of the best.
+    /// The upper or lower side of the sphere is z = z₀ + v, v − (c/2)v² = b·r + (c/2)r², with r relative to the middle of
+    /// the samples. The curvature c = −√(1 + b²)/R passes smoothly through 0. Levenberg–Marquardt, starting from the plane;
+    /// Marquardt, J. SIAM 11, 431 (1963). If the samples do not determine the fit, it returns one of the best.
     pub fn best_sphere(&self) -> Option<Round> {
         remove_sphere(&mut self.clone())
     }
 
-    /// The cylinder of least squares of the vertical distances, as [`Topography::best_sphere`] finds the sphere. Its
-    /// axis may lie in any direction of the plane, and be tilted.
+    /// Fits a cylinder by least squares of the vertical distances, like [`Topography::best_sphere`]. Its axis may have any
+    /// direction in the plane, and a tilt.
     ///
-    /// With s along the axis, t across, and the axis of slope a: z = z₀ + a s + v,
-    /// v − (c/2) v²/(1 + a²) = b t + (c/2) t².
+    /// With s along the axis, t across, and the slope a of the axis: z = z₀ + a s + v, v − (c/2) v²/(1 + a²) = b t + (c/2)
+    /// t².
     pub fn best_cylinder(&self) -> Option<Round> {
         remove_cylinder(&mut self.clone())
     }
@@ -54,7 +53,7 @@ pub(super) fn remove_sphere(topography: &mut Topography) -> Option<Round> {
 /// Subtracts the best cylinder.
 pub(super) fn remove_cylinder(topography: &mut Topography) -> Option<Round> {
     let cloud = Cloud::of(topography)?;
-    // The axis of the paraboloid of best fit, along which it is curved the least.
+    // The axis of least curvature of the best-fit paraboloid.
     let [_, _, _, xx, xy, yy] = cloud.fit(paraboloid, [0.0; N]);
     let steepest = 0.5 * (2.0 * xy).atan2(xx - yy);
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -69,10 +68,10 @@ pub(super) fn remove_cylinder(topography: &mut Topography) -> Option<Round> {
     Some(cloud.placed(radius, centre, Some(axis)))
 }
 
-/// Most parameters of a surface.
+/// Largest number of parameters of a surface.
 const N: usize = 6;
 
-/// Height at (x, y) and its derivatives by the parameters; none where the surface does not reach.
+/// Height at (x, y) and its derivatives with respect to the parameters; `None` where the surface does not extend.
 type Surface = fn(&[f64; N], f64, f64) -> Option<(f64, [f64; N])>;
 
 /// Parameters z, bx, by, c.
@@ -108,7 +107,7 @@ fn arc(q: f64, k: f64) -> Option<(f64, f64)> {
     (rho > 0.0).then(|| (2.0 * q / (1.0 + rho), rho))
 }
 
-/// The defined samples, lengths counted from their middle in units of their spread.
+/// The defined samples, with lengths relative to their middle in units of their spread.
 struct Cloud {
     grid: Grid,
     heights: Field,
@@ -116,7 +115,7 @@ struct Cloud {
     spread: Metre,
 }
 
-/// Sums over the samples: of the squared residuals, Jᵀr, and JᵀJ.
+/// Sums over the samples: squared residuals, Jᵀr, and JᵀJ.
 #[derive(Clone, Copy)]
 struct Sums {
     squares: f64,
@@ -149,11 +148,11 @@ impl Cloud {
         Some(Self { grid, heights, middle, spread })
     }
 
-    /// The parameters of least squares, from `p` on, at which the surface reaches all samples.
+    /// Fits the parameters by least squares, starting from `p`, for which the surface must extend over all samples.
     fn fit(&self, surface: Surface, mut p: [f64; N]) -> [f64; N] {
-        /// A fit converges in some ten steps.
+        /// A fit converges in about ten steps.
         const STEPS: usize = 100;
-        /// Relative decrease of the sum of squares that ends the fit.
+        /// Relative decrease of the sum of squares at convergence.
         const SMALL: f64 = 1e-12;
         let mut damping = 0.0;
         let mut sums = self.sums(surface, &p).expect("the fit begins with a surface that reaches everywhere");
@@ -183,7 +182,8 @@ impl Cloud {
         p
     }
 
-    /// The sums at these parameters, in the order of the rows; none if the surface does not reach all samples.
+    /// Computes the sums for these parameters, in the order of the rows; `None` if the surface does not extend over all
+    /// samples.
     fn sums(&self, surface: Surface, p: &[f64; N]) -> Option<Sums> {
         let zero = Sums { squares: 0.0, gradient: [0.0; N], products: [[0.0; N]; N] };
         let rows = parallel::tasks(0..self.grid.shape[0], |ix| {
@@ -216,7 +216,7 @@ impl Cloud {
         surface(p, x, y)
     }
 
-    /// Takes the surface away, and the middle height with it.
+    /// Subtracts the surface, and the middle height.
     fn subtract(&self, surface: Surface, p: &[f64; N], topography: &mut Topography) {
         for ((ix, iy), z) in topography.heights_mut().indexed_iter_mut().filter(|(_, z)| !z.is_nan()) {
             let (height, _) = self.at(surface, p, ix, iy).expect("it reaches all samples");
@@ -224,7 +224,7 @@ impl Cloud {
         }
     }
 
-    /// The form in metres, from the grid's corner.
+    /// Returns the form in metres, relative to the grid's corner.
     fn placed(&self, radius: f64, centre: [f64; 3], axis: Option<f64>) -> Round {
         let centre = [0, 1, 2].map(|i| self.middle[i] + centre[i] * self.spread);
         Round { radius: radius * self.spread, centre, axis }
@@ -249,7 +249,7 @@ mod tests {
         topography.heights().iter().filter(|z| !z.is_nan()).fold(0.0, |m, z| z.abs().max(m))
     }
 
-    /// Of the sphere about (4, 5, z) · 1e-4 m, convex or concave.
+    /// A sphere around (4, 5, z) · 1e-4 m, convex or concave.
     fn ball(radius: f64) -> Topography {
         with_heights(|x, y| {
             let r2 = (x - 4e-4).powi(2) + (y - 5e-4).powi(2);
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_ball_and_a_cup_are_found_and_leave_nothing() {
-        // Down to one whose flanks reach 50 degrees.
+        // Down to a sphere whose flanks reach 50 degrees.
         for radius in [1e-3, -1e-3, 0.8e-3, -0.1] {
             let surface = ball(radius);
             let found = surface.best_sphere().unwrap();
@@ -296,8 +296,9 @@ mod tests {
 
     #[test]
     fn noise_moves_the_radius_by_no_more_than_its_share() {
-        // With noise σ on n samples the curvature is uncertain by σ/(√n times the rms of r²/2 without its mean and
-        // plane): here about 4 per cent of a metre's curvature; five times that is not exceeded by chance.
+        // With noise σ on n samples, the standard error of the curvature is σ/√n over the rms of r²/2 without its mean and
+        // plane. Here this is about 4 per cent of the curvature of a radius of one metre. Five times that is not exceeded
+        // by chance.
         let (radius, sigma) = (2e-2, 1e-8);
         let mut state = 1u64;
         let mut noise = || {

@@ -4,16 +4,16 @@ use ndarray::{Axis, Zip, s};
 
 use crate::grid::Field;
 
-/// Slopes, per sample, of the cubic spline through the samples of each line along `axis`.
+/// Computes the slopes, per sample, of the cubic spline through the samples of each line along `axis`.
 ///
-/// dᵢ₋₁ + 4dᵢ + dᵢ₊₁ = 3(zᵢ₊₁ − zᵢ₋₁); the slope at an end is that of the cubic through the four samples there (of the
-/// polynomial through all, where there are fewer), so that the spline is right to the fourth order up to the rim.
+/// The equation is dᵢ₋₁ + 4dᵢ + dᵢ₊₁ = 3(zᵢ₊₁ − zᵢ₋₁). The slope at an end is that of the cubic through the last four
+/// samples (of the polynomial through all, if there are fewer), so that the spline is of fourth order up to the boundary.
 /// De Boor, A Practical Guide to Splines (1978), ch. IV.
 pub(super) fn slopes(field: &Field, axis: Axis) -> Field {
     /// Coefficients of the one-sided derivative at the end, from one to four samples.
     const ENDS: [&[f64]; 4] =
         [&[0.0], &[-1.0, 1.0], &[-1.5, 2.0, -0.5], &[-11.0 / 6.0, 3.0, -1.5, 1.0 / 3.0]];
-    // Line by line along x; the other axis is turned there and back.
+    // Line by line along x; the other axis is transposed and back.
     if axis == Axis(1) {
         return slopes(&transposed(field), Axis(0)).reversed_axes().as_standard_layout().into_owned();
     }
@@ -28,7 +28,7 @@ pub(super) fn slopes(field: &Field, axis: Axis) -> Field {
             slopes.row_mut(n - 1).scaled_add(-weight, &field.row(n - 1 - k));
         }
     }
-    // The tridiagonal system forwards, then backwards.
+    // The tridiagonal system: forward, then backward.
     let inner = 1..n.max(2) - 1;
     let mut ratio = vec![0.0; n];
     for i in inner.clone() {
@@ -51,7 +51,7 @@ fn transposed(field: &Field) -> Field {
     field.t().as_standard_layout().into_owned()
 }
 
-/// Weights of the samples below and above, and of the slopes there, at the share `t` of the way between them.
+/// Weights of the samples below and above, and of the slopes there, at the fraction `t` of the distance between them.
 pub(super) fn hermite(t: f64) -> [f64; 4] {
     let u = 1.0 - t;
     [u * u * (1.0 + 2.0 * t), t * t * (1.0 + 2.0 * u), t * u * u, -t * t * u]

@@ -1,4 +1,4 @@
-//! Taper of the rim.
+//! Taper towards the boundary.
 
 use std::f64::consts::PI;
 
@@ -7,10 +7,10 @@ use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
 
 impl Topography {
-    /// Brought down to its mean height over `width` along each rim, so that it can be repeated, or ends without a step:
-    /// z̄ + w(x) w(y) (z − z̄), w = sin²(πd/2·width) at the distance d < width from the outermost sample and 1 beyond
-    /// (Tukey's window; Harris, Proc. IEEE 66, 51 (1978), eq. 38). The mean is that of the defined samples; a direction
-    /// of a single sample has no rim.
+    /// Tapers the topography to its mean height over `width` along each side, so that it can be repeated, or ends without a
+    /// step. The result is z̄ + w(x) w(y) (z − z̄), with w = sin²(πd/2·width) at the distance d < width from the outermost
+    /// sample and 1 beyond (Tukey's window; Harris, Proc. IEEE 66, 51 (1978), eq. 38). The mean is over the defined
+    /// samples. A direction with a single sample is not tapered.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] unless the width is above 0 and at most half of the topography.
@@ -65,7 +65,7 @@ mod tests {
                 assert_eq!(*z, before.heights()[[i, j]]);
             }
         }
-        // Half way in, half of the height is left.
+        // In the middle of the taper half of the height remains.
         let half = before.mean() + 0.5 * (before.heights()[[4, 15]] - before.mean());
         assert!((after.heights()[[4, 15]] - half).abs() < 1e-14);
     }

@@ -1,4 +1,4 @@
-//! Turning a topography in its plane, and over.
+//! Rotation of a topography in its plane, mirroring, and turning over.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ use crate::surface::{Axis, Fill, Topography};
 use crate::units;
 
 impl Topography {
-    /// Mirrored: along `axis` the first sample becomes the last.
+    /// Mirrors the topography: along `axis` the first sample becomes the last.
     pub fn mirror(mut self, axis: Axis) -> Self {
         self.heights_mut().invert_axis(dimension(axis));
         let heights = self.heights().as_standard_layout().into_owned();
@@ -20,22 +20,22 @@ impl Topography {
         self
     }
 
-    /// Turned over about the y axis, to be mounted as the upper body: mirrored in x and negated.
+    /// Turns the topography over about the y axis, to mount it as the upper body: mirrored in x and negated.
     ///
-    /// Heights measured with the material's side up become the height of the underside. Twice is nothing.
+    /// Heights measured with the material's side up become the height of the underside. Applied twice, it is the identity.
     pub fn underside(self) -> Self {
         let mut mirrored = self.mirror(Axis::X);
         mirrored.heights_mut().mapv_inplace(|z| -z);
         mirrored
     }
 
-    /// Rotated in its plane by `angle`, in radians, from x towards y.
+    /// Rotates the topography in its plane by `angle`, in radians, from x towards y.
     ///
-    /// By quarter turns exactly, numbers of cells and pitches exchanged; by what is left, at most an eighth of a turn
-    /// either way, with the pitches as they are then. There the heights are those of the cubic spline through the
-    /// samples, right to the fourth order in the pitch, on the largest rectangle along x and y about the middle that
-    /// lies within the outermost samples: no height is made up beyond them. A height with an undefined sample among the
-    /// four around it is undefined.
+    /// Quarter turns are exact and exchange the numbers of cells and the pitches. The remainder, at most an eighth of a
+    /// turn in either direction, keeps the pitches after the quarter turns. Its heights are those of the cubic spline
+    /// through the samples, of fourth order in the pitch. They cover the largest rectangle along x and y around the middle
+    /// that lies within the outermost samples, so that no height is extrapolated. A height with an undefined sample among
+    /// the four around it is undefined.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the angle is not finite.
@@ -58,7 +58,7 @@ impl Topography {
         Self::new(grid, heights)
     }
 
-    /// The topography rotated by at most an eighth of a turn, but not by nothing.
+    /// Rotates the topography by at most an eighth of a turn, but not by 0.
     fn rotate_a_little(self, angle: f64) -> Result<Self> {
         let old = *self.grid();
         let new = rotated_a_little(&old, angle)?;
@@ -100,9 +100,9 @@ fn dimension(axis: Axis) -> Dimension {
     }
 }
 
-/// Quarter turns, 0 to 3, and what is left of an angle, at most an eighth of a turn.
+/// Returns the quarter turns, 0 to 3, and the remainder of an angle, at most an eighth of a turn.
 fn quarters(angle: f64) -> Result<(usize, f64)> {
-    /// Part of a quarter turn that counts as round-off.
+    /// Fraction of a quarter turn that is round-off.
     const CRUMB: f64 = 1e-9;
     check_in(units::Dimension::Angle, "rotate", angle, angle.is_finite(), "a finite angle")?;
     let quarters = (angle / FRAC_PI_2).round();
@@ -110,7 +110,7 @@ fn quarters(angle: f64) -> Result<(usize, f64)> {
     Ok((quarters.rem_euclid(4.0) as usize, if left.abs() <= CRUMB { 0.0 } else { left }))
 }
 
-/// The grid of a topography on `old` after [`Topography::rotate`], if a height of it is defined.
+/// Returns the grid of a topography on `old` after [`Topography::rotate`], if any of its heights is defined.
 pub(super) fn rotated(old: &Grid, angle: f64) -> Result<Grid> {
     let (quarters, left) = quarters(angle)?;
     let Grid { shape: [nx, ny], pitch: [px, py] } = *old;
@@ -126,9 +126,9 @@ fn rotated_a_little(old: &Grid, angle: f64) -> Result<Grid> {
     Grid::new(shape, old.pitch)
 }
 
-/// Sides of the largest rectangle w × h that lies, turned, within W × H: w cos + h sin ≤ W, w sin + h cos ≤ H.
+/// Returns the sides of the largest rotated rectangle w × h within W × H: w cos + h sin ≤ W, w sin + h cos ≤ H.
 fn inscribed([width, height]: [f64; 2], sin: f64, cos: f64) -> [f64; 2] {
-    // Where one of the two is much the shorter, it alone is the bound.
+    // If one of the two is much shorter, it alone is the bound.
     let slim = 2.0 * sin * cos;
     if height <= slim * width {
         return [0.5 * height / sin, 0.5 * height / cos];
@@ -140,7 +140,7 @@ fn inscribed([width, height]: [f64; 2], sin: f64, cos: f64) -> [f64; 2] {
     [(width * cos - height * sin) / determinant, (height * cos - width * sin) / determinant]
 }
 
-/// The bicubic spline through a field: heights, slopes along x and y, and of the one along the other.
+/// The bicubic spline through a field: heights, slopes along x and y, and the mixed derivative.
 struct Spline([Field; 4]);
 
 impl Spline {
@@ -150,7 +150,7 @@ impl Spline {
         Self([z, along_x, along_y, cross])
     }
 
-    /// The samples, of `n`, below and above a position between them, and its weights; both the same at the last one.
+    /// Returns the samples, of `n`, below and above a position, and its weights; both samples are equal at the last one.
     fn around(position: f64, n: usize) -> ([usize; 2], [f64; 4]) {
         let below = (position as usize).min(n - 1);
         ([below, (below + 1).min(n - 1)], hermite(position - below as f64))
@@ -200,7 +200,7 @@ mod tests {
     fn quarter_turns_move_the_samples_and_lose_nothing() {
         let quarter = numbered().rotate(FRAC_PI_2).unwrap();
         assert_eq!((quarter.grid().shape, quarter.grid().pitch), ([3, 4], [2.0, 1.0]));
-        // What lay at the end of x lies at the end of y; what lay at the end of y, at the beginning of x.
+        // The end of x is mapped to the end of y; the end of y to the beginning of x.
         assert_eq!((quarter.heights()[[2, 3]], quarter.heights()[[0, 0]]), (30.0, 2.0));
         let half = numbered().mirror(Axis::X).mirror(Axis::Y);
         assert_eq!(quarter.clone().rotate(FRAC_PI_2).unwrap().heights(), half.heights());
@@ -245,7 +245,7 @@ mod tests {
             let area = |w: f64| w * ((width - w * cos) / sin).min((height - w * sin) / cos);
             let best = (0..100_000).map(|i| area(1e-4 * f64::from(i))).fold(0.0, f64::max);
             let [w, h] = inscribed([width, height], sin, cos);
-            // The search goes in steps of 10⁻⁴ of w, and a corner of its bound lies between two.
+            // The search uses steps of 10⁻⁴ of w, and a corner of its bound lies between two.
             assert!((w * h / best - 1.0).abs() < 1e-3);
             assert!(
                 w * cos + h * sin <= width * (1.0 + 1e-12) && w * sin + h * cos <= height * (1.0 + 1e-12)

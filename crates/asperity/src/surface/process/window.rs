@@ -1,14 +1,14 @@
-//! The part of a topography that is kept.
+//! Selection of a part of a topography.
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::surface::Topography;
 
 impl Topography {
-    /// The part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window `[x0, y0, nx, ny]`.
+    /// Returns the part of `nx` × `ny` samples that begins at sample `(x0, y0)`, for a window `[x0, y0, nx, ny]`.
     ///
     /// # Errors
-    /// [`Error::WindowOutside`] if the window is empty or reaches beyond the samples.
+    /// [`Error::WindowOutside`] if the window is empty or extends beyond the samples.
     pub fn window(&self, window: [usize; 4]) -> Result<Self> {
         let grid = within(self.grid(), window)?;
         let [x0, y0, ..] = window;
@@ -17,7 +17,7 @@ impl Topography {
     }
 }
 
-/// The grid of a window within `old`.
+/// Returns the grid of a window within `old`.
 pub(super) fn within(old: &Grid, window: [usize; 4]) -> Result<Grid> {
     let [x0, y0, nx, ny] = window;
     let shape = old.shape;

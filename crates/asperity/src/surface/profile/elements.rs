@@ -1,6 +1,6 @@
 //! Profile elements: hills and dales between crossings of the mean line.
 
-/// What a hill or a dale must have to count.
+/// Minimum size of a hill or a dale.
 pub(super) struct Discrimination {
     /// Height of a hill above the mean line.
     pub(super) hill: f64,
@@ -14,16 +14,16 @@ pub(super) struct Discrimination {
 pub(super) struct Element {
     /// Width of both, in samples.
     pub(super) spacing: f64,
-    /// Height of the hill and depth of the dale together.
+    /// Height of the hill plus depth of the dale.
     pub(super) height: f64,
 }
 
-/// The elements of `heights`, which are taken from the mean line.
+/// Finds the elements of `heights`, which are relative to the mean line.
 ///
-/// Crossing-the-line segmentation: the profile is cut where its polygon crosses the mean line; a hill or dale that
-/// does not pass the discrimination is united with what stands before it. Both orders of hill and dale count, and
-/// the profile is run through in both directions, so that the elements overlap and no direction is preferred. What
-/// an end or an undefined sample cuts is no element. ISO 21920-2:2021; Scott, Meas. Sci. Technol. 17, 559 (2006).
+/// Crossing-the-line segmentation: the profile is cut where its polygon crosses the mean line. A hill or dale below the
+/// minimum size is merged with its predecessor. Both orders of hill and dale count, and the profile is processed in both
+/// directions, so that the elements overlap and no direction is preferred. A part cut off by an end or by an undefined
+/// sample is no element. ISO 21920-2:2021; Scott, Meas. Sci. Technol. 17, 559 (2006).
 pub(super) fn elements(heights: &[f64], discrimination: &Discrimination) -> Vec<Element> {
     let reversed: Vec<f64> = heights.iter().rev().copied().collect();
     [heights, &reversed]
@@ -43,12 +43,12 @@ impl Element {
     }
 }
 
-/// A hill or a dale, in samples from the begin of its run.
+/// A hill or a dale, in samples from the start of its run.
 #[derive(Clone)]
 struct Part {
     start: f64,
     end: f64,
-    /// The highest or lowest height of the element.
+    /// Highest or lowest height of the element.
     extreme: f64,
 }
 
@@ -64,7 +64,7 @@ impl Part {
     }
 }
 
-/// The run cut at each crossing of the mean line.
+/// Cuts the run at each crossing of the mean line.
 fn parts(run: &[f64]) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for (i, &z) in run.iter().enumerate() {
@@ -86,7 +86,7 @@ fn parts(run: &[f64]) -> Vec<Part> {
     parts
 }
 
-/// Hills and dales in turn, each of which passes.
+/// Returns alternating hills and dales, each above the minimum size.
 fn significant(parts: &[Part], discrimination: &Discrimination) -> Vec<Part> {
     let mut kept: Vec<Part> = Vec::new();
     for part in parts {
@@ -121,8 +121,8 @@ mod tests {
     fn elements_of_a_wave_are_as_wide_as_the_wave() {
         let heights: Vec<f64> = (0..400).map(|i| (TAU * (i as f64 + 0.3) / 37.0).sin()).collect();
         let found = elements(&heights, &ANY);
-        // 21 crossings bound 20 whole hills and dales, in 19 pairs, in both directions. A chord of the sine is off
-        // the curve by h²/8 · |sin| ≤ h³/16 near its node, and so is the crossing, h = 2π/37.
+        // 21 crossings bound 20 whole hills and dales, in 19 pairs, in both directions. A chord of the sine deviates from
+        // the curve by h²/8 · |sin| ≤ h³/16 near its node, and so does the crossing, h = 2π/37.
         assert_eq!(found.len(), 2 * 19);
         for element in &found {
             assert!(
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn ripples_on_the_mean_line_do_not_count() {
-        // A square wave of period 40 with a ripple at each of its flanks.
+        // A square wave of period 40 with a ripple on each of its flanks.
         let mut heights: Vec<f64> = (0..400).map(|i| if i / 20 % 2 == 0 { 1.0 } else { -1.0 }).collect();
         for flank in (20..400).step_by(20) {
             heights[flank - 1] *= -0.05;

@@ -1,12 +1,12 @@
-//! The Gaussian profile filter of ISO 16610-21, with ends and holes.
+//! Gaussian profile filter of ISO 16610-21, with treatment of ends and holes.
 
 use std::f64::consts::{LN_2, PI};
 
-/// The long waves of `heights`: a sum weighted by exp(−π (x/αλ)²), α = √(ln 2/π), with the cut-off λ in samples.
+/// Returns the long waves of `heights`: a mean weighted by exp(−π (x/αλ)²), α = √(ln 2/π), with the cut-off λ in samples.
 ///
-/// The weights end at one cut-off, where what they leave out is 10⁻⁷ of their sum. Near an end and near undefined
-/// samples, which stay so, the line that fits best under the weights takes the place of their mean (ISO 16610-28
-/// calls it retaining the moments): a straight line passes unchanged everywhere.
+/// The weights end at one cut-off, where the omitted part is 10⁻⁷ of their sum. Near an end and near undefined samples, the
+/// weighted least-squares line replaces the weighted mean (ISO 16610-28 calls it retaining the moments). A straight line
+/// therefore passes unchanged everywhere. Undefined samples stay undefined.
 pub(super) fn smooth(heights: &[f64], cutoff: f64) -> Vec<f64> {
     let reach = (cutoff.ceil() as usize).min(heights.len());
     let weights: Vec<f64> =
@@ -42,7 +42,7 @@ mod tests {
             let left = 2f64.powf(-(cutoff / wavelength).powi(2));
             let smooth = smooth(&heights, cutoff);
             let error = |i: usize| (smooth[i] - left * heights[i]).abs();
-            // Beyond one cut-off from the ends; the weights cut off are erfc(√π/α) = 9.5e-8 of all.
+            // Beyond one cut-off from the ends; the omitted weights are erfc(√π/α) = 9.5e-8 of all.
             let worst = (81..n - 81).map(error).fold(0.0, f64::max);
             assert!(worst < 3e-7, "λ {wavelength}, λc {cutoff}: {worst:e}");
         }

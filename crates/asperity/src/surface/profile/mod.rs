@@ -1,4 +1,4 @@
-//! Profiles: heights along a line, filtered and described after ISO 21920-2:2021.
+//! Profiles: heights along a line, filtered and described according to ISO 21920-2:2021.
 
 mod elements;
 mod gaussian;
@@ -10,22 +10,22 @@ use crate::error::{Error, Result, check, check_in};
 use crate::surface::{Axis, BearingCurve, Topography};
 use crate::units::{Dimension, Metre};
 
-/// Heights along a line at one spacing, in metres; an undefined sample is NaN.
+/// Heights along a line at uniform spacing, in metres; an undefined sample is NaN.
 ///
-/// A roughness profile also knows its section length, the cut-off λc.
+/// A roughness profile also stores its section length, the cut-off λc.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     pitch: Metre,
     heights: Vec<Metre>,
-    /// Section length; none where the whole profile is one section.
+    /// Section length; `None` if the whole profile is one section.
     section: Option<Metre>,
 }
 
 impl Profile {
-    /// The profile with these `heights`, each finite, or NaN where undefined, `pitch` apart.
+    /// Creates a profile with these `heights`, each finite, or NaN if undefined, `pitch` apart.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no heights, one is infinite, or the pitch is not a positive length.
+    /// [`Error::OutOfRange`] if there are no heights, if one is infinite, or if the pitch is not a positive length.
     pub fn new(pitch: Metre, heights: Vec<Metre>) -> Result<Self> {
         check_in(Dimension::Length, "pitch", pitch, pitch > 0.0 && pitch.is_finite(), "a positive length")?;
         check("number of heights", heights.len() as f64, !heights.is_empty(), "at least 1")?;
@@ -45,19 +45,19 @@ impl Profile {
         self.pitch
     }
 
-    /// Heights; NaN where undefined.
+    /// Heights; NaN if undefined.
     pub fn heights(&self) -> &[Metre] {
         &self.heights
     }
 
-    /// Evaluation length: the pitch for each sample.
+    /// Evaluation length: the pitch times the number of samples.
     pub fn length(&self) -> Metre {
         self.pitch * self.heights.len() as f64
     }
 
-    /// The primary profile: without waves below the nesting index λs.
+    /// Returns the primary profile: without waves below the nesting index λs.
     ///
-    /// A wave of length λ is left with the part 2^−(λs/λ)²; of length λs a half. ISO 16610-21.
+    /// A wave of length λ is reduced to the fraction 2^−(λs/λ)², which is a half at λs. ISO 16610-21.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless the nesting index is at least two pitches.
@@ -65,25 +65,25 @@ impl Profile {
         self.with(self.smoothed(nesting_index)?, None)
     }
 
-    /// The waviness: without waves below the cut-off λc, by the same filter as [`Profile::primary`].
+    /// Returns the waviness: without waves below the cut-off λc, by the same filter as [`Profile::primary`].
     ///
     /// # Errors
-    /// As [`Profile::primary`].
+    /// The errors of [`Profile::primary`].
     pub fn waviness(&self, cutoff: Metre) -> Result<Self> {
         self.primary(cutoff)
     }
 
-    /// The roughness: what the waviness leaves, to be described in sections of the length λc.
+    /// Returns the roughness: the profile minus its waviness, to be described in sections of the length λc.
     ///
     /// # Errors
-    /// As [`Profile::primary`].
+    /// The errors of [`Profile::primary`].
     pub fn roughness(&self, cutoff: Metre) -> Result<Self> {
         let waviness = self.smoothed(cutoff)?;
         let rough = self.heights.iter().zip(waviness).map(|(z, w)| z - w).collect();
         self.with(rough, Some(cutoff))
     }
 
-    /// The material ratio curve: Rmr(c), Rmc(p), and Rdc(p, q) = Rmc(p) − Rmc(q).
+    /// Returns the material ratio curve: Rmr(c), Rmc(p), and Rdc(p, q) = Rmc(p) − Rmc(q).
     ///
     /// # Errors
     /// [`Error::NothingDefined`] without a defined sample.
@@ -109,7 +109,7 @@ impl Profile {
 }
 
 impl Topography {
-    /// The profile along `axis` at the sample `index` of the other axis.
+    /// Returns the profile along `axis` at the sample `index` of the other axis.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no such line.
@@ -119,12 +119,12 @@ impl Topography {
         Ok(self.line(axis, index))
     }
 
-    /// All profiles along `axis`.
+    /// Iterates over all profiles along `axis`.
     pub fn profiles(&self, axis: Axis) -> impl Iterator<Item = Profile> {
         (0..self.grid().shape[1 - axis as usize]).map(move |index| self.line(axis, index))
     }
 
-    /// Parameters of the roughness profiles along `axis` with the cut-off λc, each the mean over the lines.
+    /// Computes the parameters of the roughness profiles along `axis` with the cut-off λc, each as the mean over the lines.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless the cut-off is at least two pitches.

@@ -7,12 +7,11 @@ use crate::surface::parameters::slope::{REACH, derivative};
 use crate::surface::parameters::{Core, HeightParameters, area_excess};
 
 family! {
-    /// Profile parameters of ISO 21920-2:2021 over the defined samples, heights taken from their mean.
+    /// Profile parameters of ISO 21920-2:2021 over the defined samples, with heights relative to their mean.
     ///
-    /// The letter is that of a roughness profile: of a primary profile the same is Pa, Pq, …, of a waviness Wa,
-    /// Wq, …. Rp, Rv, Rz are means over sections; a roughness profile has sections of the length λc from its
-    /// begin, and a rest shorter than that has no part in them; any other profile, and one shorter than λc, is one
-    /// section. A parameter without meaning is NaN.
+    /// The letter R is that of a roughness profile; a primary profile has Pa, Pq, …, a waviness Wa, Wq, …. Rp, Rv, Rz are
+    /// means over sections. A roughness profile has sections of the length λc from its start, and a shorter remainder is
+    /// ignored. Any other profile, and one shorter than λc, is one section. An undefined parameter is NaN.
     ProfileParameters: "profile" {
         /// Arithmetic mean height, ⟨|z|⟩.
         ra: Length as "Ra",
@@ -32,8 +31,8 @@ family! {
         rt: Length as "Rt",
         /// Mean height of the profile elements.
         ///
-        /// An element is a hill with the dale beside it, between crossings of the mean line; it counts if the hill
-        /// is higher than 10 % of Rp, the dale deeper than 10 % of Rv, and each wider than 1 % of a section.
+        /// An element is a hill with the dale beside it, between crossings of the mean line. It counts if the hill is
+        /// higher than 10 % of Rp, the dale deeper than 10 % of Rv, and each wider than 1 % of a section.
         rc: Length as "Rc",
         /// Mean spacing of the profile elements.
         rsm: Length as "Rsm",
@@ -75,7 +74,7 @@ family! {
 }
 
 impl ProfileParameters {
-    /// Each parameter's mean over the profiles where it has a meaning.
+    /// Returns the mean of each parameter over the profiles for which it is defined.
     pub fn mean(profiles: &[Self]) -> Self {
         Self::from_each(|parameter| {
             let defined = || profiles.iter().map(parameter).filter(|value| !value.is_nan());
@@ -85,7 +84,8 @@ impl ProfileParameters {
 }
 
 impl Profile {
-    /// The ISO 21920 parameters of the profile as it is; those of the roughness are of [`Profile::roughness`].
+    /// Computes the ISO 21920 parameters of the profile as it is; for roughness parameters, use [`Profile::roughness`]
+    /// first.
     pub fn parameters(&self) -> ProfileParameters {
         let height = HeightParameters::of_samples(&self.heights);
         let Sections { peak, pit, samples } = self.sections();
@@ -122,12 +122,12 @@ impl Profile {
         }
     }
 
-    /// Mean over the sections of the highest peak and of the deepest pit.
+    /// Returns the mean over the sections of the highest peak and of the deepest pit.
     fn sections(&self) -> Sections {
         let n = self.heights.len();
         let samples = self.section.map_or(n as f64, |length| length / self.pitch).min(n as f64);
         let begin = |section: usize| (section as f64 * samples).round() as usize;
-        // As many as are whole, a rounding put aside.
+        // Number of whole sections, within round-off.
         let whole = (n as f64 / samples + 1e-9) as usize;
         let mean = self.mean();
         let extreme = |pick: fn(f64, f64) -> f64| {
@@ -154,7 +154,7 @@ impl Profile {
         }
     }
 
-    /// Mean spacing and height of the elements, with `samples` in a section of mean `peak` and `pit`.
+    /// Returns the mean spacing and height of the elements, with `samples` in a section of mean `peak` and `pit`.
     fn mean_element(&self, peak: f64, pit: f64, samples: f64) -> [f64; 2] {
         let mean = self.mean();
         let from_mean: Vec<f64> = self.heights.iter().map(|z| z - mean).collect();
@@ -174,7 +174,7 @@ impl Profile {
 struct Sections {
     peak: f64,
     pit: f64,
-    /// The number of samples in one section.
+    /// Number of samples in one section.
     samples: f64,
 }
 
@@ -212,7 +212,7 @@ mod tests {
         assert_relative_eq!(parameters.rc, 1.0, max_relative = step * step);
         assert_relative_eq!(parameters.rsm, 1.0, max_relative = 1e-12);
         assert_relative_eq!(parameters.rpc, 1.0, max_relative = 1e-12);
-        // The slopes are those of all samples but three at each end, where they are steepest.
+        // The slopes are those of all samples except three at each end, where they are steepest.
         assert_relative_eq!(parameters.rdt, PI, max_relative = step * step);
         assert_relative_eq!(parameters.rdq, PI / 2f64.sqrt(), max_relative = 6.0 / 800.0);
         assert_relative_eq!(parameters.rda, 2.0, max_relative = 6.0 / 800.0);
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn a_triangle_has_uniform_heights_and_one_slope() {
         let parameters = profile(4000, |x| 2.0 * ((0.2 * x).rem_euclid(1.0) - 0.5).abs() - 0.5).parameters();
-        // Waves of 5 and 500 samples: 8 of them.
+        // Eight waves, each of length 5 and with 500 samples.
         let near = 1.0 / 500.0;
         assert_relative_eq!(parameters.ra, 0.25, max_relative = near);
         assert_relative_eq!(parameters.rq, 0.5 / 3f64.sqrt(), max_relative = near);
@@ -230,11 +230,11 @@ mod tests {
         assert_relative_eq!(parameters.rc, 1.0, max_relative = 2.0 * near);
         assert_relative_eq!(parameters.rk, 1.0, max_relative = 2.0 * near);
         assert_abs_diff_eq!(parameters.rpk, 0.0, epsilon = 2.0 * near);
-        // Slope 0.4 but for the six samples around each of two corners in a wave.
+        // Slope 0.4 except for the six samples around each of two corners per wave.
         assert_relative_eq!(parameters.rda, 0.4, max_relative = 12.0 * near);
         assert_relative_eq!(parameters.rdq, 0.4, max_relative = 12.0 * near);
         assert_relative_eq!(parameters.rdr, 1.16f64.sqrt() - 1.0, max_relative = 24.0 * near);
-        // The derivative overshoots nowhere: the weights 45, −9, 1 of a corner.
+        // The derivative overshoots by less than a quarter at a corner, because of its weights 45, −9, 1.
         assert!(parameters.rdt < 0.4 * 1.25);
     }
 
@@ -247,7 +247,7 @@ mod tests {
             assert_abs_diff_eq!(rough.heights()[i] + wavy.heights()[i], *z, epsilon = 1e-15);
         }
         let (rough, wavy) = (rough.parameters(), wavy.parameters());
-        // Of the long wave the part 1 − 2^(−(1/10)²) = 0.7 % stays in the roughness, more only at the ends.
+        // Of the long wave the fraction 1 − 2^(−(1/10)²) = 0.7 % stays in the roughness, more only at the ends.
         let rest = 3.0 * (1.0 - 2f64.powf(-0.01));
         assert_relative_eq!(rough.rq, (0.005 + 0.5 * rest * rest).sqrt(), max_relative = 0.01);
         assert_relative_eq!(rough.rsm, 0.2, max_relative = 0.01);
@@ -260,7 +260,7 @@ mod tests {
 
     #[test]
     fn sections_share_their_peaks_and_the_rest_has_none() {
-        // Five sections of 100 samples and a rest; a spike in the second and a pit in the rest.
+        // Five sections of 100 samples and a remainder, with a spike in the second section and a pit in the remainder.
         let mut spiked = profile(560, |_| 0.0);
         spiked.heights[150] = 1.0;
         spiked.heights[530] = -2.0;
@@ -271,7 +271,7 @@ mod tests {
         assert_relative_eq!(parameters.rv, mean, max_relative = 1e-9);
         assert_relative_eq!(parameters.rz, 0.2, max_relative = 1e-12);
         assert_relative_eq!(parameters.rt, 3.0, max_relative = 1e-12);
-        // Shorter than a section: one.
+        // Shorter than a section: one section.
         spiked.section = Some(10.0);
         assert_relative_eq!(spiked.parameters().rz, 3.0, max_relative = 1e-12);
     }

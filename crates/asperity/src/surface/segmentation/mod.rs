@@ -1,4 +1,4 @@
-//! Hills and dales: the segmentation of a topography by its course and ridge lines.
+//! Segmentation of a topography into hills and dales by its course and ridge lines.
 
 mod relief;
 mod watershed;
@@ -11,28 +11,27 @@ use crate::units::{CubicMetre, Metre, SquareMetre};
 use relief::Relief;
 use watershed::{Pruned, Watershed};
 
-/// The Wolf pruning of ISO 25178-3, as a share of Sz.
+/// Wolf pruning of ISO 25178-3, as a fraction of Sz.
 pub const WOLF_PRUNING: f64 = 0.05;
 
 /// A topography divided into hills around its peaks, or into dales around its pits.
 ///
-/// A Maxwellian hill is all from where the steepest way up ends at the same peak (ISO 25178-2:2012, 3.3.1;
-/// Maxwell, Phil. Mag. 40, 421 (1870)): a sample belongs to the hill of the steepest of its eight neighbours,
-/// those on the diagonals at their distance. On a plateau the shortest way to where it rises is taken; a
-/// plateau that rises nowhere is one peak, at its first sample. Dales are the hills of −z, also with eight
-/// neighbours, so a ridge and a course may cross between four samples.
+/// A Maxwellian hill is the area from which the steepest upward paths end at the same peak (ISO 25178-2:2012, 3.3.1;
+/// Maxwell, Phil. Mag. 40, 421 (1870)). A sample belongs to the hill of the steepest of its eight neighbours, with the true
+/// distance to diagonal ones. On a plateau the shortest path to a rise is followed; a plateau without a rise is one peak,
+/// at its first sample. Dales are the hills of −z, also with eight neighbours, so that a ridge and a course line may cross
+/// between four samples.
 ///
-/// Hills too low to matter are pruned, dales too shallow by themselves (ISO 16610-85; Wolf, Computers &
-/// Geosciences 17, 1359 (1991); Scott, Proc. R. Soc. Lond. A 460, 2845 (2004)): as long as a peak stands less
-/// than the threshold above the highest saddle around its hill, the lowest such hill becomes part of the one
-/// across that saddle. So the peak is the highest sample of its hill.
+/// Low hills and shallow dales are pruned independently (ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991);
+/// Scott, Proc. R. Soc. Lond. A 460, 2845 (2004)). As long as a peak is less than the threshold above the highest saddle
+/// around its hill, the lowest such hill is merged with the one across that saddle. The peak is thus the highest sample of
+/// its hill.
 ///
-/// An undefined sample is nobody's neighbour. Samples that holes cut off from all others are an island, whose
-/// highest peak is measured from the lowest sample; where even that stays below the threshold, and on a plane,
-/// there is no hill.
+/// An undefined sample is not a neighbour. Samples separated from all others by holes form an island, whose highest peak is
+/// measured from the lowest sample. If even that is below the threshold, and on a plane, there is no hill.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segmentation {
-    /// For each sample the number of its hill or dale, counted from 1 in the order of `motifs`; 0 without one.
+    /// For each sample the number of its hill or dale, from 1 in the order of `motifs`; 0 without one.
     pub labels: Array2<u32>,
     /// The hills, highest peak first, or the dales, deepest pit first.
     pub motifs: Vec<Motif>,
@@ -43,29 +42,26 @@ pub struct Segmentation {
 pub struct Motif {
     /// The sample `[ix, iy]` of the peak or pit.
     pub at: [usize; 2],
-    /// Height z of the peak or pit, as the topography has it.
+    /// Height z of the peak or pit in the topography.
     pub height: Metre,
-    /// Height z of the saddle that it is connected to: the highest around the hill, the lowest around the dale.
-    /// Of the only hill of an island its lowest sample, of the only dale the highest.
+    /// Height z of the connecting saddle: the highest around a hill, the lowest around a dale. For the only hill of an
+    /// island it is the lowest sample, for the only dale the highest.
     pub saddle: Metre,
-    /// The threshold above which it would be pruned, > 0: height of the peak above the saddle from which a
-    /// higher peak is reached, or of an island's highest peak above its lowest sample. ≥ |height − saddle|.
+    /// Threshold above which it would be pruned, > 0: the height of the peak above the saddle towards a higher peak, or of
+    /// an island's highest peak above its lowest sample. ≥ |height − saddle|.
     pub prominence: Metre,
     /// Mean curvature −½ (∂²z/∂x² + ∂²z/∂y²) at the peak or pit, 1/m: ≥ 0 at a peak, ≤ 0 at a pit.
     ///
-    /// From the second differences (z₊₁ − 2 z₀ + z₋₁)/Δx², too small by (2πΔx/λ)²/12 of itself on a wave of
-    /// length λ. NaN beside an undefined sample and at the border; there is no curvature along a direction
-    /// with one sample.
+    /// From the second differences (z₊₁ − 2 z₀ + z₋₁)/Δx², with a relative error of −(2πΔx/λ)²/12 for a wave of length λ.
+    /// NaN beside an undefined sample and at the boundary; the curvature along a direction with one sample is 0.
     pub curvature: f64,
     /// Area of its samples.
     pub area: SquareMetre,
-    /// Volume of the hill above the height of its saddle, or of the dale below it: what the dale holds before
-    /// it overflows.
+    /// Volume of the hill above the height of its saddle, or of the dale below it, which it holds before it overflows.
     pub volume: CubicMetre,
-    /// Whether it does not reach the rim of the measured area at the height of 50 % material ratio: no sample
-    /// at the rim is as high as that height in the hill, or as low in the dale. The rim is the border of the
-    /// grid, and that of what is undefined from there on; holes inside are no rim, nor are the sides of a
-    /// single row.
+    /// Whether it does not reach the boundary of the measured area at the height of 50 % material ratio. Then no sample at
+    /// the boundary is as high as that height in the hill, or as low in the dale. The boundary is the edge of the grid, or
+    /// that of undefined samples connected to the edge. Inner holes and the sides of a single row do not count.
     pub closed: bool,
 }
 
@@ -77,7 +73,7 @@ impl Motif {
 }
 
 impl Topography {
-    /// The hills that stand at least `pruning` of Sz above their saddles; [`WOLF_PRUNING`] is usual.
+    /// Segments the hills at least `pruning` · Sz above their saddles; [`WOLF_PRUNING`] is usual.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
@@ -85,15 +81,15 @@ impl Topography {
         self.hills_until(pruning, NEVER)
     }
 
-    /// As [`hills`](Self::hills), unless `stop` says so first.
+    /// [`hills`](Self::hills) that can be stopped by `stop`.
     ///
     /// # Errors
-    /// As [`hills`](Self::hills); [`crate::Error::Interrupted`].
+    /// The errors of [`hills`](Self::hills); [`crate::Error::Interrupted`].
     pub fn hills_until(&self, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
         segment(self, 1.0, pruning, stop)
     }
 
-    /// The dales at least `pruning` of Sz deep below their saddles; [`WOLF_PRUNING`] is usual.
+    /// Segments the dales at least `pruning` · Sz below their saddles; [`WOLF_PRUNING`] is usual.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] if `pruning` is not from 0 to 1.
@@ -101,16 +97,16 @@ impl Topography {
         self.dales_until(pruning, NEVER)
     }
 
-    /// As [`dales`](Self::dales), unless `stop` says so first.
+    /// [`dales`](Self::dales) that can be stopped by `stop`.
     ///
     /// # Errors
-    /// As [`dales`](Self::dales); [`crate::Error::Interrupted`].
+    /// The errors of [`dales`](Self::dales); [`crate::Error::Interrupted`].
     pub fn dales_until(&self, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
         segment(self, -1.0, pruning, stop)
     }
 }
 
-/// The hills of `up` · z.
+/// Segments the hills of `up` · z.
 fn segment(topography: &Topography, up: f64, pruning: f64, stop: Stop<'_>) -> Result<Segmentation> {
     check("pruning", pruning, (0.0..=1.0).contains(&pruning), "a share of Sz from 0 to 1")?;
     let relief = Relief::of(topography, up);
@@ -174,8 +170,8 @@ mod tests {
         Topography::new(Grid::new(heights.dim().into(), [1.0, 1.0]).unwrap(), heights).unwrap()
     }
 
-    /// ½ (cos kx + cos ky), `n` samples of pitch 1 a wave, n odd, and m × m whole waves: a peak in the middle
-    /// of each square of n × n samples, which is its hill; saddles at height 0 between them.
+    /// ½ (cos kx + cos ky) with `n` samples of pitch 1 per wave, n odd, and m × m whole waves. Each square of n × n samples
+    /// is a hill with a peak in its middle; the saddles between them are at height 0.
     fn egg_box(n: usize, m: usize) -> Topography {
         let cosine = |i: usize| (TAU * (i as f64 - 0.5 * (n as f64 - 1.0)) / n as f64).cos();
         topography(Field::from_shape_fn([n * m, n * m], |(ix, iy)| 0.5 * (cosine(ix) + cosine(iy))))
@@ -222,7 +218,7 @@ mod tests {
             assert_eq!(motif.at, [15 * x + 7, 15 * y + 7]);
             let square = segmentation.labels.slice(ndarray::s![15 * x..15 * (x + 1), 15 * y..15 * (y + 1)]);
             assert!(square.iter().all(|&label| label as usize == hill + 1));
-            // The rim passes the saddles between the outer peaks and those beyond it.
+            // The boundary passes through the saddles between the outer peaks and the next ones outside.
             assert_eq!(motif.closed, [x, y].iter().all(|i| (1..4).contains(i)));
         }
     }
@@ -232,14 +228,14 @@ mod tests {
         let errors = |n: usize| {
             let hill = egg_box(n, 3).hills(WOLF_PRUNING).unwrap().motifs[4];
             let k = TAU / n as f64;
-            // The sample nearest to the saddle is half a pitch beside it.
+            // The sample closest to the saddle is half a pitch away.
             assert_relative_eq!(
                 hill.local_height(),
                 0.5 * (1.0 + (PI / n as f64).cos()),
                 max_relative = 1e-14
             );
             assert_relative_eq!(hill.height, 1.0);
-            // Above z = 0: |x| + |y| < λ/2, and the integral of the height over it is 8/k².
+            // Above z = 0: |x| + |y| < λ/2, where the integral of the height is 8/k².
             [
                 hill.local_height() - 1.0,
                 hill.volume / (8.0 / (k * k)) - 1.0,
@@ -258,7 +254,7 @@ mod tests {
     fn a_low_noise_does_not_change_the_hills_that_pruning_leaves() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let mut rough = egg_box(63, 3);
-        // Heights moved by at most 0.02 move a saddle below its peak by 0.04; pruned is below 5 % of Sz = 2.
+        // Heights changed by at most 0.02 move a saddle relative to its peak by 0.04; the pruning is 5 % of Sz = 2.
         rough.heights_mut().mapv_inplace(|z| z + 0.02 * (2.0 * random.random::<f64>() - 1.0));
         assert!(rough.hills(0.0).unwrap().motifs.len() > 50);
         assert_eq!(rough.hills(WOLF_PRUNING).unwrap().motifs.len(), 9);
@@ -271,7 +267,7 @@ mod tests {
         let height = |x: f64, y: f64| summit(x + 16.0, y) + 0.8 * summit(x - 16.0, y);
         let summits =
             topography(Field::from_shape_fn([81, 41], |(ix, iy)| height(ix as f64 - 40.0, iy as f64 - 20.0)));
-        // The best way from one to the other is the row of both.
+        // The best path between them is the row that contains both.
         let row = summits.heights().column(20);
         let saddle = row.iter().skip(24).take(33).fold(f64::INFINITY, |low, &z| z.min(low));
         let lower = row.iter().skip(40).fold(0.0, |high: f64, &z| z.max(high));
@@ -336,7 +332,7 @@ mod tests {
             hills.motifs.iter().map(|hill| (hill.at, hill.area)).collect::<Vec<_>>(),
             [([1, 1], 42.0)]
         );
-        // A terrace between two summits is divided in its middle.
+        // A terrace between two summits is divided in the middle.
         let terrace = topography(Field::from_shape_fn([10, 1], |(ix, _)| {
             [4.0, 1.0, 3.0][usize::from(ix > 0) + usize::from(ix > 8)]
         }));
@@ -421,13 +417,13 @@ mod tests {
         });
     }
 
-    /// The peaks that rise by their prominence, the highest first, and which samples are on an island with
-    /// one: from the lowest sample on the best way between any two, by Floyd and Warshall's recursion.
+    /// Returns the peaks with their prominence, highest first, and the samples on an island with a peak. It uses the lowest
+    /// sample on the best path between any two samples, by the Floyd–Warshall recursion.
     fn peaks_by_bottleneck(z: &Field, pruning: f64) -> (Vec<([usize; 2], f64)>, Vec<bool>) {
         let samples: Vec<(usize, usize)> = z.indexed_iter().map(|(at, _)| at).collect();
         let n = samples.len();
         let beside = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= 1 && a.1.abs_diff(b.1) <= 1;
-        // −∞ where there is no way; comparisons with NaN fail.
+        // −∞ without a path; comparisons with NaN are false.
         let mut way = Field::from_shape_fn([n, n], |(a, b)| {
             let (low, high) = (z[samples[a]].min(z[samples[b]]), z[samples[a]].max(z[samples[b]]));
             if beside(samples[a], samples[b]) && !(z[samples[a]] + z[samples[b]]).is_nan() {

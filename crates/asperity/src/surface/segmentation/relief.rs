@@ -1,20 +1,20 @@
-//! Heights, and who is whose neighbour.
+//! Heights and their neighbourhood.
 
 use crate::grid::Grid;
 use crate::surface::Topography;
 
-/// Heights in a frame of undefined samples, so that each sample has eight neighbours: a list, in which a
-/// sample is known by its place, the cell.
+/// Heights in a flat list, surrounded by undefined samples, so that each sample has eight neighbours. A sample is
+/// identified by its index, the cell.
 pub(super) struct Relief {
-    /// Heights upwards from where the hills rise; NaN where undefined.
+    /// Heights, with the sign for which hills rise; NaN if undefined.
     pub(super) z: Vec<f64>,
     grid: Grid,
-    /// The steps from a cell to its neighbours, and how far these are.
+    /// Index steps from a cell to its neighbours, with their distances.
     steps: [(isize, f64); 8],
 }
 
 impl Relief {
-    /// The heights of `topography` times `up`.
+    /// Creates the relief from the heights of `topography` times `up`.
     pub(super) fn of(topography: &Topography, up: f64) -> Self {
         let grid = *topography.grid();
         let width = (grid.shape[1] + 2) as isize;
@@ -34,35 +34,35 @@ impl Relief {
         let mut relief = Self { z: vec![f64::NAN; frame], grid, steps };
         for ((ix, iy), z) in topography.heights().indexed_iter() {
             let cell = relief.cell(ix, iy);
-            // 0 in place of −0: one height, one order.
+            // 0 in place of −0, so that equal heights have one order.
             relief.z[cell] = up * z + 0.0;
         }
         relief
     }
 
-    /// The cell of a sample.
+    /// Cell of a sample.
     pub(super) fn cell(&self, ix: usize, iy: usize) -> usize {
         (ix + 1) * (self.grid.shape[1] + 2) + iy + 1
     }
 
-    /// The sample of a cell.
+    /// Sample of a cell.
     pub(super) fn sample(&self, cell: usize) -> [usize; 2] {
         let width = self.grid.shape[1] + 2;
         [cell / width - 1, cell % width - 1]
     }
 
-    /// The cells of all samples, in their order.
+    /// Iterates over the cells of all samples, in order.
     pub(super) fn samples(&self) -> impl Iterator<Item = usize> {
         let [nx, ny] = self.grid.shape;
         (0..nx).flat_map(move |ix| (0..ny).map(move |iy| self.cell(ix, iy)))
     }
 
-    /// The neighbours of a sample's cell.
+    /// Iterates over the neighbours of a cell.
     pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
         self.steps.map(|(step, _)| cell.wrapping_add_signed(step)).into_iter()
     }
 
-    /// The neighbour to which the way up is steepest, of those that `admit` lets through; the first of equals.
+    /// Returns the neighbour with the steepest ascent among those accepted by `admit`; the first of equals.
     pub(super) fn steepest(&self, cell: usize, mut admit: impl FnMut(usize) -> bool) -> Option<usize> {
         let mut best = None;
         let mut steepest = f64::NEG_INFINITY;
@@ -88,8 +88,8 @@ impl Relief {
         -0.5 * (second(0, self.grid.shape[1] + 2) + second(1, 1))
     }
 
-    /// The cells beside the frame, or beside undefined samples that hang together with it. Along a direction
-    /// with one sample there is no frame.
+    /// Returns the cells beside the frame, or beside undefined samples connected to it. Along a direction with one sample
+    /// there is no frame.
     pub(super) fn rim(&self) -> Vec<bool> {
         let shape = self.grid.shape;
         let in_frame = |cell: usize| {

@@ -1,4 +1,4 @@
-//! Maxwellian hills, the tree of their saddles, and its pruning.
+//! Maxwellian hills, their saddle tree, and its pruning.
 
 use rayon::slice::ParallelSliceMut;
 
@@ -6,53 +6,52 @@ use super::relief::Relief;
 use crate::error::Result;
 use crate::surface::{Stop, go_on, go_on_at};
 
-/// No way up.
+/// No upward path.
 const NONE: usize = usize::MAX;
 
 /// No hill.
 const NOWHERE: u32 = u32::MAX;
 
-/// All hills, however low, and how they are connected.
+/// All hills, even low ones, and their connections.
 pub(super) struct Watershed {
-    /// The hill of each cell; hills are numbered from 0 in the order of their peaks, the highest first.
+    /// Hill of each cell; hills are numbered from 0 in the order of their peaks, highest first.
     of: Vec<u32>,
-    /// The cell of each peak, and its height.
+    /// Cell and height of each peak.
     peaks: Vec<(usize, f64)>,
-    /// The places where each peak ceases to be the highest of the land around it.
+    /// The places where each peak ceases to be the highest of its surroundings.
     ends: Vec<End>,
 }
 
-/// The height down to which a peak is the highest of the land around it.
+/// Height down to which a peak is the highest of its surroundings.
 struct End {
     height: f64,
-    /// The hills that meet at the saddle to a higher peak: one of this peak's side, one of the other. None
-    /// for the highest peak of an island, whose land ends at the lowest sample.
+    /// The two hills at the saddle towards a higher peak, one on each side. `None` for the highest peak of an island, whose
+    /// surroundings end at the lowest sample.
     saddle: Option<[u32; 2]>,
 }
 
-/// What pruning leaves.
+/// Result of pruning.
 pub(super) struct Pruned {
-    /// The hill of each cell, counted from 1; 0 without one.
+    /// Hill of each cell, from 1; 0 without one.
     pub(super) of: Vec<u32>,
     /// The hills, highest first.
     pub(super) hills: Vec<Hill>,
 }
 
-/// A hill that was not pruned.
+/// A hill that is not pruned.
 pub(super) struct Hill {
-    /// The cell of its peak.
+    /// Cell of its peak.
     pub(super) peak: usize,
     /// Height of the peak above the saddle to a higher one, or above the lowest sample of the island.
     pub(super) prominence: f64,
-    /// Height of the highest saddle around it; of the only hill of an island that of the lowest sample.
+    /// Height of the highest saddle around it; for the only hill of an island, that of the lowest sample.
     pub(super) saddle: f64,
 }
 
 impl Watershed {
-    /// The hills of `relief`, and the saddles where the lands that a sinking water level lays bare grow
-    /// together.
+    /// Finds the hills of `relief`, and the saddles where areas above a sinking water level merge.
     ///
-    /// Linear in the number of samples, but for sorting the peaks and the samples at borders between hills.
+    /// Linear in the number of samples, except for sorting the peaks and the samples at borders between hills.
     pub(super) fn of(relief: &Relief, stop: Stop<'_>) -> Result<Self> {
         let z = &relief.z;
         let (of, peaks) = hills(relief, stop)?;
@@ -75,7 +74,7 @@ impl Watershed {
                     && find(&mut lands, of[other] as usize) != find(&mut lands, of[cell] as usize)
             }) {
                 let [here, across] = [cell, other].map(|cell| find(&mut lands, of[cell] as usize));
-                // The numbers of peaks grow as their heights fall.
+                // The indices of peaks increase as their heights decrease.
                 let (higher, lower) = (here.min(across), here.max(across));
                 let (inner, outer) = if lower == here { (cell, other) } else { (other, cell) };
                 ends[lower] = End { height, saddle: Some([of[inner], of[outer]]) };
@@ -90,7 +89,7 @@ impl Watershed {
         Ok(Self { of, peaks, ends })
     }
 
-    /// The land in which each hill lower than `threshold`, or without height, has gone to the hill across its saddle.
+    /// Merges each hill lower than `threshold`, or without height, with the hill across its saddle.
     pub(super) fn prune(self, threshold: f64) -> Pruned {
         let mut hills: Vec<Hill> = Vec::new();
         let mut number = vec![0; self.peaks.len()];
@@ -119,13 +118,13 @@ impl Watershed {
     }
 }
 
-/// The hill of each cell, and the peaks: their cells and heights.
+/// Hill of each cell, and the peaks with their heights.
 type Hills = (Vec<u32>, Vec<(usize, f64)>);
 
-/// The hill of each cell, and the peaks with their heights.
+/// Returns the hill of each cell, and the peaks with their heights.
 fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     let z = &relief.z;
-    // The way up: each cell's next one. It ends at a cell that is its own next one.
+    // The upward path: the next cell of each cell. It ends at a cell that is its own successor.
     let mut next = vec![NONE; z.len()];
     for (n, cell) in relief.samples().enumerate() {
         go_on_at(n, stop)?;
@@ -161,8 +160,7 @@ fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     Ok((of, peaks))
 }
 
-/// Sets the ways from the cells of `front` over the plateaus that they lie on, nearest first, where there is no way
-/// up yet.
+/// Sets the paths from the cells of `front` over their plateaus, nearest first, for cells without an upward path.
 fn spread(relief: &Relief, next: &mut [usize], mut front: Vec<usize>) {
     let mut first = 0;
     while let Some(&cell) = front.get(first) {
@@ -176,7 +174,7 @@ fn spread(relief: &Relief, next: &mut [usize], mut front: Vec<usize>) {
     }
 }
 
-/// The end of the way from `at` to what points to itself; the way gets shorter each time.
+/// Returns the end of the path from `at`, which points to itself, and shortens the path.
 fn find(to: &mut [usize], mut at: usize) -> usize {
     while to[at] != at {
         to[at] = to[to[at]];

@@ -1,4 +1,4 @@
-//! The power by direction.
+//! Angular spectrum: the power by direction.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -6,17 +6,16 @@ use super::Spectrum;
 use crate::units::SquareMetre;
 
 impl Spectrum {
-    /// Angular spectrum: variance per radian by the direction of the wave vector, m²,
+    /// Angular spectrum: variance per radian as a function of the direction of the wave vector, m²,
     ///
     /// f(θ) = 2 ∫ C(q cos θ, q sin θ) q dq/(2π)²,  0 < q ≤ [`Spectrum::nyquist`]
     ///
-    /// (the 2 for q and −q), at so many `directions`, at least one, θ = kπ/`directions` from the x axis towards the y axis, each the
-    /// mean over the sector around it; so the sum times π/`directions` is the variance of the waves in the circle. The
-    /// lay is at right angles to the wave vector. ISO 25178-2, angular spectrum, but for the factor.
+    /// (the 2 for q and −q), at `directions` directions, at least one, θ = kπ/`directions` from the x axis towards the y
+    /// axis, each as the mean over its sector. The sum times π/`directions` is the variance of the waves in the circle. The
+    /// lay is at right angles to the wave vector. This is the angular spectrum of ISO 25178-2, apart from the factor.
     ///
-    /// The wave vectors of a grid lie in a few directions only where they are short: each stands for its cell of the
-    /// plane of wave vectors, and its power is spread over the directions that the cell covers, evenly enough for
-    /// white noise to have no direction.
+    /// Short wave vectors of a grid lie in few directions. Each represents its cell in the plane of wave vectors, and its
+    /// power is distributed over the directions of the cell, so that white noise is nearly isotropic.
     pub fn angular(&self, directions: usize) -> Vec<SquareMetre> {
         let directions = directions.max(1);
         let sector = PI / directions as f64;
@@ -43,7 +42,7 @@ impl Spectrum {
     }
 }
 
-/// The part of a tent over −1 … 1, of area 1, that lies below `s`.
+/// Part of the area below `s` of a triangle function over −1 … 1 with area 1.
 fn tent_below(s: f64) -> f64 {
     let s = s.clamp(-1.0, 1.0);
     if s < 0.0 { 0.5 * (1.0 + s).powi(2) } else { 1.0 - 0.5 * (1.0 - s).powi(2) }
@@ -81,8 +80,8 @@ mod tests {
     fn white_noise_has_no_direction() {
         let spectrum = Spectrum::of(&noise([256, 256], [1.0; 2], 1), Window::None);
         let angular = spectrum.angular(36);
-        // The circle holds π/4 of the waves. A sector averages 256² π/4/72 of the pairs ±q, each with the scatter of
-        // its mean; its edges, which waves straddle, a little less.
+        // The circle contains π/4 of the waves. A sector averages 256² π/4/72 of the pairs ±q, each with a relative scatter
+        // of 1; the waves across its edges reduce it slightly.
         let expected = 0.25;
         let error = (72.0 / (256.0 * 256.0 * PI / 4.0f64)).sqrt();
         for (k, power) in angular.iter().enumerate() {

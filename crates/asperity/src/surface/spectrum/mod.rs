@@ -17,18 +17,17 @@ use crate::math::fft::angular_frequency;
 use crate::surface::{Axis, Fill, Topography};
 use crate::units::{RadianPerMetre, SquareMetre};
 
-/// Power spectral density of a topography over the wave vectors that its grid resolves, m⁴:
+/// Power spectral density of a topography at the wave vectors resolved by its grid, m⁴:
 ///
 /// C(q) = |z̃(q)|²/A,  z̃(q) = ΔA Σ w z exp(−iq·x),  ∫ C d²q/(2π)² = (1/A) Σ C = ⟨w² z²⟩ = Sq² without a window
 ///
-/// over wave vectors of both signs: the convention of Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5,
-/// 013001 (2017). The heights z are taken from their mean under the window, Σwz/Σw, so that C(0) = 0; a tilt or a form
-/// is not removed: [`Topography::level`] first.
+/// over wave vectors of both signs: the convention of Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001
+/// (2017). The heights z are relative to their mean with the window, Σwz/Σw, so that C(0) = 0. A tilt or a form is not
+/// removed: apply [`Topography::level`] first.
 ///
-/// Undefined samples are spanned by a membrane ([`Fill::Harmonic`]). Weighting them by zero would spread the share of
-/// the variance that they hold over all waves, and bury the steep fall of the spectra of real surfaces; the membrane
-/// only lacks the waves shorter than the holes, and C is too small there by the undefined share. Without a defined
-/// sample all is NaN.
+/// Undefined samples are filled by a membrane ([`Fill::Harmonic`]). Zero weights would spread their share of the variance
+/// over all waves, and hide the steep decrease of the spectra of real surfaces. The membrane only lacks the waves shorter
+/// than the holes, where C is too small by the undefined fraction. Without a defined sample all values are NaN.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     grid: Grid,
@@ -40,23 +39,23 @@ pub struct Spectrum {
 pub struct SpectralPoint {
     /// Wave number q = 2π/wavelength, rad/m.
     pub wave_number: RadianPerMetre,
-    /// Density: m⁴ where it is a mean of C(q), m³ where it is an integral along the other direction.
+    /// Density: m⁴ for a mean of C(q), m³ for an integral along the other direction.
     pub density: f64,
-    /// Number of wave vectors that it draws on, q and −q counted as two. On a random surface the densities scatter as
-    /// much as they are large: a mean over directions has a relative standard error of √(2/waves), or up to twice that
-    /// under a window.
+    /// Number of contributing wave vectors, with q and −q counted as two. On a random surface the relative scatter of each
+    /// density is 1. A mean over directions has a relative standard error of √(2/waves), or up to twice that with a window.
     pub waves: usize,
 }
 
 impl Spectrum {
-    /// The spectrum of `topography` under `window`.
+    /// Computes the spectrum of `topography` with `window`.
     pub fn of(topography: &Topography, window: Window) -> Self {
         let grid = *topography.grid();
         let mut heights = match topography.clone().fill(Fill::Harmonic) {
             Ok(filled) => filled.into_heights(),
             Err(_) => topography.heights().clone(),
         };
-        // From one of them first: equal heights leave nothing, not even the round-off of their mean.
+        // Heights are first taken relative to one of them: equal heights then give exactly 0, without the round-off of
+        // their mean.
         let first = heights[[0, 0]];
         heights -= first;
         let weights = window.weights(grid.shape);
@@ -67,14 +66,14 @@ impl Spectrum {
         Self { grid, density: transform.mapv(|z| scale * z.norm_sqr()) }
     }
 
-    /// C(q), m⁴, at the wave vectors [`Spectrum::wave_vector`]; those with a negative qy are left out, since
-    /// C(−q) = C(q). Shape `[nx, ny/2 + 1]`.
+    /// C(q), m⁴, at the wave vectors [`Spectrum::wave_vector`]. Those with a negative qy are omitted, because C(−q) = C(q).
+    /// Shape `[nx, ny/2 + 1]`.
     pub fn density(&self) -> &Field {
         &self.density
     }
 
-    /// C(q), m⁴, at the wave vector of k periods along x and l along y, negative ones too; beyond the Nyquist wave
-    /// number it repeats.
+    /// Returns C(q), m⁴, at the wave vector of k periods along x and l along y, also negative ones; periodic beyond the
+    /// Nyquist wave number.
     pub fn at(&self, [k, l]: [isize; 2]) -> f64 {
         let [nx, ny] = self.grid.shape.map(|n| n as isize);
         let l = l.rem_euclid(ny);
@@ -82,14 +81,14 @@ impl Spectrum {
         self.density[[k.rem_euclid(nx) as usize, l as usize]]
     }
 
-    /// The wave vector of entry `[k, l]`, rad/m.
+    /// Wave vector of entry `[k, l]`, rad/m.
     pub fn wave_vector(&self, [k, l]: [usize; 2]) -> [RadianPerMetre; 2] {
         let Grid { shape, pitch } = self.grid;
         [angular_frequency(k, shape[0], pitch[0]), angular_frequency(l, shape[1], pitch[1])]
     }
 
-    /// The highest wave number up to which the grid resolves waves in all directions, π/pitch of the larger pitch.
-    /// A direction with a single sample does not count; 0 for a single sample.
+    /// Largest wave number up to which the grid resolves waves in all directions, π/pitch with the larger pitch. A
+    /// direction with a single sample is ignored; 0 for a single sample.
     pub fn nyquist(&self) -> RadianPerMetre {
         let Grid { shape, pitch } = self.grid;
         let several = (0..2).filter(|&axis| shape[axis] > 1);
@@ -101,7 +100,7 @@ impl Spectrum {
         self.sum(|_| 1.0)
     }
 
-    /// The spectrum of the profiles along `axis`, the mean over them, m³:
+    /// Computes the spectrum of the profiles along `axis`, as the mean over them, m³:
     ///
     /// C¹ᴰ(qx) = ∫ C(qx, qy) dqy/2π,  ∫ C¹ᴰ dqx/2π = Sq² over both signs
     ///
@@ -125,14 +124,14 @@ impl Spectrum {
         points.collect()
     }
 
-    /// (1/A) Σ f(q) C(q), the integral ∫ f C d²q/(2π)², for an even f.
+    /// Computes (1/A) Σ f(q) C(q), the integral ∫ f C d²q/(2π)², for an even f.
     pub(super) fn sum(&self, f: impl Fn([RadianPerMetre; 2]) -> f64) -> f64 {
         let mut sum = 0.0;
         self.for_each_wave(|q, density, signs| sum += signs * density * f(q));
         sum / self.grid.area()
     }
 
-    /// Calls `f(q, C(q), signs)` for each wave, `signs` being 2 where it stands for q and −q.
+    /// Calls `f(q, C(q), signs)` for each wave, with `signs` 2 if it represents q and −q.
     fn for_each_wave(&self, mut f: impl FnMut([RadianPerMetre; 2], f64, f64)) {
         let along_y: Vec<_> = (0..self.density.ncols()).map(|l| self.wave_vector([0, l])[1]).collect();
         for (k, row) in self.density.outer_iter().enumerate() {
@@ -143,7 +142,7 @@ impl Spectrum {
         }
     }
 
-    /// 1 where the entries of column `l` hold both q and −q, else 2.
+    /// Returns 1 if the entries of column `l` contain both q and −q, else 2.
     fn signs(&self, l: usize) -> f64 {
         if l == 0 || 2 * l == self.grid.shape[1] { 1.0 } else { 2.0 }
     }
@@ -158,7 +157,7 @@ mod tests {
     use super::*;
     use crate::surface::Form;
 
-    /// White Gaussian noise of variance 1.
+    /// White Gaussian noise with variance 1.
     pub(super) fn noise(shape: [usize; 2], pitch: [f64; 2], seed: u64) -> Topography {
         use rand::SeedableRng;
         use rand_distr::{Distribution, StandardNormal};
@@ -214,8 +213,8 @@ mod tests {
 
     #[test]
     fn white_noise_has_the_density_of_one_cell_under_every_window() {
-        // ΔA times the variance. A window couples neighbouring waves: under Hann's 35/18 as many stand for an
-        // independent one along each axis, under the others fewer.
+        // ΔA times the variance. A window couples neighbouring waves: with Hann's, 35/18 waves count as one independent
+        // wave along each axis, with the others fewer.
         let spectra = WINDOWS.map(|window| Spectrum::of(&noise([256, 200], [0.5, 0.25], 3), window));
         for spectrum in spectra {
             let (mut sum, mut waves) = (0.0, 0.0);
@@ -252,7 +251,7 @@ mod tests {
 
     #[test]
     fn a_hole_is_spanned_and_costs_the_waves_within_it_only() {
-        // A long wave with a hole of a tenth of its length: the membrane misses it by some q²a²/2 of the height.
+        // A long wave with a hole of a tenth of its length: the membrane misses it by about q²a²/2 of the height.
         let grid = Grid::new([128, 96], [1.0, 1.0]).unwrap();
         let whole = Form::Sinusoid { amplitude: 1.0, wavelength: [64.0, f64::INFINITY] }.on(&grid).unwrap();
         let mut holed = whole.clone();

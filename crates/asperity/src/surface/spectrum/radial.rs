@@ -1,16 +1,16 @@
-//! The mean over all directions.
+//! Radial spectrum: the mean over all directions.
 
 use std::f64::consts::TAU;
 
 use super::{SpectralPoint, Spectrum};
 use crate::grid::Grid;
 
-/// How wave numbers are grouped for a mean over all directions.
+/// Grouping of wave numbers for a mean over all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bins {
-    /// Rings of one step, 2π over the longer side of the topography (of a line, over its length).
+    /// Rings of equal width, 2π over the longer side of the topography (for a line, over its length).
     Linear,
-    /// Rings of one ratio, so many for a factor of ten; at least one is used.
+    /// Rings of equal ratio, with a given number per decade, at least one.
     Logarithmic {
         /// Rings per decade.
         per_decade: u32,
@@ -18,16 +18,16 @@ pub enum Bins {
 }
 
 impl Spectrum {
-    /// Mean over all directions, C^iso(q) = (1/2π) ∫ C(q cos φ, q sin φ) dφ, m⁴, up to [`Spectrum::nyquist`].
+    /// Computes the mean over all directions, C^iso(q) = (1/2π) ∫ C(q cos φ, q sin φ) dφ, m⁴, up to [`Spectrum::nyquist`].
     ///
-    /// The mean of C over the wave vectors in each ring, at the geometric mean of their wave numbers; rings without
-    /// any are left out, and so is q = 0. Of a single line it is the spectrum along it.
-    /// Jacobs, Junge & Pastewka (2017), as for [`Spectrum`].
+    /// It is the mean of C over the wave vectors in each ring, at the geometric mean of their wave numbers. Empty rings and
+    /// q = 0 are omitted. For a single line it is the spectrum along it. Jacobs, Junge & Pastewka (2017), as for
+    /// [`Spectrum`].
     pub fn radial(&self, bins: Bins) -> Vec<SpectralPoint> {
         let Grid { shape, .. } = self.grid;
         let several = (0..2).filter(|&axis| shape[axis] > 1);
         let step = TAU / several.map(|axis| self.grid.extent()[axis]).fold(0.0, f64::max);
-        // A wave on the limit counts, whatever the round-off.
+        // A wave at the limit counts, whatever the round-off.
         let limit = self.nyquist() * (1.0 + 1e-9);
         let ring = |logarithm: f64| match bins {
             Bins::Linear => (logarithm.exp() / step).round(),

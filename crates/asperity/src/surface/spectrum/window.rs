@@ -1,31 +1,31 @@
-//! Windows: weights that fall to zero at the rim.
+//! Windows: weights that decrease to zero at the boundary.
 
 use crate::choice::choice;
 use crate::grid::Field;
 
-/// Weights that make the ends of a topography meet before its transform, over ξ and η, which run from −1 to 1 from
-/// rim to rim; scaled to ⟨w²⟩ = 1, so that white noise keeps its density.
+/// Weights that make a topography periodic before its transform, as functions of ξ and η, which range from −1 to 1 between
+/// opposite sides. They are scaled to ⟨w²⟩ = 1, so that white noise keeps its density.
 ///
-/// Without a window, what is not periodic has a step at the rim, and with it a spectrum that falls no faster than
-/// q⁻² along the axes, whatever the surface. Harris, Proc. IEEE 66, 51 (1978); for surfaces Jacobs, Junge & Pastewka,
-/// Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
+/// Without a window, a nonperiodic topography has a step at the boundary. Its spectrum then decreases no faster than q⁻²
+/// along the axes, whatever the surface. Harris, Proc. IEEE 66, 51 (1978); for surfaces Jacobs, Junge & Pastewka, Surf.
+/// Topogr.: Metrol. Prop. 5, 013001 (2017).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Window {
     /// 1 everywhere: for periodic surfaces.
     #[default]
     None,
-    /// cos²(πξ/2) cos²(πη/2), Hann's, along x and along y.
+    /// Hann's window along x and along y, cos²(πξ/2) cos²(πη/2).
     Hann,
-    /// cos²(πr/2) for r = √(ξ² + η²) < 1, else 0: Hann's, alike in all directions, at the price of the corners.
+    /// Hann's window over the radius, cos²(πr/2) for r = √(ξ² + η²) < 1, else 0: isotropic, but without the corners.
     RadialHann,
-    /// (1 − ξ²)(1 − η²), Welch's, along x and along y: narrower in wave number, but with a tail in q⁻⁴.
+    /// Welch's window along x and along y, (1 − ξ²)(1 − η²): narrower in wave number, but with a tail in q⁻⁴.
     Welch,
 }
 
 choice!(Window: "none" => None, "hann" => Hann, "radial-hann" => RadialHann, "welch" => Welch);
 
 impl Window {
-    /// The weights on `shape` samples, taken at their centres.
+    /// Returns the weights on `shape` samples, evaluated at their centres.
     pub(super) fn weights(self, shape: [usize; 2]) -> Field {
         let scaled = |axis: usize, index: usize| (2.0 * index as f64 + 1.0) / shape[axis] as f64 - 1.0;
         let line = |axis: usize, weight: fn(f64) -> f64| -> Vec<f64> {
@@ -61,8 +61,8 @@ mod tests {
 
     #[test]
     fn every_window_has_a_mean_square_of_one_and_its_own_height() {
-        // 1/⟨w²⟩ of the unscaled windows: (8/3)², (15/8)², and for the disc in the square
-        // 4/(2π ∫ r cos⁴(πr/2) dr), the integral being 3/16 − 1/π².
+        // 1/⟨w²⟩ of the unscaled windows: (8/3)², (15/8)², and for the disc in the square 4/(2π ∫ r cos⁴(πr/2) dr), where
+        // the integral is 3/16 − 1/π².
         use std::f64::consts::PI;
         let radial = 2.0 / (PI * (0.1875 - 1.0 / (PI * PI)));
         for (window, gain) in [
@@ -73,7 +73,7 @@ mod tests {
         ] {
             let weights = window.weights([301, 201]);
             assert_relative_eq!(weights.mapv(|w| w * w).mean().unwrap(), 1.0, max_relative = 1e-12);
-            // The sample in the centre; sums in place of integrals are right to 1/n².
+            // The sample in the centre; sums in place of integrals are accurate to 1/n².
             assert_relative_eq!(weights[[150, 100]], gain.sqrt(), max_relative = 1.0 / 201f64.powi(2) * 10.0);
         }
     }

@@ -1,4 +1,4 @@
-//! What the next increment of a loading depends on.
+//! State between two increments of a loading.
 
 use super::Stored;
 use crate::error::Result;
@@ -53,7 +53,7 @@ pub(in crate::study) fn add(file: &mut FieldFile, state: &LoadingState) {
         .set("origin_displacement", displacement.to_vec());
 }
 
-/// The state after these `increments` of a loading of the `pair`, as it is `stored`.
+/// Reads the state after these `increments` of a loading of the `pair` from a `stored` state.
 pub(in crate::study) fn read(
     stored: &Stored,
     pair: &Pair,

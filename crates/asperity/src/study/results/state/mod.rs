@@ -1,4 +1,4 @@
-//! The states of courses, as files: all that the next step depends on, so that a run that was interrupted comes to the same bits.
+//! States of courses in files: everything the next step depends on, so that an interrupted run gives the same bits.
 
 pub(super) mod increment; // of a loading
 pub(super) mod pass; // of a motion
@@ -12,13 +12,13 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::io::fields::{Attribute, Fields};
 
-/// What is wrong with a table whose rows are not those that were written.
+/// Defect of a table whose rows differ from those written.
 pub(in crate::study) const ALTERED: &str = "has been changed since it was written";
 
-/// Name of the attribute of a state with the digest of the rows that it stands for.
+/// Name of the attribute of a state with the digest of its rows.
 pub(in crate::study) const ROWS: &str = "rows";
 
-/// A state as it is read back.
+/// A state read from a file.
 pub(in crate::study) struct Stored {
     path: PathBuf,
     pub(in crate::study) fields: Fields,
@@ -62,7 +62,7 @@ impl Stored {
         }
     }
 
-    /// An error if the state was written with rows of another digest, which are those of `table`.
+    /// Returns an error if the state was written with rows of another digest than those of `table`.
     pub(in crate::study) fn has_rows(&self, digest: &str, table: &Path) -> Result<()> {
         match self.attributes.get(ROWS) {
             Some(written) if *written != Attribute::from(digest) => {

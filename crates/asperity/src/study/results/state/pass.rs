@@ -1,4 +1,4 @@
-//! Where a motion begins its next pass.
+//! Start of the next pass of a motion.
 //!
 //! ```text
 //! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed);
@@ -21,7 +21,7 @@ use crate::grid::Grid;
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use crate::motion::{Bearing, Guess, Jump, WarmStart};
 
-/// Adds where the pass after `pass` begins.
+/// Adds the start of the pass after `pass`.
 pub(in crate::study) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) {
     file.set("pass", pass).set("represented", warm.represented);
     if let Some(jump) = &warm.jump {
@@ -55,12 +55,12 @@ pub(in crate::study) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2]
     }
 }
 
-/// Name of the field of a sum of one of the laws that repeat over the last computed pass of a body; all are counted from 0.
+/// Name of the field with a sum of a repeating law over the last computed pass of a body; all indices are counted from 0.
 fn sum_name(law: usize, body: usize, index: usize) -> String {
     format!("sum_{}_{}_{}", ["lower", "upper"][body], law + 1, index + 1)
 }
 
-/// Reads what [`add`] added.
+/// Reads the state written by [`add`].
 ///
 /// # Errors
 /// [`Error::File`].

@@ -1,4 +1,4 @@
-//! What the next update of a contact that slides in place depends on.
+//! State between two updates of a contact that wears in place.
 
 use super::super::Results;
 use super::super::bodies::add_bodies;
@@ -13,8 +13,8 @@ pub(in crate::study) fn add(file: &mut FieldFile, state: &SlidingState) {
     file.add_field("pressure", "Pa", &state.pair.lower_grid(), [0.0, 0.0], &state.pressure);
 }
 
-/// The state after these `updates` of a contact of the `pair`, as it is `stored`. The bodies have the hardness of the `pair`, which
-/// films may have changed since.
+/// Reads the state after these `updates` of a contact of the `pair` from a `stored` state. The bodies have the hardness of the
+/// `pair`, without their films.
 pub(in crate::study) fn read(
     stored: &Stored,
     pair: &Pair,

@@ -1,4 +1,4 @@
-//! What is compressed unpacks to no more than its header calls for, and a little file makes no room for much.
+//! Compressed data expand to no more than the header specifies, and a small file allocates little memory.
 
 use super::*;
 

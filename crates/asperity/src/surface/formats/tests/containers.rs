@@ -1,4 +1,4 @@
-//! Files within which others lie: compound files, archives, NetCDF and HDF5, and text in UTF-16.
+//! Container files: compound files, archives, NetCDF and HDF5, and text in UTF-16.
 
 use hdf5_pure::{AttrValue, FileBuilder};
 
@@ -18,7 +18,7 @@ fn an_opdx_is_read_as_others_read_it() {
 
 #[test]
 fn an_nms_is_read_as_others_read_it_but_for_its_steps() {
-    // The other program takes steps of 312.5 nm, the 160 µm of a 100 × lens, for as many mm.
+    // The pitch is 312.5 nm, 160 µm with a 100 × lens; the other program reads the same number in mm.
     let Some(path) = measured("nms-1.nms") else { return };
     let scan = read(&path, None, None).unwrap();
     assert_eq!((scan.format, scan.heights.dim()), ("nms", (512, 512)));
@@ -68,7 +68,7 @@ fn assert_scan(scan: &Scan, format: &str, pitch: Option<[f64; 2]>, heights: &Fie
     }
 }
 
-/// The heights 1, 2, 3 and in the next line 4, none, 6.
+/// The heights 1, 2, 3 in the first line and 4, none, 6 in the next.
 fn six() -> Field {
     ndarray::array![[1.0, 4.0], [2.0, nan()], [3.0, 6.0]]
 }
@@ -97,7 +97,7 @@ fn a_damaged_mnt_is_an_error() {
     let other = other.into_inner().into_inner();
     let reason = "it is a compound file, but no document of Mountains";
     assert!(matches!(decode(&other, None), Err(Fault::NotATopography(found)) if found == reason));
-    // A little file makes no room for much.
+    // A small file allocates little memory.
     let claims = |bytes: u64| {
         let mut array = blocks(2, &[0; 12]);
         array[..8].copy_from_slice(&bytes.to_le_bytes());
@@ -126,7 +126,7 @@ fn text(text: &str) -> Vec<u8> {
     std::iter::once(4).chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect()
 }
 
-/// Numbers of so many bytes in two blocks, the last first.
+/// Numbers with `size` bytes in two blocks, the last one first.
 fn blocks(size: usize, numbers: &[u8]) -> Vec<u8> {
     let mut array = (numbers.len() as u64).to_le_bytes().to_vec();
     let half = numbers.len() / size / 2 * size;
@@ -284,7 +284,7 @@ fn a_damaged_vk_is_an_error() {
     assert_eq!(defect(&other), "vk: no VK4_ at the start of Vk4File");
 }
 
-/// Heights of 100 pm, 0.5 and 0.25 µm apart, as first and as third image.
+/// Heights in units of 100 pm, 0.5 and 0.25 µm apart, as the first and as the third image.
 fn vk4(bits: u32, data: &[u8]) -> Vec<u8> {
     let image = [words(&[3, 2, bits, 0, data.len() as u32, 0, 0]), vec![3; 768], data.to_vec()].concat();
     let start = 12 + 18 * 4 + 45 * 4;
@@ -352,7 +352,7 @@ fn a_netcdf_tells_which_of_its_dimensions_is_x() {
     assert!(matches!(decode(b"CDF\x05", None), Err(Fault::NotATopography(_))));
 }
 
-/// The numbers 1 to 6 as i16, 10 added to them; x by the length of its sides, y by its places.
+/// The numbers 1 to 6 as i16, with the offset 10; x by its side length, y by its positions.
 fn netcdf(version: u8, dimensions: [&str; 2], unit: &str, masked: bool) -> Vec<u8> {
     let word = u32::to_be_bytes;
     let padded = |bytes: &[u8]| {

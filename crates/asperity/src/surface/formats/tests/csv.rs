@@ -38,7 +38,7 @@ fn a_unit_serves_where_the_numbers_have_none_and_only_there() {
     assert_eq!((lateral.pitch, lateral.heights[[1, 1]]), (Some([2e-3, 3e-3]), 4e-6));
     let own = read(&table("x (mm),y (mm),z (nm)"), Some(1e-6)).unwrap_err().to_string();
     assert_eq!(own, "table.csv: csv: its heights have a unit of their own, expected none to be given");
-    // A matrix has a unit for its heights alone, a table of points for all.
+    // The unit of a matrix applies to its heights alone, that of a table of points to all columns.
     let matrix = read("1 2 3\n4 5 6\n", Some(1e-6)).unwrap();
     assert_eq!((matrix.pitch, matrix.heights[[1, 2]], matrix.format), (None, 6e-6, "text"));
     let points = read("0 0 1\n2 0 2\n0 3 3\n2 3 4\n", Some(1e-3)).unwrap();

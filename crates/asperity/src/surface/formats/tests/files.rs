@@ -1,9 +1,9 @@
-//! Files of instruments, built byte by byte: small ones for the tests, large ones for the benchmark of reading.
+//! Files of instruments, built byte by byte: small ones for tests, large ones for the reading benchmark.
 //!
-//! `shape` is the number of heights along x and y, `data` are the heights as the format stores them. The pitch is
-//! 0.5 and 0.25 µm unless told otherwise.
+//! `shape` is the number of heights along x and y, `data` are the heights as stored in the format. The pitch is 0.5 and
+//! 0.25 µm unless stated otherwise.
 
-/// Heights in metres, each line of an even number of them; −1 is missing.
+/// Heights in metres, an even number per line; −1 is missing.
 pub(super) fn al3d([nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     let tags = [
         ("Version", "1"),
@@ -23,7 +23,7 @@ pub(super) fn al3d([nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     file(500, &[(0, &header)], data)
 }
 
-/// Heights of half a nanometre; of the `kind` bcrstm or bcrf, or either with `_unicode`.
+/// Heights in units of half a nanometre; the `kind` is bcrstm or bcrf, or either with `_unicode`.
 pub(super) fn bcr(kind: &str, big: bool, [nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     let (lengths, intel) = ([0.5 * f64::from(nx), 250.0 * f64::from(ny)], i32::from(!big));
     let header = format!(
@@ -39,7 +39,7 @@ pub(super) fn bcr(kind: &str, big: bool, [nx, ny]: [u32; 2], data: &[u8]) -> Vec
     [header.as_slice(), data].concat()
 }
 
-/// Blocks of a type and a content, over 3 × 1 mm, in nanometres.
+/// Blocks with a type and a content, over 3 × 1 mm, in nanometres.
 pub(super) fn frt([nx, ny]: [u32; 2], bits: u32, blocks: &[(u16, &[u8])]) -> Vec<u8> {
     let lengths: Vec<u8> = [3e-3f64, 1e-3].iter().flat_map(|length| length.to_le_bytes()).collect();
     let unit = [&[5, 0, 0, 0], &1e-9f64.to_le_bytes()[..]].concat();
@@ -55,7 +55,7 @@ pub(super) fn frt([nx, ny]: [u32; 2], bits: u32, blocks: &[(u16, &[u8])]) -> Vec
     file
 }
 
-/// Phases of 0.5 · 500 nm / 32768, 2 µm apart.
+/// Phases in units of 0.5 · 500 nm / 32768, 2 µm apart.
 pub(super) fn metropro([nx, ny]: [u16; 2], phases: &[u8]) -> Vec<u8> {
     let header: [(usize, &[u8]); 11] = [
         (0, b"\x88\x1b\x03\x6f"),
@@ -73,7 +73,7 @@ pub(super) fn metropro([nx, ny]: [u16; 2], phases: &[u8]) -> Vec<u8> {
     file(834, &header, &[&[9; 4], phases].concat())
 }
 
-/// The array's type as NumPy writes it, `'<f8'` with its quotes, and the shape as `(3, 2)`.
+/// The type of the array as written by NumPy, `'<f8'` with its quotes, and the shape as `(3, 2)`.
 pub(super) fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let fortran = if fortran { "True" } else { "False" };
     let header = format!("{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}");
@@ -82,7 +82,7 @@ pub(super) fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u
     [b"\x93NUMPY\x01\0", length.as_slice(), header.as_bytes(), data].concat()
 }
 
-/// Arrays with the number of bytes of an element, in 500 nm (of integers in 50 nm), 2 and 1 µm apart.
+/// Arrays with the number of bytes of an element, in units of 500 nm (integers of 50 nm), 2 and 1 µm apart.
 pub(super) fn opd([nx, ny]: [u16; 2], arrays: &[(&str, u16, &[u8])]) -> Vec<u8> {
     let (wavelength, pixel, aspect) = (floats(&[500.0]), floats(&[2e-3]), floats(&[0.5]));
     let mut blocks: Vec<(&str, u16, Vec<u8>)> = vec![
@@ -119,7 +119,7 @@ pub(super) fn plu([nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     file(500, &header, &[words(&[ny, nx]).as_slice(), data].concat())
 }
 
-/// Numbers of 2 m, 0.5 and 0.25 m apart, of the type that `kind` stands for.
+/// Numbers in units of 2 m, 0.5 and 0.25 m apart, of the type `kind`.
 pub(super) fn sdf(kind: u8, shape: [u16; 2], data: &[u8]) -> Vec<u8> {
     let mut file = b"bISO-1.0tester    010120250000010120250000".to_vec();
     file.extend(shape.map(u16::to_le_bytes).concat());
@@ -129,7 +129,7 @@ pub(super) fn sdf(kind: u8, shape: [u16; 2], data: &[u8]) -> Vec<u8> {
     file
 }
 
-/// One of `objects` objects, its heights in 2 µm above 0.5 µm, 0.5 and 0.25 mm apart; −7 is missing.
+/// One of `objects` objects, with heights in units of 2 µm above 0.5 µm, 0.5 and 0.25 mm apart; −7 is missing.
 pub(super) fn sur(bits: u16, name: &str, objects: u16, [nx, ny]: [u32; 2], data: &[u8]) -> Vec<u8> {
     let header: [(usize, &[u8]); 17] = [
         (0, b"DIGITAL SURF"),
@@ -153,7 +153,7 @@ pub(super) fn sur(bits: u16, name: &str, objects: u16, [nx, ny]: [u32; 2], data:
     file(512, &header, &[b"abc", data].concat())
 }
 
-/// `plain`, the file of [`sur`], with its heights in two zlib streams, the first of 5 bytes.
+/// The file `plain` of [`sur`], with its heights in two zlib streams, the first of 5 bytes.
 pub(super) fn sur_compressed(plain: &[u8]) -> Vec<u8> {
     use std::io::Write;
     const START: usize = 515;
@@ -182,7 +182,7 @@ pub(super) fn words(numbers: &[u32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
-/// A header of zeros with `parts` at their places, and what follows it.
+/// A header of zeros with `parts` at their places, followed by `data`.
 fn file(header: usize, parts: &[(usize, &[u8])], data: &[u8]) -> Vec<u8> {
     let mut file = vec![0; header];
     for (at, part) in parts {

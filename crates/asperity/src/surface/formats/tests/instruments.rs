@@ -1,4 +1,5 @@
-//! Files of instruments, which are only read: each is built here byte by byte, and measured ones are read as others do.
+//! Files of instruments, which are only read. They are built here byte by byte; measured ones are compared with other
+//! programs.
 
 use super::files::{al3d, floats, frt, metropro, opd, plu, tmd, words};
 use super::*;
@@ -54,7 +55,7 @@ pub(super) fn samples() -> Vec<Vec<u8>> {
     vec![six_of_al3d(), frt, six_of_metropro(), two_channels, six_of_plu(), six_of_tmd()]
 }
 
-/// Each line has a fourth number that fills it up.
+/// Each line has a fourth number as padding.
 fn six_of_al3d() -> Vec<u8> {
     al3d([3, 2], &floats(&[1.0, 2.0, 3.0, 99.0, 4.0, -1.0, 6.0, 99.0]))
 }
@@ -74,7 +75,7 @@ fn rows_of_an_al3d_are_filled_up_to_eight_bytes() {
     assert_eq!(defect(&six_of_al3d()[..60]), "al3d: the file holds 60 bytes, expected 67");
 }
 
-/// From the last line to the first, as the format has it; 1 stands for none.
+/// From the last line to the first, as in the format; 1 is a missing height.
 const FRT_HEIGHTS: [u8; 12] = [40, 0, 1, 0, 60, 0, 10, 0, 20, 0, 30, 0];
 
 /// A topography, an intensity, a thickness.

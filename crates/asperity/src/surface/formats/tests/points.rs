@@ -1,4 +1,4 @@
-//! Tables of points beside what was written into them.
+//! Tables of points compared with the data written to them.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn uniform(u: Random<'_, '_>) -> arbtest::arbitrary::Result<f64> {
     Ok(f64::from(u.arbitrary::<u32>()?) / f64::from(u32::MAX))
 }
 
-/// A table of points and what it is of.
+/// A table of points with its origin.
 #[derive(Debug)]
 struct Written {
     text: String,
@@ -18,11 +18,11 @@ struct Written {
     jitter: f64,
 }
 
-/// A grid of which up to a part of the points lack, written in some order with some separator.
+/// A grid with up to a given fraction of its points missing, written in some order with some separator.
 fn written(u: Random<'_, '_>, shape: [usize; 2], lacking: f64) -> arbtest::arbitrary::Result<Written> {
     let pitch = [10f64.powf(6.0 * uniform(u)? - 6.0), 10f64.powf(6.0 * uniform(u)? - 6.0)];
     let origin = [1e3 * pitch[0] * (uniform(u)? - 0.5), 1e3 * pitch[1] * (uniform(u)? - 0.5)];
-    // Of a stage that goes to where it should, or nearly.
+    // Positions of a stage, exact or nearly so.
     let jitter = *u.choose(&[0.0, 1e-6, 0.05, 0.1])?;
     let mut heights = Field::from_elem(shape, f64::NAN);
     let mut lines = Vec::new();
@@ -53,7 +53,7 @@ fn written(u: Random<'_, '_>, shape: [usize; 2], lacking: f64) -> arbtest::arbit
     Ok(Written { text: lines.join(*u.choose(&["\n", "\r\n"])?), pitch, heights, jitter })
 }
 
-/// The part of a field within the outermost lines of which anything is there.
+/// The part of a field within its outermost nonempty lines.
 fn trimmed(heights: &Field) -> Field {
     let there = |axis: usize| -> Vec<usize> {
         let lines = heights.axis_iter(ndarray::Axis(axis)).enumerate();
@@ -70,7 +70,7 @@ fn points_that_lack_are_missing_heights() {
         let lacking = *u.choose(&[0.0, 0.01, 0.1, 0.3])?;
         let written = written(u, shape, lacking)?;
         let count = written.heights.iter().filter(|z| !z.is_nan()).count();
-        // Of so few points nobody knows the grid.
+        // The grid of so few points is ambiguous.
         if count < 6 || 2 * count < written.heights.len() || count < 16 && written.jitter > 1e-3 {
             return Ok(());
         }
@@ -137,11 +137,11 @@ fn narrow_matrices_stay_matrices() {
                 _ => 0.1 * i as f64 + slope[1] * j as f64,
             };
         }
-        // Once the random numbers run out the noise is none.
+        // Once the random numbers are used up, there is no noise.
         if kind < 3 && u.is_empty() {
             return Ok(());
         }
-        // A slope steeper than its noise in the first of two columns looks as the points of a line scan do.
+        // A slope steeper than its noise in the first of two columns looks like the points of a line scan.
         let first = heights.column(0);
         if kind == 2 && first.iter().zip(first.iter().skip(1)).all(|(one, next)| one < next) {
             return Ok(());
@@ -181,7 +181,7 @@ fn points_on_no_grid_are_refused() {
     assert!(
         defect((0..40).map(track).collect::<String>().as_bytes()).contains("a line scan: 40 points of x, z")
     );
-    // A motor that drifts while the other axis goes to and fro.
+    // A motor that drifts while the other axis moves back and forth.
     let drift = |i: i32| {
         format!("{} {} {}\n", (f64::from(i)).powf(1.3), (3.0 + f64::from(i * i % 7)).sqrt(), i * 5 % 11)
     };

@@ -1,4 +1,5 @@
-//! Files of scanning probe microscopes, which are only read: built here, and measured ones are read as others do.
+//! Files of scanning probe microscopes, which are only read. They are built here; measured ones are compared with other
+//! programs.
 
 use super::files::{floats, words};
 use super::*;
@@ -50,7 +51,7 @@ pub(super) fn samples() -> Vec<Vec<u8>> {
     ]
 }
 
-/// What is read of [`SHORTS`], in units of the numbers: lines from the last y to the first.
+/// Heights read from [`SHORTS`], in units of the numbers, with lines from the last y to the first.
 fn upside_down() -> Field {
     ndarray::array![[4.0, 1.0], [-5.0, 2.0], [6.0, 3.0]]
 }
@@ -80,12 +81,12 @@ fn heights_of_a_nanoscope_are_volts_by_their_sensitivity() {
     let scan = decode(&nanoscope(0x0512_0000, 2, &SHORTS.concat()), None).unwrap();
     assert_eq!(scan.channels, ["Height Sensor", "Input"]);
     assert_scan(&scan, "nanoscope", [1e-6, 1e-6], &(upside_down() * unit(2)));
-    // A sensitivity per volt, a scale in mV.
+    // A sensitivity per volt with a scale in mV.
     let scan = decode(&nanoscope(0x0512_0000, 2, &SHORTS.concat()), Some("Input")).unwrap();
     assert_scan(&scan, "nanoscope", [1e-6, 1e-6], &(upside_down() * (unit(2) * 1e-3)));
     let scan = decode(&nanoscope(0x0512_0000, 4, &integers()), None).unwrap();
     assert_scan(&scan, "nanoscope", [1e-6, 1e-6], &(upside_down() * unit(4)));
-    // From version 9.2 on two bytes in the header are four in the data.
+    // From version 9.2 on, two bytes in the header mean four in the data.
     let scan = decode(&nanoscope(0x0920_0000, 2, &integers()), None).unwrap();
     assert_scan(&scan, "nanoscope", [1e-6, 1e-6], &(upside_down() * unit(2)));
 }
@@ -139,7 +140,7 @@ fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| char::from(*byte)).collect()
 }
 
-/// Three images of 3 × 2 numbers: 12.5 nm/V of 32 V, of 32 mV, and a phase.
+/// Three images of 3 × 2 numbers: 12.5 nm/V with 32 V, with 32 mV, and a phase.
 fn nanoscope(version: u32, bytes: u32, data: &[u8]) -> Vec<u8> {
     let image = |index: usize, name: &str, scale: &str| {
         format!(
@@ -172,7 +173,7 @@ fn layers_of_an_igor_wave_are_channels() {
         let scan = decode(&ibw_5(big, NOTE, &layers), None).unwrap();
         assert_eq!(scan.channels, ["HeightTrace", "NapZSensorRetrace"]);
         assert_scan(&scan, "ibw", [0.5, 0.25], &upside_down());
-        // Without the note of a microscope the unit of the wave is that of each channel.
+        // Without the note of a microscope, each channel has the unit of the wave.
         let scan = decode(&ibw_5(big, "", &layers), Some("PhaseTrace")).unwrap();
         assert_scan(&scan, "ibw", [0.5, 0.25], &(upside_down() * 10.0));
         assert_eq!(scan.unit, LengthUnit::Known);
@@ -202,7 +203,7 @@ fn a_damaged_igor_wave_is_an_error() {
     assert_eq!(with(132, &[9]), "ibw: the wave holds 344 bytes, expected 392");
     assert_eq!(with(135, &[0x7f]), "ibw: 4261412870 heights, at most 268435456 are read");
     assert_eq!(with(144, &[2]), "ibw: the size of the fourth dimension is `2`, expected none");
-    // Without its checksum it could be anything.
+    // Without a valid checksum it could be any file.
     let mut other = ibw_5(false, "", &[("", SIX)]);
     other[100] ^= 1;
     assert!(matches!(decode(&other, None), Err(Fault::NotATopography(_))));
@@ -247,7 +248,7 @@ fn ibw_2(unit: &str, numbers: &[f32]) -> Vec<u8> {
     with_checksum(file, false)
 }
 
-/// With the number in the headers that makes their sum 0.
+/// Sets the header number that makes the checksum 0.
 fn with_checksum(mut file: Vec<u8>, big: bool) -> Vec<u8> {
     let (place, headers) = if file[0].max(file[1]) == 2 { (14, 126) } else { (2, 384) };
     file[place..place + 2].fill(0);
@@ -278,7 +279,7 @@ fn numbers_of_a_nid_reach_from_the_least_height_on() {
     assert_eq!(bad("Dim2Unit=m", "Dim2Unit=V"), "nid: no channel of lengths");
 }
 
-/// A data set in volts and one of heights, whose least is −32.768 µm.
+/// A data set in volts and one of heights, with the minimum −32.768 µm.
 fn nid(bits: u32, signed: bool, data: &[u8]) -> Vec<u8> {
     let sign = if signed { "Signed" } else { "Unsigned" };
     let set = |name: &str, unit: &str| {
@@ -298,7 +299,7 @@ fn nid(bits: u32, signed: bool, data: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_wsxm_image_is_turned_round() {
-    // From −5 to 6 the heights reach over 22 nm.
+    // From −5 to 6 the heights span 22 nm.
     let turned = ndarray::array![[6.0, 3.0], [-5.0, 2.0], [4.0, 1.0]];
     let scan = decode(&wsxm("short", &SHORTS.concat()), None).unwrap();
     assert_scan(&scan, "wsxm", [200e-9, 300e-9], &(&turned * 2e-9));
