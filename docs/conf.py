@@ -75,6 +75,11 @@ def links_out_of_the_documents(app, name, source):
     source[0] = re.sub(r"(?<!!)\[([^\]\n]+)\]\((\.\./[^)#\s]+)(?:#[^)\s]*)?\)", text_alone, source[0])
 
 
+def without_fetched_icons(app, page, template, context, doctree):
+    """Takes the icons of an animation's buttons from the theme, not from the network."""
+    context["body"] = re.sub(r'<link rel="stylesheet"\s+href="https://[^"]*font-awesome[^"]*">', "", context.get("body", ""))
+
+
 def without_aliases(app, what, name, member, skip, options):
     """Skips the fields of named tuples, which their classes explain."""
     return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
@@ -94,4 +99,5 @@ def setup(app):
     app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     app.connect("autodoc-skip-member", without_aliases)
     app.connect("source-read", links_out_of_the_documents)
+    app.connect("html-page-context", without_fetched_icons)
     return {"parallel_read_safe": True}
