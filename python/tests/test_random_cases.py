@@ -56,7 +56,7 @@ def test_a_random_case_holds_the_laws_of_every_result(seed: int, tmp_path: pathl
     if case.flows:
         hold_flow(results)
     again = tmp_path / "threads"
-    assert command("run", path, "--out", again, "--threads", 2, "--quiet").returncode == 0
+    asp.run(path, out=again, threads=2, progress=False)
     hold_same(results, Results(again))
     hold_resumed(case, path, tmp_path / "resumed", results)
     hold_python(case, path.parent, results)
@@ -260,9 +260,8 @@ def hold_resumed(case: RandomCase, path: pathlib.Path, out: pathlib.Path, result
     _, said = process.communicate()
     # An interpreter that was interrupted before the command began speaks for itself.
     assert process.returncode in (0, 130, -signal.SIGINT) or not out.exists(), said
-    how = ["--resume"] if process.returncode == 130 and (out / "case.json").exists() else ["--overwrite"]
-    resumed = command("run", path, "--out", out, "--quiet", *how)
-    assert resumed.returncode == 0, resumed.stderr
+    resumes = process.returncode == 130 and (out / "case.json").exists()
+    asp.run(path, out=out, resume=resumes, overwrite=not resumes, progress=False)
     hold_same(results, Results(out))
 
 

@@ -81,7 +81,7 @@ pub(crate) fn rest<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (case, given) = asked(py, &source, &handed, threads)?;
-    let Rest { outcome, increments, updates, fields, flowed, warnings, .. } =
+    let Rest { outcome, increments, updates, fields, closed_form, flowed, warnings, .. } =
         work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
     let contact = PyDict::new(py);
     match outcome {
@@ -92,6 +92,7 @@ pub(crate) fn rest<'py>(
     contact.set_item("case", record(py, &case)?)?;
     contact.set_item("increments", record(py, &increments)?)?;
     contact.set_item("updates", record(py, &updates)?)?;
+    contact.set_item("closed_form", record(py, &closed_form)?)?;
     contact.set_item("warnings", warnings)?;
     contact.set_item("pitch", fields.grid.pitch)?;
     contact.set_item("approach", fields.approach)?;

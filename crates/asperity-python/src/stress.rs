@@ -78,7 +78,7 @@ pub(crate) fn most_stressed(
     Ok((most(von_mises), most(shear)))
 }
 
-/// Computes von Mises' stress, the largest shear and the principal stresses from these components.
+/// Computes von Mises' stress, the largest shear, or the concatenated principal stresses, from these components.
 #[pyfunction]
 pub(crate) fn invariants<'py>(
     py: Python<'py>,

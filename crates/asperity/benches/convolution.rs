@@ -1,4 +1,4 @@
-//! One displacement from one pressure, dense as in full contact and sparse as at a per cent of it.
+//! One displacement from one pressure: dense as in full contact, and sparse as at a per cent of it.
 
 use asperity::material::Compliances;
 use asperity::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
@@ -35,7 +35,7 @@ fn periodic_single(bencher: divan::Bencher, side: usize) {
     measure_single(bencher, &mut PeriodicFft::new(square(side), 1.0));
 }
 
-/// Three tractions in, three displacements out, of two dissimilar bodies.
+/// Three tractions to three displacements, for two dissimilar bodies.
 #[divan::bench(args = SIDES)]
 fn free_coupled(bencher: divan::Bencher, side: usize) {
     measure_coupled(bencher, Boundary::FREE, side);

@@ -1,5 +1,5 @@
-//! A pass of two rough steel bodies of 64 × 64 cells at 127 positions, and of 256 × 256 cells at 128: its contacts, and the flash
-//! temperature of all of them.
+//! A pass of two rough steel bodies, with 64 × 64 cells at 127 positions and with 256 × 256 cells at 128: its contacts, and
+//! their flash temperatures.
 
 use asperity::Grid;
 use asperity::material::Material;
@@ -9,7 +9,7 @@ use asperity::solver::{Control, Friction, Params};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::temperature::{FlashTemperature, Thermal};
 
-/// Cells a side and stride.
+/// Cells per side, and stride.
 const PASSES: [(usize, usize); 2] = [(64, 1), (256, 4)];
 const PITCH: f64 = 1e-6;
 const FRICTION: f64 = 0.1;
@@ -43,7 +43,7 @@ fn temperature(bencher: divan::Bencher, (side, stride): (usize, usize)) {
     });
 }
 
-/// Cells of both bodies and the flux of friction into each.
+/// Returns the cells of both bodies and the frictional heat flux into each.
 fn heated(contact: &Contact, width: usize) -> (Vec<u32>, Vec<u32>, Vec<f64>) {
     let moved =
         |first: usize| contact.pressure.iter().map(|(cell, _)| cell + (first * width) as u32).collect();
@@ -51,7 +51,8 @@ fn heated(contact: &Contact, width: usize) -> (Vec<u32>, Vec<u32>, Vec<f64>) {
     (moved(contact.position.lower), moved(contact.position.upper), flux)
 }
 
-/// Steel of 4 GPa, of 0.1 µm roughness with waves down to eight cells, under a mean pressure of 100 MPa.
+/// Steel with a hardness of 4 GPa and a roughness of 0.1 µm with waves down to eight cells, under a mean pressure of 100
+/// MPa.
 fn simulation(side: usize, stride: usize) -> Simulation {
     let grid = Grid::new([side; 2], [PITCH; 2]).expect("a grid");
     let rough = SelfAffine {

@@ -1,4 +1,4 @@
-//! Whole contacts with friction of dissimilar bodies on 256 × 256 cells, from nothing, to η < 1e-6.
+//! Complete contacts with friction of dissimilar bodies on 256 × 256 cells, from zero to η < 1e-6.
 
 use asperity::Grid;
 use asperity::material::{Compliances, Material};
@@ -23,7 +23,7 @@ fn periodic(bencher: divan::Bencher, pressure: f64) {
     measure(bencher, Boundary::PERIODIC, pressure);
 }
 
-/// A polymer under steel, μ = 0.3, pushed by half of what friction holds.
+/// A polymer under steel, μ = 0.3, with half of the tangential force that friction can hold.
 fn measure(bencher: divan::Bencher, boundary: Boundary, pressure: f64) {
     let grid = Grid::new([256, 256], [1e-6; 2]).expect("a grid");
     let form =

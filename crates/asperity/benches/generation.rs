@@ -1,4 +1,4 @@
-//! Random topographies: what the noise, its transforms, the spectrum and the translation of the heights cost.
+//! Random topographies: cost of the noise, its transforms, the spectrum and the translation of the heights.
 
 use asperity::Grid;
 use asperity::surface::{

@@ -1,4 +1,4 @@
-//! Topographies of 2048 × 2048 heights read from memory; bytes are those of the file.
+//! Reading of topographies of 2048 × 2048 heights from memory; bytes are those of the file.
 
 use std::sync::LazyLock;
 
@@ -89,7 +89,7 @@ fn file_compressed(kind: &str) -> Vec<u8> {
     }
 }
 
-/// A rough surface in units of its rms, within ±3 or so.
+/// A rough surface in units of its rms, within about ±3.
 static HEIGHTS: LazyLock<Field> = LazyLock::new(|| {
     let form = SelfAffine { hurst: 0.8, rolloff: Some(100.0), shortest: None, amplitude: Amplitude::Sq(0.3) };
     form.generate(&grid(), 1).expect("a surface").into_heights()
@@ -99,7 +99,7 @@ fn grid() -> Grid {
     Grid::new([SIDE as usize; 2], [1.0; 2]).expect("a grid")
 }
 
-/// The heights as numbers, x fastest, on as many copies of the surface as `side` needs.
+/// The heights as numbers, x fastest, on as many copies of the surface as `side` requires.
 fn x_fastest<const N: usize>(side: u32, number: impl Fn(f64) -> [u8; N]) -> Vec<u8> {
     let (side, of) = (side as usize, SIDE as usize);
     (0..side * side).flat_map(|cell| number(HEIGHTS[[cell % side % of, cell / side % of]])).collect()

@@ -2,19 +2,19 @@
 //!
 //! # Problem
 //!
-//! Two rough steel surfaces are pressed together. They touch at their summits only. How large is the real area of
-//! contact A, as a part of the apparent area A₀, at a mean pressure p̄ = W/A₀?
+//! Two rough steel surfaces are pressed together. They touch at their summits only. How large is the real contact area A,
+//! as a fraction of the apparent area A₀, at a mean pressure p̄ = W/A₀?
 //!
 //! # Mathematics
 //!
-//! While it is small the area is proportional to the load, whatever the roughness looks like:
+//! As long as it is small, the area is proportional to the load for any roughness:
 //!
 //! ```text
 //! A/A₀ = κ p̄/(E* h′),   h′ the rms slope of the gap
 //! ```
 //!
-//! with κ from √(8/π) ≈ 1.6 (Persson) to √(2π) ≈ 2.5 (Bush, Gibson & Thomas). Near full contact it must fall behind.
-//! A finite mesh counts a rim of half a cell too much around each spot of contact: κ comes out somewhat high.
+//! with κ from √(8/π) ≈ 1.6 (Persson) to √(2π) ≈ 2.5 (Bush, Gibson & Thomas). Near full contact it grows more slowly. A
+//! finite grid overestimates the area by half a cell around each contact spot, so that κ is slightly too large.
 //!
 //! # Program
 //!
@@ -35,7 +35,7 @@
 //!      2000   0.8305   1.35           17.1
 //! ```
 //!
-//! At small loads a spot of contact has few cells, and its rim weighs most; from some ten per cent of contact on the
+//! At small loads a contact spot has few cells, and its edge has the largest effect. From about ten per cent of contact the
 //! spots begin to merge.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
@@ -47,7 +47,7 @@ use asperity::solver::{Control, Params};
 use asperity::surface::{Amplitude, SelfAffine};
 
 fn main() -> asperity::Result<()> {
-    // Self-affine surfaces are periodic, so that the contact has no border.
+    // Self-affine surfaces are periodic, so that the contact has no boundary.
     let grid = Grid::new([256, 256], [0.5e-6; 2])?;
     let roughness = SelfAffine {
         hurst: 0.8,
@@ -58,7 +58,7 @@ fn main() -> asperity::Result<()> {
     let steel = Material::elastic(210e9, 0.3)?;
     let lower = roughness.generate(&grid, 1)?;
     let upper = roughness.generate(&grid, 2)?.underside();
-    // Independent surfaces: the slopes add up as their squares.
+    // For independent surfaces the squares of the slopes add up.
     let slope = lower.sdq().hypot(upper.sdq());
     let pair = Pair::new(lower, upper, [&steel, &steel])?;
 

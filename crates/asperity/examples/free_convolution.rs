@@ -1,11 +1,11 @@
-//! Times one free convolution, dense pressure in and displacement out, whenever a line comes in.
+//! Times one free convolution, from dense pressure to dense displacement, for each line of input.
 //!
 //! ```text
 //! free_convolution 512 [5]
 //! ```
 //!
-//! Every line of standard input is answered by the median of so many convolutions (here 5) in seconds, so that another program
-//! can take turns with it. `benches/peers/convolution.py` does so with FFTW.
+//! For every line of standard input it prints the median time of a number of convolutions (here 5) in seconds, so that
+//! another program can alternate with it. `benches/peers/convolution.py` does so with FFTW.
 #![expect(clippy::print_stdout, reason = "the seconds are what it is for")]
 
 use std::error::Error;

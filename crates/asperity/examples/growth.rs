@@ -1,12 +1,12 @@
-//! How the cost of a static contact grows with the number of cells: a self-affine surface with waves from a quarter of
-//! the side to eight cells, pressed to 5 % of contact, free boundary, from a cold start.
+//! Growth of the cost of a static contact with the number of cells. A self-affine surface with waves from a quarter of the
+//! side to eight cells is pressed to 5 % of contact, with a free boundary, from a cold start.
 //!
 //! ```text
 //! growth [side …]        128 256 512 1024 2048 4096, unless said otherwise
 //! ```
 //!
-//! Prints a table and the q of the fit t ∝ (N² log N)^q. Peak memory is that of the process (Linux), gap and
-//! operator included; no answer is kept while the next is found.
+//! Prints a table and the q of the fit t ∝ (N² log N)^q. Peak memory is that of the process (Linux), including gap and
+//! operator. No solution is kept while the next is computed.
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
 use std::error::Error;
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One row of the table; the seconds of a solve.
+/// Prints one row of the table; returns the seconds of a solve.
 fn measure(side: usize) -> Result<f64, Box<dyn Error>> {
     let grid = Grid::new([side, side], [1.0, 1.0])?;
     let form = SelfAffine {
@@ -73,7 +73,7 @@ fn measure(side: usize) -> Result<f64, Box<dyn Error>> {
     Ok(seconds[1])
 }
 
-/// The most that this process has held so far, bytes.
+/// Returns the peak memory of this process so far, bytes.
 fn peak_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -81,7 +81,7 @@ fn peak_memory() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// The slope of the line through `points` that has the least squares.
+/// Returns the slope of the least-squares line through `points`.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));

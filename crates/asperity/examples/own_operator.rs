@@ -1,9 +1,9 @@
-//! An operator of one's own: a half-space under a thin soft coating.
+//! A user-defined operator: a half-space under a thin soft coating.
 //!
 //! # Problem
 //!
-//! A ball of steel is pressed on a plate with a coating that is thin against the contact. Such a coating gives way where it is
-//! pressed and nowhere else, like a bed of springs.
+//! A steel ball is pressed on a plate with a coating that is thin compared with the contact. Such a coating deforms only
+//! where it is pressed, like a bed of springs.
 //!
 //! # Mathematics
 //!
@@ -11,15 +11,14 @@
 //! u = C p + k p,   k = t (1 + ν)(1 − 2ν)/(E (1 − ν))
 //! ```
 //!
-//! with the operator C of the half-space, and the thickness t, Young's modulus E and Poisson's ratio ν of the coating. For k = 0
-//! it is Hertz' contact; where the coating gives way by far the most, that of an elastic foundation: p = (δ − r²/2R)/k, thus
-//! p₀ = √(W/πRk). The truth lies below either.
+//! with the operator C of the half-space, and the thickness t, Young's modulus E and Poisson's ratio ν of the coating. For
+//! k = 0 it is Hertz' contact. If the coating is much more compliant than the half-space, it is an elastic foundation:
+//! p = (δ − r²/2R)/k, thus p₀ = √(W/πRk). The actual pressure is below both.
 //!
 //! # Program
 //!
-//! A solver asks of an operator its displacements, its coefficients, those of
-//! harmonics, and itself on a coarser grid. All methods, the cap on the
-//! pressure and loads prescribed then work as for a half-space.
+//! A solver requires of an operator its displacements, its coefficients, those of harmonics, and the same operator on a
+//! coarser grid. All methods, the cap on the pressure and prescribed loads then work as for a half-space.
 //!
 //! `cargo run --release -p asperity --example own_operator`
 //!

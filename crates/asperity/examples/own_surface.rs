@@ -1,14 +1,14 @@
-//! A surface of one's own: a steel ball on a plate with dimples.
+//! A user-defined surface: a steel ball on a plate with dimples.
 //!
 //! # Problem
 //!
-//! Dimples are put into bearing surfaces to hold oil. How much do their edges raise the largest pressure, and how much of the
-//! contact do they take away?
+//! Bearing surfaces have dimples to hold oil. How much do their edges increase the largest pressure, and how much contact
+//! area do they remove?
 //!
 //! # Program
 //!
-//! Heights are an array `[ix, iy]` in metres on a grid, up positive; any function, file or measurement may fill it. The upper
-//! body is given like the lower one, and turned over by `underside`.
+//! Heights are an array `[ix, iy]` in metres on a grid, positive upwards. They may come from any function, file or
+//! measurement. The upper body is given like the lower one, and turned over by `underside`.
 //!
 //! `cargo run --release -p asperity --example own_surface`
 //!
@@ -47,13 +47,13 @@ fn main() -> asperity::Result<()> {
     Ok(())
 }
 
-/// Round dimples of 6 µm across, 12 µm apart, as deep in the middle as `depth`, with edges that are not sharp: the pressure at
-/// a sharp one would grow with each finer mesh.
+/// Round dimples with a diameter of 6 µm, 12 µm apart, with `depth` in the middle and smooth edges. The pressure at a sharp
+/// edge would increase with each finer grid.
 fn dimples(grid: &Grid, depth: f64) -> Field {
     const APART: f64 = 12e-6;
     const RADIUS: f64 = 3e-6;
     Field::from_shape_fn(grid.shape, |(i, j)| {
-        // From the middle of the nearest dimple; the middle of the grid lies between four of them.
+        // Relative to the middle of the nearest dimple; the middle of the grid lies between four of them.
         let from_middle = |index: usize, axis: usize| {
             let place = (index as f64 + 0.5 - 0.5 * grid.shape[axis] as f64) * grid.pitch[axis];
             place.rem_euclid(APART) - 0.5 * APART

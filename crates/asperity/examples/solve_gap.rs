@@ -1,12 +1,12 @@
-//! Presses two bodies with a given gap together and prints the answer and its cost as one line of JSON.
+//! Presses two bodies with a given gap together, and prints the solution and its cost as one line of JSON.
 //!
 //! ```text
 //! solve_gap gap.npy mean=0.01 [pitch=1] [modulus=1] [hardness=inf] [boundary=free] [method=active-set]
 //!           [tolerance=1e-6] [repeat=1] [pressure=out.npy]
 //! ```
 //!
-//! `gap.npy` holds the undeformed gap; instead of the mean pressure `mean`, `load` may be given. With `repeat` every
-//! solve starts afresh and the median time is told. `benches/peers/` runs it beside other programs.
+//! `gap.npy` contains the undeformed gap. `load` may be given instead of the mean pressure `mean`. With `repeat` every
+//! solve starts afresh, and the median time is printed. `benches/peers/` runs it beside other programs.
 #![expect(clippy::print_stdout, reason = "the line of JSON is what it is for")]
 
 use std::collections::HashMap;
@@ -72,7 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The arguments `key=value`.
+/// Reads the arguments `key=value`.
 fn options(arguments: impl Iterator<Item = String>) -> Result<HashMap<String, String>, Box<dyn Error>> {
     const KEYS: [&str; 10] = [
         "mean",
@@ -94,7 +94,7 @@ fn options(arguments: impl Iterator<Item = String>) -> Result<HashMap<String, St
         .collect()
 }
 
-/// The choice of a word, or the one that is made where the key is not given.
+/// Returns the choice for a word, or the default if the key is not given.
 fn choice<T: Choice>(options: &HashMap<String, String>, key: &str, default: T) -> Result<T, Box<dyn Error>> {
     let Some(word) = options.get(key) else { return Ok(default) };
     T::of_word(word).ok_or_else(|| format!("{key} cannot be `{word}`").into())

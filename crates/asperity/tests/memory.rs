@@ -1,4 +1,4 @@
-//! What a solve takes of the memory: counted by an allocator of its own, so these tests run one after another.
+//! Memory use of a solve, counted by a special allocator, so that these tests run one after another.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
@@ -13,7 +13,7 @@ struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
-/// Allocations of a size that grows with the number of cells.
+/// Allocations whose size grows with the number of cells.
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 
 #[expect(unsafe_code, reason = "an allocator is unsafe; this one hands everything on to the system's")]
@@ -33,7 +33,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Held by the test that counts.
+/// Held by the counting test.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 const SIDE: usize = 256;
@@ -58,7 +58,7 @@ fn solve(
 ) -> Solution {
     let load = Control::Load(mean * operator.grid().area());
     let params = Params::default().with_method(Method::ActiveSet).with_tolerance(tolerance);
-    // Each further thread has scratch of its own.
+    // Each further thread has its own scratch memory.
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     one.install(|| solve_normal(operator, gap, &Bounds::ELASTIC, load, start, &params).unwrap())
 }
@@ -66,7 +66,7 @@ fn solve(
 #[test]
 fn a_contact_takes_no_more_than_so_many_bytes_for_each_cell() {
     let _alone = ONE_AT_A_TIME.lock().unwrap();
-    // Its operator, padded where it is free, and its gap; 16 more are the heights of two bodies.
+    // Its operator, padded for a free boundary, and its gap; 16 more for the heights of two bodies.
     for (boundary, most) in [(Boundary::FREE, 80.0), (Boundary::PERIODIC, 70.0)] {
         for mean in [0.0025, 0.05, 0.5] {
             let before = HELD.load(Relaxed);
@@ -89,7 +89,7 @@ fn no_field_is_allocated_from_step_to_step() {
         let mut operator = Operators::new(square(), 1.0, boundary).on([SIDE; 2]);
         let gap = rough(operator.grid());
         let start = solve(operator.as_mut(), &gap, 0.002, None, 1e-6).pressure;
-        // Of tolerances that need double precision as often: what changes with it is the scratch of the transforms.
+        // Tolerances that need double precision equally often: the scratch memory of the transforms changes with them.
         let [few, many] = [1e-1, 5e-3].map(|tolerance| {
             let before = CALLS.load(Relaxed);
             let solution = solve(operator.as_mut(), &gap, 0.01, Some(&start), tolerance);

@@ -1,7 +1,7 @@
 //! Container of results: an HDF5 file of named fields, each with its unit, axes, pitch and origin.
 //!
 //! ```text
-//! /             attributes: what the writer adds, for example `version`, `pass`; `digest`, of all of the file
+//! /             attributes: those of the writer, for example `version`, `pass`; `digest` of the whole file
 //! /pressure     float64 [nx, ny]   unit "Pa"   axes "x,y"   pitch [m, m]   origin [m, m]
 //! ```
 //!

@@ -69,8 +69,8 @@ pub enum FilmLaw {
         /// Removal r per pressure and distance slid, ≥ 0, 1/(Pa m).
         removal: f64,
     },
-    /// f = g − l ≥ 0: dg/dt = (k_B T/h_P) x (f_max − g), dl/dt = C₄ (C₃ − l). A bare cell, f = 0, loses what it grows while dl/dt would
-    /// be above dg/dt.
+    /// f = g − l ≥ 0: dg/dt = (k_B T/h_P) x (f_max − g), dl/dt = C₄ (C₃ − l). The film of a
+    /// bare cell, f = 0, is removed as fast as it grows while dl/dt would be above dg/dt.
     ///
     /// A. Ghanbarzadeh et al., Tribol. Int. 93, 573 (2016).
     MechanoChemical {

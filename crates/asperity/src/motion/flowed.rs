@@ -233,8 +233,8 @@ impl FlowRecord {
 }
 
 impl PassFlowRecord {
-    /// Returns the record of a pass that brought bodies from the states `before` to these volumes, with the plastic work in
-    /// the lower and in the upper body, and under the outer columns of the overlap.
+    /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the lower and in
+    /// the upper body, and under the outer columns of the overlap.
     pub(super) fn of(
         volumes: &[FlowedVolume],
         before: &[PlasticState],

@@ -232,7 +232,7 @@ pub(super) fn advance(
 }
 
 /// Returns the depth that `laws` remove from each cell of the lower and of the upper body per pressure over a `distance`,
-/// m/Pa, with these sums and shear equal to `friction` times the pressure.
+/// m/Pa. They act with these sums, and with shear equal to `friction` times the pressure.
 pub(super) fn compliance(
     laws: &[Box<dyn Law>],
     pair: &Pair,

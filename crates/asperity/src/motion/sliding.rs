@@ -22,8 +22,8 @@ use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_n
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
-/// Sliding of a contact that wears in place. The upper body slides towards +x over a lower one whose cells stay under the
-/// same cells of it, as for a pin on a disc, or for a body that wears uniformly along its path.
+/// Sliding of a contact that wears in place. The upper body slides towards +x, while the cells of the lower body stay under
+/// the same cells of the upper one. Examples are a pin on a disc, and a body that wears uniformly along its path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Slide {

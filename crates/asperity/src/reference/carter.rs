@@ -9,7 +9,7 @@ use crate::units::{Metre, Pascal};
 /// the tangential load per length, P′ and Q′:
 ///
 /// ```text
-/// c = a √(1 − Q′/μP′),  d = a − c                                half width and centre of the stick
+/// c = a √(1 − Q′/μP′),  d = a − c                                half width and centre of the stick zone
 /// q = μ p₀ [√(1 − x²/a²) − (c/a) √(1 − (x − d)²/c²)₊]            shear traction, along Q′
 /// ξ = μ d/R                                                      creepage
 /// ```

@@ -67,7 +67,7 @@ impl CattaneoMindlin {
 /// direction, against twice the friction:
 ///
 /// ```text
-/// c = a (1 − (Q* − Q)/2μW)^{1/3}                              radius of what has not slipped back
+/// c = a (1 − (Q* − Q)/2μW)^{1/3}                              radius of the circle without reverse slip
 /// q = q*(r) − 2 q(r; (Q* − Q)/2)                              shear traction: −μp for r > c
 /// δₜ = (3μW/4aGₜ) [2 (1 − (Q* − Q)/2μW)^{2/3} − (1 − Q*/μW)^{2/3} − 1]
 /// ```

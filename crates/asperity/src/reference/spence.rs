@@ -17,7 +17,7 @@ use crate::math::elliptic::CompleteElliptic;
 /// Stick ratio s of a round contact, 0 ≤ s ≤ 1, for μ ≥ 0 and |β| < 1.
 ///
 /// (1/2s) ln((1 + s)/(1 − s)) = (μ/|β|) K(√(1 − s²)).  s → 4 exp(−|β|/μ) for small μ/|β|, 1 − s → 2 exp(−πμ/|β|) for
-/// large; s = 1 if β = 0. Solved to round-off; what is below 1e-130 counts as 0.
+/// large; s = 1 if β = 0. Solved to round-off; values below 1e-130 count as 0.
 pub fn stick_ratio(friction: f64, dundurs: f64) -> f64 {
     solve(friction, dundurs, |s, rest| libm::asinh(s / rest) / (s * CompleteElliptic::of_complement(s).first))
 }

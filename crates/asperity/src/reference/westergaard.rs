@@ -6,11 +6,11 @@ use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of a one-dimensional sinusoid with a plane, in plane strain.
 ///
-/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, and a crest lies at x = 0. With ψ = πx/λ, s = p̄/p* =
-/// sin²(πa/λ) and the half width a of one contact strip:
+/// h = A (1 − cos 2πx/λ): A is half the height from peak to valley, and a crest lies at x = 0. With ψ = πx/λ,
+/// s = p̄/p* = sin²(πa/λ) and the half width a of one contact strip:
 ///
 /// ```text
-/// p* = π E* A/λ                        the mean pressure from which contact is full
+/// p* = π E* A/λ                        the mean pressure of full contact
 /// p  = 2 p* cos ψ √(s − sin²ψ)         s < 1, |x| < a
 /// p  = p̄ + p* cos 2ψ                   s ≥ 1
 /// ```

@@ -1,5 +1,6 @@
 //! The dictionary of columns: every column of a table and every number of a summary, by its name.
 
+use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use crate::motion::{
@@ -13,12 +14,13 @@ use crate::units::Dimension;
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub const RECORDS: [(&str, &[Column]); 17] = [
+pub const RECORDS: [(&str, &[Column]); 18] = [
     ("StaticRecord", StaticRecord::OWN_COLUMNS),
     ("Converged", &[CONVERGED]),
     ("ShearRecord", ShearRecord::OWN_COLUMNS),
     ("FlowRecord", FlowRecord::OWN_COLUMNS),
     ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
+    ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
     ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
     ("SweepRecord", SweepRecord::OWN_COLUMNS),
     ("IncrementRecord", IncrementRecord::OWN_COLUMNS),

@@ -8,6 +8,7 @@ pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
 use super::case::{Body, Case, Layer, LoadingPath, Source, TopographySpec};
+use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, Prepared};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
@@ -54,6 +55,8 @@ pub struct Estimate {
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, for independent surfaces.
     pub gap_slope: f64,
+    /// Closed form of the contact, if both bodies are smooth forms and stay elastic; `None` for others.
+    pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
     pub subsurface: Option<Plan>,
     /// Warnings for the user.
@@ -133,6 +136,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
+        closed_form: ClosedForm::of(case, lower_grid.extent(), control)
+            .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         warnings: Vec::new(),
         foreseen: Vec::new(),

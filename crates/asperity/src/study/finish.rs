@@ -5,12 +5,14 @@ use web_time::Instant;
 
 use crate::error::Result;
 use crate::motion::{FlowRecord, Pair, UpdateRecord};
-use crate::solver::Params;
+use crate::solver::{Control, Params};
 use crate::study::case::Case;
+use crate::study::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
 use crate::study::prepare::Bodies;
 use crate::study::results::Writer;
 use crate::study::subsurface::SubsurfaceRecord;
 use crate::study::summary::{Outcome, RunningIn, Summary};
+use crate::units::Metre;
 
 /// Results of a run for its summary.
 pub(super) struct Computed {
@@ -20,6 +22,8 @@ pub(super) struct Computed {
     pub(super) sliding: Option<UpdateRecord>,
     /// The plastic flow of a motion of elasto-plastic bodies.
     pub(super) flow: Option<FlowRecord>,
+    /// The closed form of the contact of smooth forms.
+    pub(super) closed_form: Option<ClosedFormRecord>,
 }
 
 /// Writes the results at the end of every run.
@@ -28,7 +32,7 @@ pub(super) fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, flow }: Computed,
+    Computed { outcome, subsurface, sliding, flow, closed_form }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -44,6 +48,7 @@ pub(super) fn conclude(
         running_in,
         sliding,
         plasticity: flow,
+        closed_form,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
         outcome,
@@ -53,6 +58,22 @@ pub(super) fn conclude(
     };
     writer.finish(&summary)?;
     Ok(summary)
+}
+
+/// Returns the closed form beside the computed contact of `case` on a grid of this extent, for a sweep at its last point. `None`
+/// if there is none, or if cells have yielded or worn, which no closed form here describes.
+pub(super) fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
+    let computed: ElasticContact = match outcome {
+        Outcome::Static(record) => {
+            let yields = record.flow.as_ref().is_some_and(|flow| flow.max_plastic_strain > 0.0);
+            (record.plastic_cells == 0 && !yields).then(|| (&**record).into())
+        }
+        Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
+        Outcome::Passes(_) => None,
+    }?;
+    let form =
+        ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| case.sliding.is_none())?;
+    Some(form.beside(computed))
 }
 
 /// Creates the pair of the `bodies` of `case`.

@@ -5,6 +5,7 @@
 //! [`Summary`].
 
 pub mod case; // the case file, checked key by key
+mod closed_form; // closed forms beside computed contacts
 mod estimate; // cost and warnings of a case in advance
 mod fields; // the fields of a static contact
 mod finish; // beginning and end of every run
@@ -28,6 +29,7 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 pub use case::Case;
 pub use case::rules::rules;
 pub use case::schema::keys;
+pub use closed_form::{ClosedForm, ClosedFormRecord, Theory};
 pub use columns::{
     INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,
     dimension_of_column, unit_of_column,

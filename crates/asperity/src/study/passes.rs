@@ -166,8 +166,13 @@ impl Passes {
             Ok(FlowRecord::of_passes(&left, &steps, &passes))
         });
         let subsurface = self.output.subsurface(passes.len())?;
-        let outcome =
-            Computed { outcome: Outcome::Passes(passes), subsurface, sliding: None, flow: flow.transpose()? };
+        let outcome = Computed {
+            outcome: Outcome::Passes(passes),
+            subsurface,
+            sliding: None,
+            flow: flow.transpose()?,
+            closed_form: None,
+        };
         let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
         Ok((summary, self.writer))
     }

@@ -123,9 +123,9 @@ pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
 /// [`TopographySpec`].
 ///
 /// # Errors
-/// [`Error::Case`] at the key with the mistake: a file that cannot be read, a parameter that is invalid on this grid,
-/// missing heights that no step fills, or surfaces that do not fit together. Both need the same pitch and the same number
-/// of cells along y. Without motion, or if both are shifted, they also need the same number along x.
+/// [`Error::Case`] at the key with the mistake. Mistakes are unreadable files, parameters that are invalid on this grid,
+/// missing heights that no step fills, and surfaces that do not fit together. Both surfaces need the same pitch and the
+/// same number of cells along y. Without motion, or if both are shifted, they also need the same number along x.
 pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
     bodies_until(case, given, NEVER)
 }

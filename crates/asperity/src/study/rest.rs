@@ -11,9 +11,10 @@ use crate::motion::{
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
 use crate::study::case::{Case, LoadingPath, PlasticitySpec};
+use crate::study::closed_form::ClosedFormRecord;
 use crate::study::estimate::estimate;
 use crate::study::fields::{NamedField, RestFields};
-use crate::study::finish::{pair, params};
+use crate::study::finish::{closed_form, pair, params};
 use crate::study::flow;
 use crate::study::given::Given;
 use crate::study::prepare::bodies_until;
@@ -35,6 +36,8 @@ pub struct Rest {
     pub updates: Vec<UpdateRecord>,
     /// The fields of the contact; for a sweep, at its last point.
     pub fields: RestFields,
+    /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
+    pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
     pub flowed: Option<Flowed>,
     /// Warnings for the user.
@@ -68,6 +71,7 @@ impl Rest {
             increments: Vec::new(),
             updates: Vec::new(),
             fields,
+            closed_form: None,
             flowed: None,
             warnings: Vec::new(),
         }
@@ -103,11 +107,12 @@ pub(super) fn solve(
 ) -> Result<Rest> {
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let control = case.contact.prescribed.control(apparent_area);
+    let extent = pair.lower_grid().extent();
     let contact = AtRest { case, pair, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
         return contact.slide(slide);
     }
-    match (case.loading_path(apparent_area), law, &case.plasticity) {
+    let rest = match (case.loading_path(apparent_area), law, &case.plasticity) {
         (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.flow(spec, stages),
         (Some(LoadingPath::Sweep(points)), ..) => contact.sweep(&points),
         (Some(LoadingPath::Rolling(rolling)), Some(friction), _) => contact.roll(friction, rolling),
@@ -115,7 +120,8 @@ pub(super) fn solve(
             contact.load_in_stages(&stages)
         }
         _ => contact.press(),
-    }
+    }?;
+    Ok(Rest { closed_form: closed_form(case, extent, &rest.outcome), ..rest })
 }
 
 /// A static contact to be solved.

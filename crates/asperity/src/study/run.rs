@@ -60,7 +60,7 @@ pub(super) fn run_with(
     let pair = pair(case, bodies)?;
     let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
     let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
-    let Rest { outcome, updates, fields, flowed, warnings: of_answer, .. } = rest;
+    let Rest { outcome, updates, fields, flowed, closed_form, warnings: of_answer, .. } = rest;
     warnings.extend(of_answer);
     let below = subsurface.map(|plan| (plan, fields.tractions()));
     writer.write_rest(fields)?;
@@ -74,7 +74,7 @@ pub(super) fn run_with(
     let stress =
         below.map(|(plan, tractions)| writer.write_subsurface(&plan, tractions, volumes)).transpose()?;
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
-    let computed = Computed { outcome, subsurface, sliding, flow: None };
+    let computed = Computed { outcome, subsurface, sliding, flow: None, closed_form };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     writer.results().forget_state()?;
     Ok((summary, writer))

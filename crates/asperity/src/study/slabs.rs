@@ -1,10 +1,10 @@
 //! A static contact on a grid that is distributed over ranks, and its results.
 //!
 //! ```text
-//! DIR/case.json summary.json   as of any run
+//! DIR/case.json summary.json   as for any run
 //!     fields/rank-0000.h5 …    the fields on the rows of each rank
-//!     fields/ranks.json        which rows these are
-//!     fields.h5                all rows, once they are collected
+//!     fields/ranks.json        the rows in each file
+//!     fields.h5                all rows, after collection
 //! ```
 
 mod index; // the rows of the fields in each file
@@ -18,7 +18,7 @@ use web_time::Instant;
 
 use super::case::Case;
 use super::estimate::{Demand, cut_off, demand, spot, too_few_cells};
-use super::finish::{Computed, conclude, params};
+use super::finish::{Computed, closed_form, conclude, params};
 use super::given::Given;
 use super::identity::{self, Known};
 use super::prepare::{SlabBodies, grids, made_by_slabs, slab_bodies};
@@ -144,7 +144,8 @@ pub fn run_on_ranks(
     wait_for_all(&**ranks);
     let Some(writer) = writer else { return Ok(None) };
     index.write(directory)?;
-    let computed = Computed { outcome, subsurface: Vec::new(), sliding: None, flow: None };
+    let closed_form = closed_form(case, slab.whole_grid().extent(), &outcome);
+    let computed = Computed { outcome, subsurface: Vec::new(), sliding: None, flow: None, closed_form };
     conclude(case, &writer, resolved, began, computed, Vec::new()).map(Some)
 }
 

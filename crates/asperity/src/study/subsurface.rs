@@ -5,7 +5,7 @@
 //! /von_mises_01          float64 [x, y]   von Mises' stress on the first of the planes
 //! /section_xx … _xy      float64 [x, z]   the stress on the section, and `section_von_mises`
 //! /column_01_xx … _xy    float64 [z]      the stress under the first of the columns
-//! /section_residual_xx … /column_01_residual_xx …    the part of it that flow has left, of a body that flows
+//! /section_residual_xx … /column_01_residual_xx …    its residual part, for an elasto-plastic body
 //! ```
 
 use std::path::Path;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize, Serializer};
 
+use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular};
@@ -33,6 +34,9 @@ pub struct Summary {
     /// residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<FlowRecord>,
+    /// Closed form of the contact beside the computed one, if both bodies are smooth forms; `None` for others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closed_form: Option<ClosedFormRecord>,
     /// The most stressed point, once for a static contact, once per pass for a motion; empty if the stress was not
     /// requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -177,6 +181,7 @@ mod tests {
             running_in: None,
             sliding: None,
             plasticity: None,
+            closed_form: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {
                 pass: None,

@@ -78,8 +78,8 @@ impl Tractions {
 /// - [`Boundary::FREE`]: tractions are uniform in each cell, and zero outside the grid. A plane is the convolution of the
 ///   tractions with the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
 /// - [`Boundary::PERIODIC`]: the harmonics of the values at the cells, each with the closed form of
-///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot expand laterally: σzz = −p̄, σxx = σyy =
-///   −ν p̄/(1 − ν), at all depths.
+///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot expand laterally: σzz = −p̄,
+///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
 pub struct Subsurface {
     grid: Grid,
     poisson: f64,

@@ -35,8 +35,8 @@ pub enum Form {
     },
     /// z = −r tan α.
     Cone {
-        /// Slope α of the flank relative to the surface plane, 0 < α < π/2, in radians; an indenter with semi-angle θ has α =
-        /// π/2 − θ.
+        /// Slope α of the flank relative to the surface plane, 0 < α < π/2, in radians; an indenter with semi-angle θ has
+        /// α = π/2 − θ.
         angle: f64,
     },
     /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), with a crest of height 0 in the centre and the mean height −A.

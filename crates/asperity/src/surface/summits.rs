@@ -163,8 +163,8 @@ mod tests {
         let grid = Grid::new([61, 51], [0.5, 1.0]).unwrap();
         let z = Form::Sinusoid { amplitude: 2.0, wavelength: [10.0, 25.0] }.on(&grid).unwrap();
         let found = Summits::of(&z);
-        // cos·cos has crests at (m λx, n λy) from the centre and at (m + ½, n + ½) between: inside the boundary 3 × 1 and 2
-        // × 2.
+        // cos·cos has crests at (m λx, n λy) from the centre and at (m + ½, n + ½) between: inside the boundary 3 × 1 and
+        // 2 × 2.
         assert_eq!(found.summits.len(), 7);
         let curvature = 2.0 * 0.5 * ((TAU / 10.0f64).powi(2) + (TAU / 25.0f64).powi(2));
         for summit in &found.summits {

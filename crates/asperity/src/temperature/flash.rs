@@ -22,8 +22,8 @@ use crate::units::{Dimension, Kelvin, Second, WattPerSquareMetre};
 /// The present step takes five convolutions and about ten for the heat partition, of the padded size, or direct sums for
 /// few cells.
 ///
-/// Compared with an integral over the history of every cell, the error is 3·10⁻⁵ if DΔt is above a squared cell size,
-/// 5·10⁻⁴ at 0.3 and a few per cent at 0.02, where the heat of a step stays in its cell.
+/// The method was compared with an integral over the history of every cell. The error is 3·10⁻⁵ if DΔt is above a squared
+/// cell size, 5·10⁻⁴ at 0.3, and a few per cent at 0.02, where the heat of a step stays in its cell.
 pub struct FlashTemperature {
     bulk: [Kelvin; 2],
     cell_area: f64,

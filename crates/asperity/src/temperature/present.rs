@@ -88,8 +88,8 @@ impl Spread {
 /// Number of products that take as long as a convolution, per cell of its transforms.
 const DIRECT: usize = 12;
 
-/// Coefficients of the temperature of a body at rest at the end of a step, K m²/W, on cells of the `grid`, for a flux that
-/// grows from 0 during the step, and for one that decreases to 0.
+/// Coefficients of the temperature of a body at rest at the end of a step, K m²/W, on cells of the `grid`. The first are
+/// for a flux that grows from 0 during the step, the second for one that decreases to 0.
 ///
 /// Without a periodic axis they are those of [`Cell::ramps`]; otherwise those of waves, with x = √(Dq²t),
 ///

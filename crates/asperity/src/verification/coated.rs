@@ -115,8 +115,8 @@ pub(super) const THICK: Case = Case {
     },
 };
 
-/// A compressible layer thin compared with the contact, on a rigid body. It is an elastic foundation with the modulus E(1 −
-/// ν)/(1 + ν)(1 − 2ν), apart from terms of order (qt)² in the harmonics and an edge as wide as the layer thickness.
+/// A compressible layer thin compared with the contact, on a rigid body. It is an elastic foundation with the modulus
+/// E(1 − ν)/(1 + ν)(1 − 2ν), apart from terms of order (qt)² in the harmonics and an edge as wide as the layer thickness.
 pub(super) const FOUNDATION: Case = Case {
     name: "Coated half-space: thin layer on a rigid body",
     source: "Johnson (1985), section 5.8",

@@ -5,14 +5,14 @@
 //! cell and displacements evaluated at its centre, theory predicts:
 //!
 //! ```text
-//! load, approach, mean gap, energy: what follows from the least energy
-//!     order 2   the centre of a cell sinks Δx² ∇²u/24 less or more than its mean
-//!     order 3   the rest, the square of the pressure's error in the norm of the energy, Δx^(3/2)
-//!     order 1   where the pressure ends as 1/√distance: that error is Δx^(1/2)
+//! load, approach, mean gap, energy: quantities from the minimum of the energy
+//!     order 2   the displacement at the centre of a cell differs from its mean by Δx² ∇²u/24
+//!     order 3   the remainder, the squared pressure error in the energy norm, Δx^(3/2)
+//!     order 1   if the pressure ends as 1/√distance, where that error is Δx^(1/2)
 //! pressure, rms over the contact
-//!     order 1   where it ends as √distance: wrong by √Δx in a share Δx of the cells
+//!     order 1   if it ends as √distance: an error of √Δx in a fraction Δx of the cells
 //! contact, counted by cells
-//!     order 1   a cell at each edge is in or out
+//!     order 1   a cell at each edge is inside or outside
 //! ```
 //!
 //! Shear, tangential displacement and stick area behave like pressure, approach and contact area. Increments with a growing

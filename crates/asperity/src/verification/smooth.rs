@@ -136,8 +136,8 @@ fn line_alone() -> Result<Vec<Check>> {
 /// A cylinder on a periodic grid one cell wide, with the influence of its neighbours.
 ///
 /// The other lines of contact, a period L away, act like a curvature: (π/L) cot(πt/L) = 1/t − π²t/3L² − …, where the second
-/// term is linear in x for any pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), apart from terms of (a/L)⁴ =
-/// 1e-6.
+/// term is linear in x for any pressure. The contact is Hertz's with R′ = R (1 − π²a²/6L²), apart from terms of
+/// (a/L)⁴ = 1e-6.
 pub(super) const LINE: Case =
     Case { name: "Hertz: cylinder, period 32 a", source: "Johnson (1985), eqs. 4.43–4.45", checks: line };
 

@@ -1,7 +1,6 @@
-//! Bad inputs are files that hold the message they must produce.
+//! Bad inputs are files that contain the expected message.
 //!
-//! Beneath the faulty line stands `#^ message`, its caret under the faulty place, then `#= hint: …` where the
-//! error has a hint.
+//! Below the faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a hint.
 
 use std::path::{Path, PathBuf};
 
@@ -33,8 +32,8 @@ fn a_file_that_is_not_there_is_named() {
     assert!(error.to_string().starts_with("nowhere/case.toml: "), "{error}");
 }
 
-/// Pieces of good cases cut out, doubled and exchanged: most are refused, none upsets the reader, and the place of
-/// each error can be shown.
+/// Pieces of good cases are cut out, doubled and exchanged. Most of these cases are rejected, none causes a panic, and the
+/// place of each error can be shown.
 #[test]
 fn a_damaged_case_never_panics() {
     let good: Vec<_> = files("good").iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
@@ -76,7 +75,7 @@ fn check(file: &Path, error: Option<Error>) -> Result<(), String> {
         None => return Err(format!("{name}: accepted")),
     };
     let expected = Expected::of(&found.text);
-    // Files are named as seen from here.
+    // Files are relative to the working directory.
     let folder = format!("{}/", env!("CARGO_MANIFEST_DIR"));
     let same = found.message.replace(&folder, "") == expected.message
         && found.hint == expected.hint
@@ -109,7 +108,7 @@ impl Expected {
         let mark = lines.iter().position(is_mark).expect("a line `#^ message`");
         let (before, message) = lines[mark].split_once('^').unwrap();
         Self {
-            line: mark, // counted from 1, that above the mark
+            line: mark, // counted from 1, the line above the mark
             column: before.chars().count() + 1,
             message: message.trim().to_owned(),
             hint: lines.get(mark + 1).and_then(|line| line.strip_prefix("#= hint: ")).map(str::to_owned),
@@ -117,7 +116,7 @@ impl Expected {
     }
 }
 
-/// The columns of the place; where it begins a line also the second, as the caret stands behind a `#`.
+/// Returns the columns of the place; at the start of a line also the second, because the caret follows a `#`.
 fn columns(error: &CaseError) -> std::ops::RangeInclusive<usize> {
     let width = error.text[error.span.clone()].chars().count().max(1);
     error.column..=(error.column + width - 1).max(2)

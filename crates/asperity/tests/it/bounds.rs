@@ -1,4 +1,4 @@
-//! Bounds of the pressure, cell by cell: every method against a cell-by-cell iteration that knows nothing of them.
+//! Bounds of the pressure, cell by cell: every method compared with an independent cell-by-cell iteration.
 
 use asperity::operator::{Boundary, DirectSum, Edge, FreeFamily, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
@@ -6,7 +6,7 @@ use asperity::{Error, Field, Grid};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A contact whose cells have their own bounds.
+/// A contact with bounds for each cell.
 struct Problem {
     operator: Box<dyn Operator>,
     gap: Field,
@@ -42,7 +42,7 @@ impl Problem {
         solve_normal(self.operator.as_mut(), &self.gap, &bounds, control, None, &params)
     }
 
-    /// The pressure at an approach, by projected Gauss–Seidel sweeps to round-off.
+    /// Returns the pressure at an approach, by projected Gauss–Seidel sweeps to round-off.
     fn cell_by_cell(&self, approach: f64) -> Field {
         let shape = self.operator.grid().shape;
         let cells = shape[0] * shape[1];
@@ -92,7 +92,7 @@ fn every_method_keeps_each_cell_in_its_own_bounds_and_agrees_with_a_cell_by_cell
             for (cell, p) in found.pressure.iter().enumerate() {
                 assert!(bounds.lower().at(cell) <= *p && *p <= bounds.upper().at(cell), "{n}, {method:?}");
             }
-            // Its load leads back to it.
+            // Its load gives the same solution.
             let load = Control::Load(found.load());
             let back = problem.solve(load, method, 1e-9).unwrap();
             assert!((back.load() - found.load()).abs() <= 1e-9 * area * expected.mapv(f64::abs).sum());
@@ -126,7 +126,7 @@ fn on_larger_grids_the_active_set_and_its_cascade_agree_with_the_direct_method()
     }
 }
 
-/// A field of the same value is that value.
+/// A uniform field equals its value.
 #[test]
 fn uniform_bounds_as_fields_come_to_the_same() {
     let mut rng = ChaCha8Rng::seed_from_u64(23);
@@ -142,7 +142,8 @@ fn uniform_bounds_as_fields_come_to_the_same() {
     assert_eq!(field.pressure, uniform.pressure);
 }
 
-/// Two flat bodies that attract each other with a stress σ₀ up to any distance hold together till the pull is σ₀ on all cells.
+/// Two flat bodies that attract each other with a stress σ₀ at any distance stay together until the pull is σ₀ on all
+/// cells.
 #[test]
 fn bodies_that_attract_each_other_bear_a_pull() {
     let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();

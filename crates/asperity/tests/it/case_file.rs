@@ -1,6 +1,6 @@
-//! The tables of docs/input.md and docs/input/ are those that the program declares: its keys, and what does not go together.
+//! The tables of docs/input.md and docs/input/ equal the declarations in the program: keys, and rules for combinations.
 //!
-//! `UPDATE_DOCS=1 cargo test -p asperity --test it case_file::` writes them anew. Above each stands a comment that names it:
+//! `UPDATE_DOCS=1 cargo test -p asperity --test it case_file::` rewrites them. Above each table is a comment with its name:
 //! `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`, `<!-- rules -->`.
 
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ use asperity::study::case::rules::Rule;
 use asperity::study::case::schema::{Key, Section};
 use asperity::units::Dimension;
 
-/// Dimensions whose units docs/input.md lists.
+/// Dimensions with units listed in docs/input.md.
 const COMMON: [Dimension; 5] =
     [Dimension::Length, Dimension::Pressure, Dimension::Force, Dimension::Speed, Dimension::Angle];
 
@@ -97,7 +97,7 @@ fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
         let message =
             rule.message.replace("{key}", key).replace("{path}", &found.key).replace("{value}", &value);
         let hint = Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty());
-        // A stage is known by its array.
+        // A stage is identified by its array.
         let at = found.key.replace(['[', ']'], "");
         if (&found.message, &found.hint, at.as_str()) != (&message, &hint, rule.at) || found.span.is_empty() {
             wrong.push(format!("{} with {}: {}: {}\n{text}", rule.this, rule.with, found.key, found.message));
@@ -106,7 +106,7 @@ fn every_rule_is_broken_by_its_example_and_says_so_at_its_key() {
     assert!(wrong.is_empty(), "{} rules:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// A ball on a plate, with what an example has in place of its keys.
+/// A ball on a plate, with the keys of an example in place of its own.
 fn case(example: &[&str]) -> String {
     const BASE: [(&str, &str); 7] = [
         ("lower.young", "\"210 GPa\""),
@@ -122,13 +122,13 @@ fn case(example: &[&str]) -> String {
     base.chain(example.iter().map(|text| (*text).to_owned())).collect::<Vec<_>>().join("\n")
 }
 
-/// What a comment calls a section: its first table, and the choice with which its keys have a meaning.
+/// Name of a section in comments: its first table, and the choice for which its keys apply.
 fn name(section: &Section) -> String {
     let table = section.tables.first().unwrap_or(&"root");
     if section.kind.is_empty() { (*table).to_owned() } else { format!("{table} with {}", section.kind) }
 }
 
-/// The table of some sections; where they belong to several choices, these stand in the first column.
+/// Returns the table of some sections. If they belong to several choices, these are in the first column.
 fn table_of_keys(sections: &[&Section]) -> String {
     let choices = sections.iter().any(|section| section.kind != sections[0].kind);
     let mut text = match choices {
@@ -146,7 +146,7 @@ fn table_of_keys(sections: &[&Section]) -> String {
                 "tables" => format!("[[{within}{name}]]"),
                 _ => (*name).to_owned(),
             };
-            // What the units of the table of quantities are not enough for has an example.
+            // A value that the units of the table of quantities do not cover has an example.
             let value = match kind.dimension() {
                 Some(dimension) if !COMMON.contains(&dimension) => format!("{kind}, as `{example}`"),
                 _ => kind.to_string(),

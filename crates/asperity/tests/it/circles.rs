@@ -1,13 +1,13 @@
-//! No files depend on each other in a circle.
+//! Files have no circular dependencies.
 //!
-//! Of the files and folders that stand side by side one uses another if any file in the one names an item of any file in the other.
-//! What a file shares with the module that it is a part of does not count.
+//! A file or folder uses a neighbour if any file in it names an item of any file in the neighbour. Items of the common
+//! parent module do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The path of a module below `src`.
+/// Path of a module below `src`.
 type Module = Vec<String>;
 
 #[test]
@@ -36,7 +36,7 @@ fn circles_are_seen() {
     assert_eq!(circles(&uses(&files)), ["src: a, b", "src/a: one, two"]);
 }
 
-/// The code of each module, without comments and tests.
+/// Returns the code of each module, without comments and tests.
 fn files(source: &Path) -> BTreeMap<Module, String> {
     let mut found = BTreeMap::new();
     let mut folders = vec![source.to_owned()];
@@ -65,9 +65,9 @@ fn code(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap().to_owned() + "\n").collect()
 }
 
-/// Which modules each one names.
+/// Returns the modules named by each module.
 fn uses(files: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> {
-    // What a module hands on of those below it, by its name there.
+    // Items that a module re-exports from its submodules, by their names there.
     let mut handed_on = BTreeMap::new();
     for (module, text) in files {
         for statement in text.split(';') {
@@ -117,7 +117,7 @@ fn uses(files: &BTreeMap<Module, String>) -> BTreeMap<Module, BTreeSet<Module>> 
     files.iter().map(of).collect()
 }
 
-/// The paths at the start of `text`: of `a::{b, c::d} …` a::b and a::c::d.
+/// Returns the paths at the start of `text`: a::b and a::c::d for `a::{b, c::d} …`.
 fn paths(text: &str) -> Vec<Module> {
     let name =
         |text: &str| -> String { text.chars().take_while(|c| *c == '_' || c.is_alphanumeric()).collect() };
@@ -148,7 +148,7 @@ fn paths(text: &str) -> Vec<Module> {
     }
 }
 
-/// The files and folders, side by side, each of which leads to itself.
+/// Returns the neighbouring files and folders that depend on themselves.
 fn circles(uses: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<String> {
     let mut beside: BTreeMap<&[String], BTreeMap<&str, BTreeSet<&str>>> = BTreeMap::new();
     for (from, named) in uses {
@@ -179,7 +179,7 @@ fn circles(uses: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<String> {
     found
 }
 
-/// All that is led to from a file or folder.
+/// Returns everything reachable from a file or folder.
 fn reached<'a>(uses: &BTreeMap<&'a str, BTreeSet<&'a str>>, from: &str) -> BTreeSet<&'a str> {
     let mut seen = BTreeSet::new();
     let mut left: Vec<&str> = uses.get(from).into_iter().flatten().copied().collect();

@@ -1,8 +1,8 @@
-//! The cases of `asperity verify`, one sentence of physics each.
+//! The cases of `asperity verify`, with one sentence of physics each.
 
 use asperity::verification::{CASES, Check};
 
-/// One test for each case, and one that none is left out.
+/// One test for each case, and one that checks that none is missing.
 macro_rules! cases {
     ($($(#[$slow:meta])? $sentence:ident: $name:literal,)*) => {
         $(#[test] $(#[$slow])? fn $sentence() { holds($name) })*

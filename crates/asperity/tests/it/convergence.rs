@@ -1,4 +1,4 @@
-//! The active set converges on every surface, boundary, cap, load and start that we could think of.
+//! The active set converges on a wide range of surfaces, boundaries, caps, loads and starts.
 
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
@@ -21,7 +21,7 @@ fn it_converges_on_every_surface() {
     stress(0..40);
 }
 
-/// The dearest answer, and where it was.
+/// The most expensive solution, and its problem.
 #[derive(Default)]
 struct Worst {
     convolutions: f64,
@@ -67,7 +67,7 @@ fn stress(seeds: impl Iterator<Item = u64>) {
     }
 }
 
-/// A self-affine surface of rms slope 0.1 whose longest and shortest waves depend on the seed.
+/// A self-affine surface with rms slope 0.1, whose longest and shortest waves depend on the seed.
 fn rough(grid: &Grid, seed: u64) -> Field {
     let side = SIDE as f64;
     let rolloff = side / [1.0, 2.0, 4.0][seed as usize % 3];

@@ -1,4 +1,4 @@
-//! The tables of the documents hold what the program prints.
+//! The tables of the documents equal the output of the program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,10 +35,10 @@ fn every_roughness_parameter_stands_in_its_table() {
     assert!(missing.is_empty(), "docs/surfaces.md lacks\n{}", missing.join("\n"));
 }
 
-/// A line of a document above a table of columns; between its ends the names of the records.
+/// A line of a document above a table of columns, with the names of the records between these parts.
 const MARK: [&str; 2] = ["<!-- columns: ", " -->"];
 
-/// With the environment variable `UPDATE` the tables are written anew from the declarations.
+/// With the environment variable `UPDATE` the tables are rewritten from the declarations.
 #[test]
 fn the_tables_of_columns_are_those_of_the_records() {
     let mut records: Vec<&str> = Vec::new();
@@ -60,7 +60,7 @@ fn the_tables_of_columns_are_those_of_the_records() {
     assert_eq!(records, declared, "each record has one table");
 }
 
-/// A document with the tables of the `RECORDS` that it names; their names go to `records`.
+/// Returns a document with the tables of the `RECORDS` that it names; adds their names to `records`.
 fn with_tables(page: &str, records: &mut Vec<&'static str>) -> String {
     let mut text = String::new();
     let mut lines = page.lines().peekable();
@@ -69,7 +69,7 @@ fn with_tables(page: &str, records: &mut Vec<&'static str>) -> String {
         let Some(names) = line.strip_prefix(MARK[0]).and_then(|rest| rest.strip_suffix(MARK[1])) else {
             continue;
         };
-        // The head stays.
+        // The header stays.
         for head in lines.by_ref().take(2) {
             text += &format!("{head}\n");
         }
@@ -119,7 +119,7 @@ fn the_cases_of_the_gallery_are_valid() {
     assert!(loaded.count() > 0);
 }
 
-/// The keys of an object and of those within it, but for the case.
+/// Collects the keys of an object and of nested objects, without the case.
 fn keys(value: &Value, names: &mut Vec<String>) {
     match value {
         Value::Object(object) => {

@@ -1,5 +1,4 @@
-//! Case files in which one value is beyond all measure: an error at its line or an answer of numbers, never a panic, never
-//! an endless run.
+//! Case files with one extreme value: an error at its line or a finite result, never a panic or an endless run.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -12,7 +11,7 @@ use asperity::study::bodies;
 use asperity::study::{Demand, demand, estimate};
 use rayon::prelude::*;
 
-/// Small cases that between them have every key, without files.
+/// Small cases without files that together have every key.
 const CASES: [&str; 6] = [
     r#"
 title = "a ball that yields"
@@ -220,7 +219,7 @@ approach = "20 nm"
 "#,
 ];
 
-/// What may stand after a `=`.
+/// Values to insert after a `=`.
 const EXTREMES: [&str; 46] = [
     "0",
     "-1",
@@ -270,7 +269,7 @@ const EXTREMES: [&str; 46] = [
     "1979-05-27",
 ];
 
-/// Memory and effort beyond which a case is not run, as the command would not and a test need not.
+/// Limits of memory and effort above which a case is not run, as in the command.
 const MEMORY: f64 = 3e6;
 const EFFORT: f64 = 5e7;
 
@@ -278,7 +277,7 @@ fn is_large(demand: &Demand) -> bool {
     demand.surfaces + demand.solver + demand.together + demand.results > MEMORY || demand.effort > EFFORT
 }
 
-/// A case with one value exchanged, the line it stands in, from 1, and its key.
+/// A case with one changed value, its line, from 1, and its key.
 struct Mutation {
     text: String,
     line: usize,
@@ -292,7 +291,7 @@ fn mutations() -> Vec<Mutation> {
         for (index, line) in lines.iter().enumerate() {
             let Some((key, value)) = line.split_once(" = ") else { continue };
             let mut values: Vec<String> = EXTREMES.iter().map(|value| (*value).to_owned()).collect();
-            // Of two numbers each by itself.
+            // The two numbers of a pair one at a time.
             if let Some((first, second)) = value.trim_matches(['[', ']']).split_once(", ") {
                 values.extend(EXTREMES.iter().map(|extreme| format!("[{first}, {extreme}]")));
                 values.extend(EXTREMES.iter().map(|extreme| format!("[{extreme}, {second}]")));
@@ -308,14 +307,14 @@ fn mutations() -> Vec<Mutation> {
     all
 }
 
-/// The case, if it is read; an error must stand where the mistake is, or name it.
+/// Reads the case, if possible. An error must be at the place of the mistake, or name it.
 fn read(mutation: &Mutation) -> Option<Case> {
     match Case::parse(&mutation.text, Path::new("case.toml"), Path::new("")) {
         Ok(case) => Some(case),
         Err(Error::Case(error)) => {
             let says = format!("{} {}", error.message, error.hint.as_deref().unwrap_or_default());
             let is_there = error.line == mutation.line || says.contains(&mutation.key);
-            // A body may have become rigid, a contact one that does not slide.
+            // A body may have become rigid, or a contact may no longer slide.
             let follows =
                 ["both bodies are rigid", "do not slide", "belongs to", "has no meaning", "missing key"];
             assert!(
@@ -334,7 +333,7 @@ fn has_numbers_only(value: &serde_json::Value) -> bool {
     match value {
         serde_json::Value::Null => false,
         serde_json::Value::Array(items) => items.iter().all(has_numbers_only),
-        // Where not all slides there is none.
+        // Without gross slip there is none.
         serde_json::Value::Object(entries) => {
             entries.iter().all(|(key, value)| key == "friction_coefficient" || has_numbers_only(value))
         }
@@ -342,7 +341,7 @@ fn has_numbers_only(value: &serde_json::Value) -> bool {
     }
 }
 
-/// Errors that a case may end with: what it is, not what the program lacks.
+/// Whether a case may fail with this error: it concerns the case, not a defect of the program.
 fn is_an_answer(error: &Error) -> bool {
     if let Error::AtPosition { source, .. } = error {
         return is_an_answer(source);
@@ -400,7 +399,7 @@ fn extreme_values_are_refused_at_their_line_or_foreseen() {
 
 #[test]
 fn what_is_computed_of_extreme_values_are_numbers() {
-    // In CI one of so many; by hand all: `ASPERITY_EXTREMES=1 cargo test --test it extremes`.
+    // In CI one of every 17; all by hand: `ASPERITY_EXTREMES=1 cargo test --test it extremes`.
     let stride = if std::env::var_os("ASPERITY_EXTREMES").is_some() { 1 } else { 17 };
     let told = Mutex::new([0; 3]);
     let chosen: Vec<_> = mutations().into_iter().step_by(stride).collect();

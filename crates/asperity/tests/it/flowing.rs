@@ -1,4 +1,4 @@
-//! Bodies that flow below their surfaces, from the case to the results.
+//! Elasto-plastic bodies, from the case to the results.
 
 use std::path::Path;
 
@@ -7,8 +7,8 @@ use asperity::study::case::Case;
 use asperity::study::{self, Existing, Given, Outcome, Results};
 use ndarray::Array3;
 
-/// A ball of 1 mm on a flat body that flows from 1.5 GPa on, or does not; yield begins at 5.5 N, at the depth of half the radius
-/// of the contact, 33 µm.
+/// A ball of 1 mm on a flat body that yields at 1.5 GPa, or does not. Yield begins at 5.5 N, at a depth of half the contact
+/// radius, 33 µm.
 fn case(load: &str, plasticity: &str, rest: &str) -> Case {
     let text = format!(
         "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n{plasticity}[lower.topography]\nform = \"flat\"\nshape = [24, 24]\n\
@@ -62,7 +62,7 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
         "{x} {y} {z}"
     );
     assert!(flow.plastic_work > flow.stored_energy && flow.stored_energy > 0.0, "{flow:?}");
-    // Unloading is elastic: what has flowed stays.
+    // Unloading is elastic: the plastic strain stays.
     assert!((left.residual_max_plastic_strain / flow.max_plastic_strain - 1.0).abs() < 0.05);
     assert!(left.residual_displaced_volume > 0.0 && left.residual_max_residual_tension > 1e8, "{left:?}");
     let results = Results::open(&out).unwrap();
@@ -86,13 +86,13 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     assert_eq!(accumulated.shape(), [24, 24, 10]);
     let largest = accumulated.iter().fold(0.0, |most: f64, strain| most.max(*strain));
     assert_eq!(largest, flow.max_plastic_strain);
-    // The dent is deepest in the middle, and the surfaces have it.
+    // The dent is deepest in the middle, and the surfaces include it.
     let dent = volumes.read("displacement_lower").unwrap().into_field().unwrap();
     let deepest = dent.indexed_iter().max_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
     assert!((10..14).contains(&deepest.0) && (10..14).contains(&deepest.1), "{deepest:?}");
     let lower = results.static_fields().unwrap().read("lower").unwrap().into_field().unwrap();
     assert!((&lower + &dent).iter().all(|z| z.abs() < 1e-15));
-    // The gap is that of the bodies as they are: closed where they touch.
+    // The gap is that of the deformed bodies: closed where they touch.
     let fields = results.static_fields().unwrap();
     let read = |name: &str| fields.read(name).unwrap().into_field().unwrap();
     let (gap, pressure) = (read("gap"), read("pressure"));
@@ -101,7 +101,8 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     assert!(open < 1e-5 * record.approach, "{open:e}");
 }
 
-/// A stage goes in its own equal steps from where the one before has ended, in load or approach; without any in those of the volume.
+/// A stage continues from the end of the one before, in load or approach, in its own equal steps, or by default in those of
+/// the volume.
 #[test]
 fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
     let slides = format!("[friction]\ncoefficient = 0.2\nsliding = [3, 4]\n{VOLUME}");
@@ -159,7 +160,7 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     assert!(whole.warnings.iter().any(|warning| warning.contains("above 15 %")), "{:?}", whole.warnings);
 }
 
-/// Below a ball that has yielded the stress is what acts and what flow has left; below the volume it goes on.
+/// Below a ball that has yielded, the stress is the elastic plus the residual stress; it continues below the volume.
 #[test]
 fn the_stress_below_bodies_that_flow_is_whole() {
     let folder = tempfile::tempdir().unwrap();
@@ -175,11 +176,11 @@ fn the_stress_below_bodies_that_flow_is_whole() {
     let read = |results: &Results, name: &str| {
         results.subsurface_fields(None).unwrap().read(name).unwrap().into_field().unwrap()
     };
-    // Flow has taken the peak off.
+    // Plastic flow has reduced the peak.
     let most = |results: &Results| read(results, "section_von_mises").iter().fold(0.0f64, |m, s| m.max(*s));
     assert!(most(&flows) < 0.8 * most(&elastic), "{:e} {:e}", most(&flows), most(&elastic));
     assert!(most(&flows) < 1.15 * (1.5e9 + 5e9 * 0.05), "{:e}", most(&flows));
-    // At the middle of the first layer, at a depth of 3.6 µm, it is the residual stress that the volume has.
+    // In the middle of the first layer, at a depth of 3.6 µm, it equals the residual stress of the volume.
     let residual = flows.flow_fields(None).unwrap().read("residual_stress_xx_lower").unwrap().values;
     let residual = residual.into_dimensionality::<ndarray::Ix3>().unwrap();
     let section = read(&flows, "section_residual_xx");

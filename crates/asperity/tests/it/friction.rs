@@ -1,4 +1,5 @@
-//! The contact with friction against an independent method on small grids, and against what must hold of every answer.
+//! The contact with friction compared with an independent method on small grids, and with conditions that every solution
+//! must satisfy.
 
 use asperity::material::{Compliances, Material};
 use asperity::operator::{Boundary, CoupledSum, Operators};
@@ -51,7 +52,7 @@ fn assert_same(solution: &FrictionalSolution, cell_by_cell: &[[f64; 3]], what: &
     }
 }
 
-/// Solves under a load and a force, and again at the approach and the displacement that belong to them.
+/// Solves for a load and a force, and again for the resulting approach and displacement.
 #[test]
 fn forces_and_displacements_are_two_ways_to_say_the_same() {
     let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
@@ -142,12 +143,12 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
         assert_eq!(*q, (0.5 * p).min(0.02));
     }
     assert_eq!(sliding.stick.sum(), 0.0);
-    // It is what a large displacement ends in.
+    // It is the limit for a large displacement.
     let pushed = Loading { tangential: Tangential::Displacement([1e4, 0.0]), ..loading };
     let pushed = solve(&friction, pushed);
     let error = (&pushed.normal.pressure - &sliding.normal.pressure).mapv(f64::abs);
     assert!(error.iter().all(|e| *e < 1e-5 * sliding.normal.max_pressure()));
-    // Ahead of the shear that drags it the softer lower body sinks, behind it it rises to meet the upper one.
+    // Ahead of the shear the softer lower body sinks, and behind it it rises towards the upper one.
     let alone = solve(&friction.with_coefficient(0.0), loading);
     let moment = |p: &Field| p.indexed_iter().map(|((i, _), p)| i as f64 * p).sum::<f64>() / p.sum();
     assert!(moment(&sliding.normal.pressure) < moment(&alone.normal.pressure) - 0.05);
@@ -195,7 +196,7 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
         }
         assert!(area.windows(2).all(|pair| pair[1] as f64 > 0.98 * pair[0] as f64), "{area:?}");
         assert!(area[4] as f64 > 1.05 * area[0] as f64, "{area:?}");
-        // At last all slides, and bears H/√(1 + αμ²).
+        // Finally everything slips, with a load of H/√(1 + αμ²).
         let sliding = solve(9.0, Tangential::Sliding([1.0, 0.0]), None);
         let cap = hardness / (1.0 + 9.0 * 0.16f64).sqrt();
         assert!((sliding.normal.max_pressure() / cap - 1.0).abs() < 1e-12);
@@ -224,7 +225,7 @@ fn bodies_apart_bear_nothing_and_touch_later() {
     }
 }
 
-/// New cells bear more shear than pressure, and shear lifts those at the edge that have just come to bear any.
+/// New cells carry more shear than pressure, and shear lifts the cells at the edge that have just come into contact.
 #[test]
 fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
     let (cells, steps) = (16, 16);
@@ -303,12 +304,12 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
                 let what = format!("{name}, {friction:?}, H = {hardness}");
                 let mut before: Option<FrictionalSolution> = None;
                 let mut slip_before = vec![[0.0; 2]; grid.cells()];
-                // Down, aside, further down and back across.
+                // Down, sideways, further down and back.
                 for (approach, shift) in
                     [(0.4, [0.0, 0.0]), (0.4, [0.05, 0.02]), (0.6, [0.06, 0.08]), (0.5, [0.0, -0.04])]
                 {
                     if coefficient.is_infinite() && approach == 0.5 {
-                        continue; // What bears any shear and then opens has no answer.
+                        continue; // A contact that carries any shear and then opens has no solution.
                     }
                     let loading = Loading {
                         normal: Control::Approach(approach),
@@ -380,7 +381,7 @@ fn what_single_precision_leaves_is_corrected_down_to_any_tolerance() {
     }
 }
 
-/// A smooth contact on a fine grid, all the way to its edges.
+/// A smooth contact on a fine grid, up to its edges.
 #[test]
 fn a_large_contact_takes_no_more_steps_than_a_small_one() {
     let mut cost = Vec::new();

@@ -1,4 +1,4 @@
-//! Good inputs are read as they are meant, and are written back as they were read.
+//! Good inputs are read correctly, and written back unchanged.
 
 use std::path::{Path, PathBuf};
 
@@ -203,7 +203,7 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
     let low_pass = LowPass::new(20e-9, [8e-6; 2]);
     assert_eq!(made.lower.topography.heights(), low_pass.generate(&grid, 0).unwrap().heights());
 
-    // A measured one whose pitch has more digits than a text shows, averaged, cut and turned over, on either side.
+    // A measured surface whose pitch has more digits than its text shows, averaged, cut and turned over, on either side.
     let folder = tempfile::tempdir().unwrap();
     let heights = LowPass::new(50e-9, [9e-6; 2]);
     let measured = Grid::new([60, 44], [0.123456789123e-6, 0.3e-6]).unwrap();
@@ -232,7 +232,7 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
             let difference = a.topography.heights() - b.topography.heights();
             assert!(difference.iter().all(|e| e.abs() < 1e-12 * 1e-6));
         }
-        // The case as resolved has what was taken, and comes to the same.
+        // The resolved case contains the taken value, and gives the same result.
         let resolved = study::resolved(&short, &found);
         let name = if lower == file { "upper" } else { "lower" };
         let made = &resolved[name]["topography"];

@@ -1,4 +1,4 @@
-//! A map of the hardness, from its file to the results.
+//! A hardness map, from its file to the results.
 
 use std::path::Path;
 
@@ -79,7 +79,7 @@ fn each_cell_is_capped_by_its_own_hardness_and_the_softer_cell_flows() {
     }
     assert_eq!(capped, record.plastic_cells);
     assert!(record.plastic_cells > 10 && record.max_pressure == 3e9, "{record:?}");
-    // The same number everywhere is that number.
+    // A uniform map equals its value.
     write_map(folder.path(), &Field::from_elem([24, 20], 2.0));
     let (mapped, _) = at_rest(CASE, folder.path(), "mapped");
     let number = CASE.replace("{ file = \"map.npy\", unit = \"GPa\" }", "\"2 GPa\"");
@@ -110,7 +110,7 @@ fn the_map_moves_with_its_body() {
         let offset = (step.offset / 1e-6).round() as isize;
         for ((i, j), p) in pressure.indexed_iter() {
             let column = i as isize - offset.min(0);
-            // Mirrored in x: the heights as measured lie the other way round.
+            // Mirrored in x: the measured heights have the opposite orientation.
             let cap = 1e9 * f64::min(3.0, map[[23 - column as usize, j]]);
             assert!(*p <= cap, "{step:?}: {p:e} of {cap:e} at {i}, {j}");
         }
@@ -121,12 +121,12 @@ fn the_map_moves_with_its_body() {
         lost > 0.0 && lower > 0.0 && lost > lower,
         "soft cells of the upper body take more: {lower:e}, {lost:e}"
     );
-    // And goes on from where it was.
+    // A resumed motion continues from its state.
     let once = moving.replace("passes = 2", "passes = 1");
     run(&once, folder.path(), "parts", Existing::Keep).unwrap();
     let rest = passes(run(&moving, folder.path(), "parts", Existing::Resume).unwrap());
     assert_eq!(rest[1].lost, whole[1].lost);
-    // But not with another map.
+    // With another map it is refused.
     run(&once, folder.path(), "changed", Existing::Keep).unwrap();
     write_map(folder.path(), &map.mapv(|hardness| 1.1 * hardness));
     let changed = run(&moving, folder.path(), "changed", Existing::Resume).unwrap_err();

@@ -1,4 +1,4 @@
-//! Contacts that slide and wear in place: implicit updates, and the compliance with which they are solved.
+//! Contacts that wear in place: implicit updates, and the compliance used to solve them.
 
 use std::path::Path;
 
@@ -22,12 +22,12 @@ fn steel(hardness: f64) -> Material {
     Material::new(210e9, 0.3, hardness).unwrap()
 }
 
-/// Numbers that a test draws, from 0 to 1.
+/// Random numbers from 0 to 1.
 struct Draw(u64);
 
 impl Draw {
     fn next(&mut self) -> f64 {
-        // Knuth's MMIX.
+        // The generator of Knuth's MMIX.
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -119,7 +119,7 @@ fn no_compliance_is_the_contact_without_it_to_the_last_bit() {
     }
 }
 
-/// The pressure at an approach, by Gauss and Seidel's method on the dense matrix, projected onto the bounds.
+/// The pressure at an approach, by Gauss–Seidel iteration with the dense matrix, projected onto the bounds.
 fn by_projection(
     operator: &dyn Operator,
     compliance: &CellValues,
@@ -163,7 +163,7 @@ fn all_methods_find_the_pressure_on_compliant_cells() {
         let compliance = match case % 3 {
             0 => CellValues::Uniform(size),
             1 => draw.field(shape, 0.0, size).into(),
-            // Some cells give way a thousand times as much as others.
+            // Some cells are a thousand times more compliant than others.
             _ => draw.field(shape, -3.0, 0.0).mapv(|power| size * 10.0f64.powf(power)).into(),
         };
         let hardness = if draw.next() < 0.5 { f64::INFINITY } else { draw.between(0.05, 0.3) };
@@ -219,7 +219,7 @@ fn rough(hardness: f64, shape: [usize; 2], seed: u64) -> Pair {
     Pair::new(lower, upper.underside(), [&steel(hardness), &steel(hardness)]).unwrap()
 }
 
-/// A film that does not change, but lowers the wear to a tenth where it is at its thickest.
+/// A constant film that reduces the wear to a tenth at its largest thickness.
 fn frozen() -> Film {
     Film::new(FilmLaw::MechanoChemical { x: 1e-40, c3: 0.0, c4: 0.0 }, 100e-9, None).unwrap()
 }
@@ -246,7 +246,7 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
         let wear = Wear::new(ks.map(coefficient), [Some(frozen()), Some(frozen())]).unwrap();
         let contact = InPlace::new(pair, boundary, slide, EXACT).unwrap().with_law(wear);
         let WornContact { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
-        // On the bodies that it leaves it presses as it did in the update.
+        // On the bodies after the update the pressure is that of the update.
         assert!(difference(&state.pressure, &solution.pressure) < 1e-6, "case {case}");
         let after =
             press(&state.pair, boundary, Control::Load(load), &EXACT.with_method(Method::Direct), &());
@@ -282,7 +282,7 @@ fn growing() -> Film {
     Film::new(law, 60e-9, Some(1.2e9)).unwrap()
 }
 
-/// A contact that yields, wears by the energy of friction, grows films and is heated.
+/// A contact with yielding, wear proportional to the frictional energy, film growth and heating.
 fn everything(pair: Pair, updates: usize) -> InPlace {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let slide = Slide::graded(2.0, updates, Control::Load(0.08))
@@ -327,7 +327,7 @@ fn the_ledger_balances_and_friction_works() {
     let temperature = temperature.unwrap();
     let warm = temperature.iter().filter(|t| t.is_finite()).count();
     assert_eq!(warm, solution.contact_cells());
-    // Films that grow lower the wear within the update.
+    // Growing films reduce the wear within the update.
     assert!(state.updates.iter().any(|update| update.solutions > 1));
 }
 
@@ -353,7 +353,7 @@ fn the_volume_is_archards_whatever_the_updates() {
     }
 }
 
-/// Keeps the states, and stops after some.
+/// Stores the states, and stops after some.
 struct Kept(Vec<SlidingState>, usize);
 
 impl Output for Kept {
@@ -372,7 +372,7 @@ fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
         let mut kept = Kept(Vec::new(), stop);
         assert!(everything(pair.clone(), 6).run(None, &(), &mut [&mut kept]).is_err());
         let state = kept.0.pop().unwrap();
-        // From the heights and the films alone, as files keep them.
+        // From the heights and the films alone, as stored in files.
         let mut at = pair.clone();
         for (body, worn) in [(&mut at.lower, &state.pair.lower), (&mut at.upper, &state.pair.upper)] {
             body.heights.clone_from(&worn.heights);
@@ -400,7 +400,7 @@ fn at_an_approach_wear_takes_the_load_away() {
     assert!(updates[20].load < 0.1 * updates[0].load);
 }
 
-/// Wear of the lower body that knows nothing of implicit updates.
+/// Wear of the lower body without data for implicit updates.
 struct Blunt(f64);
 
 impl Law for Blunt {
@@ -438,7 +438,8 @@ fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_sta
         let p = &state.pressure;
         largest(&(p - p.mean().unwrap())) / p.mean().unwrap()
     };
-    // The least eigenvalue of C is 0.58 Δx/E*: an explicit update wears by less than twice that, or pressures swing.
+    // The smallest eigenvalue of C is 0.58 Δx/E*. An explicit update must wear less than twice that, or pressures
+    // oscillate.
     let bound = 2.0 * 0.58 * PITCH / 115.4e9 / k;
     let most = (0.2 / bound).floor() as usize;
     assert!(spread(&run(true, 10)) < 0.05, "{}", spread(&run(true, 10)));
@@ -505,7 +506,7 @@ updates = 8
 bulk = "100 °C"
 "#;
 
-/// Stops after so many updates.
+/// Stops after a number of updates.
 struct Stop(std::sync::atomic::AtomicUsize);
 
 impl Watch for Stop {
@@ -535,7 +536,7 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     let last = updates.last().unwrap();
     assert!((last.distance, last.time) == (0.05, 5.0) && last.max_temperature > 373.15);
     assert!(last.lost("wear").iter().all(|volume| *volume > 0.0) && last.lost("film")[0] < 0.0);
-    // By the energy of friction, whatever the pressures: α μ W s.
+    // Proportional to the frictional energy, for any pressures: α μ W s.
     assert!((last.lost("wear")[1] / (1e-12 * 0.1 * 0.05) - 1.0).abs() < 1e-9);
     let names = whole.static_fields().unwrap().names().unwrap();
     for name in ["pressure", "gap", "lower", "wear_lower", "wear_upper", "film_lower", "temperature"] {
@@ -557,7 +558,7 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     assert_eq!(memory.updates, updates);
 }
 
-/// Flat bodies of a period bear the same pressure everywhere: f = f₀ − k p s until the film is gone, and the body wears by k(f).
+/// The pressure of flat periodic bodies is uniform: f = f₀ − k p s until the film is used up, and the body wears by k(f).
 #[test]
 fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
     let (thickness, k_film, k_bare, k_under) = (40e-9, 2e-15, 5e-16, 1e-17);
@@ -576,7 +577,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let contact = InPlace::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
         let state = contact.with_law(wear).with_law(films).run(None, &(), &mut []).unwrap().state;
         let left = thickness * (1.0 - share).max(0.0);
-        // ∫ f ds over the way, of a film that is gone after its share.
+        // ∫ f ds over the distance, for a film that is used up after its share.
         let covered = thickness * gone * if share < 1.0 { share - 0.5 * share * share } else { 0.5 };
         let worn = pressure * (k_bare * distance - (k_bare - k_under) * covered / thickness);
         for (what, found, expected) in [

@@ -1,4 +1,4 @@
-//! How bodies meet in a motion: between columns, there and back, displaced across.
+//! Relative positions of the bodies in a motion: between columns, on forward and return strokes, with offsets along y.
 
 use asperity::material::Material;
 use asperity::motion::{
@@ -47,7 +47,7 @@ fn archard(k: [f64; 2]) -> impl Law {
     Wear::new(k.map(coefficient), [None, None]).unwrap()
 }
 
-/// The height of a surface that goes round, at a real column.
+/// Height of a periodic surface at a fractional column.
 fn height(surface: &Field, x: f64, iy: usize) -> f64 {
     let columns = surface.nrows() as isize;
     let below = x.floor();
@@ -56,7 +56,7 @@ fn height(surface: &Field, x: f64, iy: usize) -> f64 {
     (1.0 - part) * at(below as isize) + if part > 0.0 { part * at(below as isize + 1) } else { 0.0 }
 }
 
-/// A value at a real column of a surface that goes round, to the columns on both sides of it.
+/// Scatters a value at a fractional column of a periodic surface to the two adjacent columns.
 fn scatter(sum: &mut Field, x: f64, iy: usize, value: f64) {
     let columns = sum.nrows() as isize;
     let below = x.floor();
@@ -66,7 +66,7 @@ fn scatter(sum: &mut Field, x: f64, iy: usize, value: f64) {
     }
 }
 
-/// A shift with two wearing bodies, drawn at random.
+/// A random shift with two wearing bodies.
 #[derive(Debug)]
 struct Shifted {
     boundary: Boundary,
@@ -106,7 +106,7 @@ impl Shifted {
             .unwrap()
     }
 
-    /// How far both surfaces have moved at a position, in columns.
+    /// Displacement of both surfaces at a position, in columns.
     fn moved(&self, step: usize) -> [f64; 2] {
         let fastest = self.speeds[0].abs().max(self.speeds[1].abs());
         self.speeds.map(|speed| (step * self.stride) as f64 * speed / fastest)
@@ -206,7 +206,7 @@ fn surfaces_between_columns_meet_and_wear_as_by_dense_interpolation() {
     assert!(between > 2 * cases as usize && yielded > 100, "{between} {yielded}");
 }
 
-/// What is the same along the sliding does not see where between its columns the other surface is.
+/// A surface that is uniform along the sliding direction is not affected by the fractional column of the other.
 #[test]
 fn grooves_along_the_sliding_wear_as_by_whole_cells() {
     let grid = Grid::new([10, 16], [PITCH; 2]).unwrap();
@@ -221,7 +221,7 @@ fn grooves_along_the_sliding_wear_as_by_whole_cells() {
         let motion = Motion::new(strategy, Control::Load(0.3e9 * grid.area()));
         let motion = motion.with_passes(3).with_load_control(LoadControl::Step);
         let mut kept = Kept::default();
-        // So much per distance that it is the same in each step.
+        // Wear per distance chosen to be equal in each step.
         let k = 1e-15 / (1.0 - speed_lower);
         let params = Params::default().with_tolerance(1e-10);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
@@ -296,7 +296,7 @@ fn the_way_back_meets_the_contacts_of_the_way_forth_again_and_wears_as_much() {
     assert!(furthest(&back.mean_pressure[0][0], &there.mean_pressure[0][0]) < 1e-3);
 }
 
-/// Where friction displaces the surfaces, the way back is the way forth of the bodies seen in a mirror.
+/// If friction displaces the surfaces, the return stroke is the forward stroke of the mirrored bodies.
 #[test]
 fn the_way_back_of_dissimilar_bodies_is_that_of_their_mirror_images() {
     let materials = [&steel(f64::INFINITY), &Material::new(5e9, 0.2, f64::INFINITY).unwrap()];
@@ -341,13 +341,13 @@ fn bodies_that_yield_step_by_step_go_on_yielding_on_the_way_back() {
     assert!((volume(&kept.steps) / lost - 1.0).abs() < 1e-9);
 }
 
-/// There and back a pass that is solved with its wear is one that wears twice as much one way.
+/// With forward and return strokes, a pass solved with its wear equals a one-way pass with twice the wear.
 #[test]
 fn a_pass_there_and_back_is_solved_with_the_wear_of_both_ways() {
     let pair = two([12, 12], [&steel(f64::INFINITY); 2], 3);
     let motion = OVERLAP.with_strategy(Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 });
     let motion = motion.with_control(Control::Load(0.2)).with_stride(2);
-    // Above the bound of explicit wear of a cell that bears all the way, there and back.
+    // Above the limit of explicit wear for a cell in contact all the time, over both strokes.
     let k = 2.0 * 0.45 * PITCH / pair.modulus() / (12.0 * PITCH);
     let both = run(pair.clone(), Boundary::PERIODIC, motion.with_path(Path::Reciprocating), [k, k]);
     let twice = run(pair.clone(), Boundary::PERIODIC, motion, [2.0 * k, 2.0 * k]);
@@ -362,7 +362,7 @@ fn a_pass_there_and_back_is_solved_with_the_wear_of_both_ways() {
     assert!((one / two - 1.0).abs() < 1e-9, "{one:e} {two:e}");
 }
 
-/// Passes there and back repeat, whatever the speeds; those that go on do not.
+/// Passes with a return stroke repeat at any speeds; one-way passes do not.
 #[test]
 fn jumps_are_where_passes_repeat() {
     let shift = Strategy::Shift { speed_lower: 0.3, speed_upper: 1.0 };
@@ -387,7 +387,7 @@ fn jumps_are_where_passes_repeat() {
     assert!(furthest(few, all) < 0.02 * change, "{:e} of {change:e}", furthest(few, all));
 }
 
-/// Each pass of a shift in one direction goes on where the one before ended.
+/// Each pass of a one-way shift continues from the end of the one before.
 #[test]
 fn the_slower_surface_goes_on_from_pass_to_pass() {
     let shift = Strategy::Shift { speed_lower: 0.3, speed_upper: 1.0 };
@@ -402,7 +402,7 @@ fn the_slower_surface_goes_on_from_pass_to_pass() {
     }
 }
 
-/// A pass further along y is one of an upper body that was made so.
+/// A pass with an offset along y equals one of an upper body that is shifted accordingly.
 #[test]
 fn a_body_displaced_across_is_one_whose_cells_are_moved() {
     let line = Boundary([Edge::Free, Edge::Periodic]);
@@ -440,7 +440,7 @@ fn a_body_displaced_across_is_one_whose_cells_are_moved() {
     assert!(matches!(refused, Err(Error::Unsupported(_))));
 }
 
-/// Each pass of a fresh counter-body is the first one on what the lower body has become.
+/// Each pass with a new counterbody is a first pass on the present lower body.
 #[test]
 fn a_fresh_counter_body_begins_anew_in_each_pass() {
     let bodies = |seed| two([14, 11], [&steel(3e9), &steel(3e9)], seed);
@@ -472,7 +472,7 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
         assert!(furthest(&a.lower.heights, &b.lower.heights) < 1e-15, "pass {pass}");
         assert!(furthest(&a.upper.heights, &b.upper.heights) < 1e-15, "pass {pass}");
         assert!(furthest(&a.upper.state["wear"].values, &b.upper.state["wear"].values) < 1e-15);
-        // The ledger of the upper body is that of the pass.
+        // The ledger of the upper body covers one pass.
         let lost = kept.passes[pass - 1].lost("wear")[1] + kept.passes[pass - 1].lost("plastic")[1];
         let rose = PITCH * PITCH * (&after.upper.heights - &upper(pass)).sum();
         assert!((rose / lost - 1.0).abs() < 1e-9, "{rose:e} {lost:e}");
@@ -483,7 +483,7 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
     assert!(matches!(again.with_counter(|_| unreachable!()), Err(Error::Unsupported(_))));
 }
 
-/// Heat goes on over the turn: what comes back over the place that it has just left finds it warm.
+/// Heat is kept over the turn: on the way back the contact returns to a place that is still hot.
 #[test]
 fn a_pass_there_and_back_is_heated_without_a_break() {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
@@ -505,7 +505,8 @@ fn a_pass_there_and_back_is_heated_without_a_break() {
     for (a, b) in there.iter().zip(&both) {
         assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
     }
-    // The same contact for another step: warmer than it was. Later the bodies are warmer than they were at that place.
+    // The contact stays for another step, and its temperature rises. Later passes find higher temperatures at the same
+    // place.
     assert!(both[16] > both[15] && both[31] > both[0], "{both:?}");
 }
 
@@ -542,7 +543,7 @@ boundary = "periodic"
 bulk = "100 °C"
 "#;
 
-/// All that a motion has, and a run that was interrupted goes on with, bit by bit.
+/// A resumed run restores the whole state of a motion, bit by bit.
 #[test]
 fn a_resumed_motion_comes_to_the_same_bits_whatever_its_kinematics() {
     let line = CASE.replace("boundary = \"periodic\"", "boundary = [\"free\", \"periodic\"]");
@@ -578,7 +579,7 @@ fn a_resumed_motion_comes_to_the_same_bits_whatever_its_kinematics() {
         }
         let volume = |pass: usize| whole.states_after(pass).unwrap()[1]["wear"].values.sum();
         let fresh = motion.contains("fresh");
-        // The wear of a body that is new in each pass does not add up.
+        // The wear of a body replaced in each pass does not accumulate.
         assert_eq!(volume(5) > 3.0 * volume(1), !fresh, "{motion}");
         let [first, last] = [1, 5].map(|pass| whole.surfaces_after(pass).unwrap()[1].heights().clone());
         assert_eq!(furthest(&first, &last) > 40e-9, fresh, "{motion}");

@@ -1,4 +1,4 @@
-//! A law of one's own: what a pass does to the bodies, written with nothing but the trait.
+//! A user-defined law, which uses only the public trait.
 
 use asperity::material::Material;
 use asperity::motion::{
@@ -15,7 +15,7 @@ const PITCH: f64 = 1e-6;
 /// Volume lost per load and distance, m²/N.
 const WEAR: f64 = 2e-14;
 
-/// Archard's wear of the lower body, and the distance over which each of its cells has slid under pressure.
+/// Archard's wear of the lower body, and the distance that each of its cells has slid under pressure.
 struct Wear;
 
 impl Law for Wear {
@@ -86,7 +86,7 @@ fn run(hardness: f64, update: PlasticUpdate) -> Kept {
     kept
 }
 
-/// V = k W s, and the ledger of each body: what it lost is what its laws took.
+/// V = k W s, and the ledger of each body: its lost volume is that removed by its laws.
 #[test]
 fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
     for (hardness, update) in
@@ -116,7 +116,7 @@ fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
     }
 }
 
-/// The state of the law goes on from where it was.
+/// The state of the law continues from its last value.
 #[test]
 fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     let whole = run(4e9, PlasticUpdate::Pass);
@@ -151,8 +151,8 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     assert_eq!(rest.passes.len(), 2);
 }
 
-/// Oxidation of both bodies where they rub, by the parabolic law: dξ²/dt = A exp(−Q/RT). The oxide stands higher than the metal that
-/// it is made of by the part `SWELLING` of its thickness.
+/// Oxidation of both bodies in contact by the parabolic law: dξ²/dt = A exp(−Q/RT). The surface of the oxide is above that
+/// of the consumed metal by the fraction `SWELLING` of its thickness.
 struct Oxidation;
 
 /// A of the parabolic law, m²/s.
@@ -195,8 +195,8 @@ impl Law for Oxidation {
     }
 }
 
-/// Two flat bodies that rub, warmer by friction or not; the thickness of the oxide on the lower one after 1000 passes, and what the
-/// computed ones lost.
+/// Two flat bodies in sliding contact, heated by friction or not. Returns the thickness of the oxide on the lower body
+/// after 1000 passes, and the losses in the computed passes.
 fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     let grid = Grid::new([8, 8], [PITCH, PITCH]).unwrap();
     let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
@@ -218,7 +218,7 @@ fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     (kept.passes, after.lower.state["oxide"].values.clone())
 }
 
-/// ξ² = A exp(−Q/RT) t over any jump, and the ledger knows the oxide.
+/// ξ² = A exp(−Q/RT) t for any extrapolation, and the ledger includes the oxide.
 #[test]
 fn a_law_from_outside_oxidises_the_bodies_by_its_closed_form() {
     let (passes, oxide) = oxidised(false);
@@ -229,7 +229,7 @@ fn a_law_from_outside_oxidises_the_bodies_by_its_closed_form() {
     let lost: f64 = passes.iter().map(|pass| pass.lost("oxide")[0]).sum();
     let volume = -SWELLING * expected * 64.0 * PITCH * PITCH;
     assert!((lost / volume - 1.0).abs() < 1e-9, "{lost:e} {volume:e}");
-    // Both surfaces in contact have one temperature, above that of the cooler body.
+    // Both surfaces in contact have the same temperature, above that of the cooler body.
     let (_, warmer) = oxidised(true);
     assert!(warmer.iter().all(|thickness| *thickness > 1.01 * expected), "{expected:e} {warmer}");
 }

@@ -1,4 +1,4 @@
-//! Contacts that repeat themselves along one axis alone.
+//! Contacts that are periodic along one axis only.
 
 use asperity::material::{Compliances, Material};
 use asperity::motion::{self, LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
@@ -58,7 +58,7 @@ fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
         let control = if *u.choose(&[true, false])? {
             Control::Load(*u.choose(&[1e-3, 0.01, 0.08])? * grid.area())
         } else {
-            // Up to beyond the mean gap: nothing is free of the mean here.
+            // Up to beyond the mean gap: no mean displacement is free here.
             Control::Approach(*u.choose(&[0.3, 1.0, 3.0])? * gap.mean().unwrap().max(0.1))
         };
         let mut operator = Operators::new(grid, alike(), boundary).on(shape);
@@ -116,13 +116,13 @@ fn where_it_begins_along_its_line_makes_no_difference() {
     let two = solve(operator.as_mut(), &shifted, INF, load, Method::ActiveSet);
     let back = Field::from_shape_fn(grid.shape, |(i, j)| two.pressure[[i, (j + 65 - 17) % 65]]);
     assert!(difference(&back, &one.pressure) < 1e-6);
-    // From coarse grids as cheap as the other boundaries.
+    // From coarse grids, as cheap as the other boundaries.
     assert!(one.stats.convolutions < 45.0, "{:?}", one.stats);
 }
 
 #[test]
 fn far_from_its_images_a_contact_is_the_free_one() {
-    // What the images add is uniform and, next, a curvature of the third order in size over period.
+    // The contribution of the images is uniform and, to next order, a curvature of third order in size over period.
     let load = 4.0;
     let gap = |grid: &Grid| {
         let [x0, y0] = grid.extent().map(|e| 0.5 * e);
@@ -190,7 +190,7 @@ fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
 
 #[test]
 fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
-    // The same along y: so is the contact at every position, its last rows no more than those in the middle.
+    // Uniform along y: so is the contact at every position, and its last rows equal those in the middle.
     let steel = Material::new(210e9, 0.3, INF).unwrap();
     let heights = |amplitude: f64| {
         Field::from_shape_fn([40, 24], |(i, _)| {

@@ -1,4 +1,4 @@
-//! Static contacts loaded stage after stage: what has flowed does not flow back, and an interruption leaves no trace.
+//! Static contacts loaded stage after stage: plastic deformation is irreversible, and interruptions leave no trace.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -40,7 +40,7 @@ fn load(
     load_in_stages(pair, Boundary::FREE, friction, stages, params, None, &(), outputs)
 }
 
-/// A steel ball of 1 mm on steel of some hardness.
+/// A steel ball of 1 mm on steel with this hardness.
 fn ball(cells: usize, pitch: f64, hardness: f64) -> Pair {
     let grid = Grid::new([cells; 2], [pitch; 2]).unwrap();
     let middle = 0.5 * cells as f64 * pitch;
@@ -56,7 +56,7 @@ fn to(load: f64, force: f64, increments: usize) -> Stage {
     Stage { loading, increments }
 }
 
-/// By an independent bookkeeping of the heights: 242 µm², 281 MPa, 63.9 nm.
+/// By independent calculation from the heights: 242 µm², 281 MPa, 63.9 nm.
 #[test]
 fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
     let pair = ball(64, 0.5e-6, 0.5e9);
@@ -69,7 +69,7 @@ fn what_the_largest_load_has_flattened_stays_flat_when_the_load_falls() {
             assert!((record.contact_area / 242e-12 - 1.0).abs() < 2e-3, "{record:?}");
             assert!((record.max_pressure / 281e6 - 1.0).abs() < 2e-3, "{record:?}");
             assert!((record.approach / 63.9e-9 - 1.0).abs() < 1e-3, "{record:?}");
-            // Back at the largest load it is as it was, and beyond it as if it had never been unloaded.
+            // Back at the largest load the contact is unchanged, and beyond it as if never unloaded.
             let virgin = load(&pair, friction, &[to(0.3, 0.0, 1)], &Params::default(), &mut []).unwrap();
             let stages = [to(0.2, 0.0, 1), to(0.05, 0.0, increments), to(0.3, 0.0, increments)];
             let again = load(&pair, friction, &stages, &Params::default(), &mut []).unwrap();
@@ -96,7 +96,7 @@ fn a_load_that_only_grows_gives_what_it_gives_at_once_bit_by_bit() {
     assert!(states.0.iter().all(|state| state.flattening.kept.is_none()));
 }
 
-/// Every state of a loading.
+/// All states of a loading.
 #[derive(Default)]
 struct Kept(Vec<LoadingState>);
 
@@ -108,7 +108,7 @@ impl Output for Kept {
     }
 }
 
-/// A contact and its loading, at random.
+/// A random contact and its loading.
 struct Case {
     materials: [Material; 2],
     gap: Field,
@@ -151,7 +151,7 @@ impl Case {
         let stages = (0..random.random_range(2..6))
             .map(|_| {
                 let load = limit * random.random_range(0.01..0.5);
-                // What is plastic all over bears the least shear.
+                // A fully plastic contact carries the least shear.
                 let bound = friction.map_or(0.0, |f| f.shear_limit(hardness) * load / hardness);
                 let angle = random.random_range(0.0..std::f64::consts::TAU);
                 let share = random.random_range(0.0..0.5);
@@ -186,7 +186,7 @@ impl Case {
     }
 }
 
-/// What the bodies have taken up by the end of a state.
+/// Returns the plastic interference of the bodies at the end of a state.
 fn plastic(state: &LoadingState, gap: &Field) -> Field {
     let now = match &state.contact {
         Equilibrium::Frictionless(solution) => solution.plastic_interference(),
@@ -195,7 +195,8 @@ fn plastic(state: &LoadingState, gap: &Field) -> Field {
     now + &state.flattening.kept.clone().unwrap_or_else(|| Field::zeros(gap.raw_dim()))
 }
 
-/// Cell by cell, in each increment on surfaces lowered by all that has flowed before: the law as it stands.
+/// Compares with a cell-by-cell solution: in each increment on surfaces lowered by all earlier plastic deformation, as the
+/// law requires.
 fn against_cell_by_cell(seed: u64) {
     let case = Case::at_random(seed, [7, 6], false);
     let states = case.run(&FINE).unwrap_or_else(|error| panic!("case {seed}: {error}"));
@@ -243,7 +244,7 @@ fn any_loading_of_what_yields_is_that_of_a_cell_by_cell_iteration() {
     (0..40).for_each(against_cell_by_cell);
 }
 
-/// Where plastic flow, contact and friction are what they are said to be, also with junction growth.
+/// Checks the laws of plastic deformation, contact and friction, with and without junction growth.
 fn keeps_the_law(seed: u64) {
     let case = Case::at_random(seed, [22, 20], true);
     let params = Params::default().with_tolerance(1e-7);
@@ -283,7 +284,7 @@ fn many_loadings() {
     (3000..3300).for_each(any_tolerance);
 }
 
-/// Loose as it may be, a tolerance is met, with pressures in their bounds and the load that is asked for.
+/// Checks that even a loose tolerance is met, with pressures within their bounds and the prescribed load.
 fn any_tolerance(seed: u64) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let tolerance = match seed % 3 {
@@ -307,7 +308,7 @@ fn any_tolerance(seed: u64) {
         let row = state.increments.last().unwrap();
         assert!(row.residual <= tolerance, "case {seed}: {:e} of {tolerance:e}", row.residual);
         let normal = state.contact.normal();
-        // Beside its shear a cell may bear more than its cap by what the tolerance leaves of the displacement.
+        // With its shear a cell may exceed its cap by as much as the tolerance allows in the displacement.
         let beyond = match case.friction.is_some_and(|friction| friction.junction_growth > 0.0) {
             true => 1.5 * tolerance * normal.displacement.std(0.0) * modulus,
             false => 0.0,
@@ -325,10 +326,10 @@ fn any_tolerance_is_met() {
     (0..60).for_each(any_tolerance);
 }
 
-// ---- what friction takes ---------------------------------------------------------------------------------
+// ---- frictional energy -----------------------------------------------------------------------------------
 
-/// The first example of CONTACT's user guide: a ball of polyethylene is pressed on its like, then shifted. Numbers of
-/// the reference output of CONTACT (Vollebregt), of four digits.
+/// The first example of the user guide of CONTACT: a ball of polyethylene is pressed on an identical one, then shifted. The
+/// numbers are those of the reference output of CONTACT (Vollebregt), with four digits.
 #[test]
 fn contacts_example_of_a_shift_has_its_work_of_friction_in_one_increment() {
     let pitch = 0.13333e-3;
@@ -376,12 +377,12 @@ fn a_push_and_a_full_reversal_take_the_same_in_one_increment_as_in_many() {
         let (one, many) = (losses[0][stage], losses[1][stage]);
         assert!((one / many - 1.0).abs() < 2e-3, "{losses:?}");
     }
-    // After Mindlin and Deresiewicz 1.55 nJ in all.
+    // According to Mindlin and Deresiewicz 1.55 nJ in total.
     let sum: f64 = losses[1].iter().sum();
     assert!((sum / 1.554e-9 - 1.0).abs() < 2e-2, "{sum:e}");
 }
 
-/// The bound holds what finer increments find, and falls with them.
+/// The bound covers the result of finer increments, and decreases with them.
 #[test]
 fn where_load_and_push_grow_together_the_error_of_the_loss_is_bounded() {
     let pair = ball(40, 1.2e-6, f64::INFINITY);
@@ -418,7 +419,7 @@ fn a_coefficient_of_friction_is_that_of_what_slides() {
 
 // ---- interruptions ---------------------------------------------------------------------------------------
 
-/// Stops after so many increments of a run, or after none.
+/// Stops after a number of increments of a run, or never.
 struct Until {
     solved: AtomicUsize,
     most: usize,
@@ -493,7 +494,7 @@ fn parsed(text: &str) -> case::Case {
     case::Case::parse(&format!("{BODIES}{text}"), "case.toml".as_ref(), "".as_ref()).unwrap()
 }
 
-/// The bytes of all files but for times and the case, which tells of no loading.
+/// Returns the bytes of all files without times and without the case, which does not contain the loading.
 fn outcome(directory: &Path) -> BTreeMap<String, Vec<u8>> {
     let read = |name: &str| (name.to_owned(), fs::read(directory.join(name)).unwrap());
     let mut files = BTreeMap::from(["increments.csv", "fields.h5"].map(read));
@@ -512,7 +513,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
         let whole = folder.path().join("whole");
         study::run(&case, asperity::study::Given::default(), &whole, Existing::Keep, &()).unwrap();
         let expected = outcome(&whole);
-        // After each increment, and once more on the way.
+        // After each increment, and once within one.
         for stopped in 1..increments {
             let directory = folder.path().join(format!("after-{stopped}"));
             let outcome_of = |existing, most| {
@@ -528,7 +529,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
             let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
             assert_eq!(rows, stopped + 1);
             if stopped + 2 < increments {
-                // Killed after the state of an increment was written, before its row was.
+                // Killed after the state of an increment was written, before its row.
                 let state = directory.join(format!("fields/state-{stopped:04}.h5"));
                 let [kept, rows] =
                     [&state, &directory.join("increments.csv")].map(|path| fs::read(path).unwrap());
@@ -637,7 +638,7 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
     }
 }
 
-/// A surface from a file is rough by its heights, not because it comes from a file.
+/// A surface from a file is rough because of its heights, not because it comes from a file.
 #[test]
 fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
     let folder = tempfile::tempdir().unwrap();
@@ -688,7 +689,7 @@ fn what_only_the_answer_shows_is_said_with_it() {
     assert!(warnings("coarse", &both(1)).contains("`dissipation` is known within"));
     let fine = both(60).replace("increments = 2", "increments = 30");
     assert!(!warnings("fine", &fine).contains("`dissipation` is known within"));
-    // Said once, whether it could be foreseen or not.
+    // Reported once, whether it is predictable or not.
     let rolling = format!("{BODIES}{}creepage = 1e-3", contact.replace("increments = 2\n", ""));
     let rolling = rolling.replace("0.6 GPa", "0.2 GPa");
     assert_eq!(warnings("rolling", &rolling).matches("not flattened before").count(), 1);

@@ -1,4 +1,4 @@
-//! What crosses the modules of the library, as one program: a module for each subject.
+//! Tests across the modules of the library, as one program with a module for each subject.
 
 mod bad_inputs;
 mod bounds;
@@ -28,6 +28,7 @@ mod response;
 mod rolling;
 mod running_in;
 mod sliding;
+mod smooth_forms;
 mod solver;
 mod steady_rolling;
 mod subsurface;

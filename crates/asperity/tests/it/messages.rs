@@ -1,10 +1,10 @@
-//! What the library says is for every front end: only `study`, which reads case files, speaks of their keys, and nothing
-//! speaks of the arguments of a command.
+//! The messages of the library suit every front end: only `study`, which reads case files, mentions their keys, and nothing
+//! mentions the arguments of a command.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What only a front end knows.
+/// Words known only to a front end.
 const ARGUMENTS: [&str; 9] =
     ["--channel", "--unit", "--pitch", "--fill", "--level", "--out", "--resume", "--overwrite", "--threads"];
 const TABLES: [&str; 7] =
@@ -52,7 +52,7 @@ fn no_message_of_the_library_speaks_of_keys_or_arguments() {
     assert!(found.is_empty(), "\n{}", found.join("\n"));
 }
 
-/// A literal that goes on in the next line without a backslash keeps the blanks that the line begins with.
+/// A literal that continues in the next line without a backslash contains the leading blanks of that line.
 #[test]
 fn no_message_has_two_blanks_in_a_row() {
     let mut found = Vec::new();
@@ -80,7 +80,7 @@ fn no_message_has_two_blanks_in_a_row() {
     assert!(found.is_empty(), "\n{}", found.join("\n"));
 }
 
-/// The lines of a literal as they are printed.
+/// Returns the lines of a literal as printed.
 fn joined(literal: &str) -> Vec<String> {
     let mut parts = literal.split("\\\n");
     let first = parts.next().unwrap_or_default().to_owned();
@@ -88,7 +88,8 @@ fn joined(literal: &str) -> Vec<String> {
     text.replace("\\n", "\n").lines().map(|line| line.trim().to_owned()).collect()
 }
 
-/// Whether a line of prose has two blanks in a row. Columns of a table may: a word or two, or a number, before the next one.
+/// Whether a line of prose contains two consecutive blanks. Columns of a table may: a word or two, or a number, before the
+/// next one.
 fn has_gap(line: &str) -> bool {
     let Some(at) = line.find("  ") else { return false };
     let (before, after) = (&line[..at], line[at..].trim_start());
@@ -122,7 +123,7 @@ fn speaks_of_a_case(literal: &str) -> bool {
     TABLES.iter().any(|table| literal.contains(table)) || KEYS.iter().any(assigned)
 }
 
-/// Every Rust file under `folder` but those of tests alone.
+/// Returns every Rust file under `folder`, except those with tests alone.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -143,7 +144,7 @@ fn before_tests(text: &str) -> &str {
     text.split("#[cfg(test)]").next().unwrap_or_default()
 }
 
-/// The string literals of code, without what stands in comments.
+/// Returns the string literals of code, without those in comments.
 fn literals(code: &str) -> Vec<String> {
     let code: String = code
         .lines()

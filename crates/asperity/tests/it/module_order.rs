@@ -1,4 +1,4 @@
-//! The order of the modules in `lib.rs` is the order of dependence: no file uses a module declared below its own.
+//! The order of the modules in `lib.rs` is their order of dependence: no file uses a module declared below its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ fn no_module_uses_one_declared_below_it() {
     assert!(violations.is_empty(), "\n{}", violations.join("\n"));
 }
 
-/// The names in `mod name;`, in their order, whether the module is public or not.
+/// Returns the names in `mod name;`, in order, for public and private modules.
 fn declared_modules(lib: &str) -> Vec<String> {
     lib.lines()
         .filter_map(|line| {
@@ -39,7 +39,7 @@ fn declared_modules(lib: &str) -> Vec<String> {
         .collect()
 }
 
-/// Each item of `pub use module::{…};` with its module.
+/// Returns each item of `pub use module::{…};` with its module.
 fn reexports(lib: &str) -> Vec<(String, String)> {
     let code: String = lib.lines().map(without_comment).collect::<Vec<_>>().join("\n");
     code.split(';')
@@ -53,7 +53,7 @@ fn reexports(lib: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-/// `src/module.rs` and every Rust file under `src/module/`.
+/// Returns `src/module.rs` and every Rust file under `src/module/`.
 fn files_of(source: &Path, module: &str) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![source.join(module)];
@@ -76,8 +76,8 @@ fn files_of(source: &Path, module: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Every name that follows `crate::` in code, with its line: of `crate::a::x` a, of `crate::{a::x, b}` a and b.
-/// Comments, and with them the links in docs, do not count.
+/// Returns every name that follows `crate::` in code, with its line: a for `crate::a::x`, a and b for `crate::{a::x, b}`.
+/// Comments, including links in doc comments, do not count.
 fn uses(text: &str) -> Vec<(usize, String)> {
     let code: String = text.lines().map(|line| without_comment(line).to_owned() + "\n").collect();
     let line = |offset: usize| 1 + code[..offset].matches('\n').count();
@@ -97,7 +97,7 @@ fn uses(text: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// Where the members of a group `{a::x, b::{c, d}}` start, those of inner groups left out.
+/// Returns the starts of the members of a group `{a::x, b::{c, d}}`, without those of inner groups.
 fn group_members(group: &str) -> Vec<usize> {
     let (mut depth, mut expected, mut members) = (0, false, Vec::new());
     for (offset, c) in group.char_indices() {
@@ -115,12 +115,12 @@ fn group_members(group: &str) -> Vec<usize> {
     members
 }
 
-/// The identifier at the start of `text`.
+/// Returns the identifier at the start of `text`.
 fn identifier(text: &str) -> String {
     text.chars().take_while(|c| *c == '_' || c.is_alphanumeric()).collect()
 }
 
-/// The line up to its `//`; one in a string counts as a comment too.
+/// Returns the line up to its `//`; one in a string also counts as a comment.
 fn without_comment(line: &str) -> &str {
     line.split("//").next().unwrap_or("")
 }

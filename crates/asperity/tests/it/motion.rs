@@ -1,6 +1,6 @@
-//! The physics of the motion: what must hold for any two surfaces that pass over each other.
+//! Physics of the motion: conditions that hold for any two surfaces that pass over each other.
 //!
-//! Two generated steel surfaces, 24 or 32 cells along a side, whose highest contacts yield.
+//! Two generated steel surfaces, with 24 or 32 cells per side, whose highest contacts yield.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -21,7 +21,7 @@ const STEEL: [f64; 2] = [210e9, 0.3];
 const HARDNESS: f64 = 4e9;
 const LOAD: f64 = 20e-3;
 
-// ---- running in ------------------------------------------------------------------------------------------
+// ---- running-in ------------------------------------------------------------------------------------------
 
 #[test]
 fn at_a_constant_approach_the_bodies_shake_down_at_once() {
@@ -35,7 +35,8 @@ fn at_a_constant_approach_the_bodies_shake_down_at_once() {
 
 #[test]
 fn at_a_constant_load_the_plastic_volume_decays_while_the_bodies_sink_together() {
-    // Deformation at every position runs in faster than a pass of frozen geometry, which decays by about 0.3.
+    // With plastic deformation at every position, running-in is faster than with the frozen geometry of a pass, which
+    // decays by about 0.3.
     for (update, decay) in [(PlasticUpdate::Pass, 0.1..0.5), (PlasticUpdate::Step, 0.02..0.2)] {
         let load = motion(pass_load(10.0 * LOAD), 5).with_plastic_update(update);
         let kept = run(rough_pair(32), load);
@@ -115,7 +116,7 @@ fn the_bodies_lose_what_their_positions_deform_when_each_position_changes_them()
         let lost = |pass: &PassRecord| pass.lost("plastic")[0] + pass.lost("plastic")[1];
         let first = lost(&kept.passes[0]);
         assert!(first > 0.0);
-        // Under a load of each position the second pass deforms nothing, or what round-off does.
+        // With a load at each position the second pass causes no deformation beyond round-off.
         for pass in &kept.passes {
             let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
             assert!((lost(pass) - steps).abs() < 1e-12 * first, "lost {:e}, deformed {steps:e}", lost(pass));
@@ -129,13 +130,13 @@ fn a_body_loses_the_fall_of_its_mean_height_times_its_area() {
     let kept = run(rough_pair(24), motion(pass_load(LOAD), 3));
     assert_each_body_lost_what_it_fell(&rough_pair(24), &kept);
     for pass in &kept.passes {
-        // A cell keeps the deepest of its interferences, not their sum.
+        // A cell keeps the largest of its interferences, not their sum.
         let steps: f64 = kept.steps_of(pass.pass).map(|s| s.plastic_volume).sum();
         assert!(pass.lost("plastic")[0] + pass.lost("plastic")[1] <= steps * (1.0 + 1e-12));
     }
 }
 
-/// Columns of records held against the fields, with free and with joined ends.
+/// Compares columns of records with the fields, with free and with joined ends.
 #[test]
 fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
     let slide = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
@@ -150,7 +151,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
             let simulation = Simulation::new(rough_pair(24), boundary, motion, Params::default()).unwrap();
             continued(simulation.with_rim(rim).unwrap())
         });
-        // Of 24 cells those whose centres are farther than 4.8 cells from an end.
+        // Those of the 24 cells with centres farther than 4.8 cells from an end.
         let interior = |field: &Field, columns: bool| {
             let (inside, all) = (5..19, 0..24);
             let x = if columns { inside.clone() } else { all.clone() };
@@ -207,7 +208,7 @@ fn what_is_told_of_the_interior_is_that_of_the_cells_off_the_free_ends() {
 #[test]
 fn the_mean_pressure_is_the_mean_load_over_the_mean_area_that_faces() {
     let pass = &run(rough_pair(24), motion(pass_load(LOAD), 1)).passes[0];
-    // Of 47 positions of 24 columns: 24²/47 face on the average.
+    // 47 positions of 24 columns: 24²/47 columns overlap on average.
     let area = 24.0 * 24.0 / 47.0 * rough_pair(24).grid(1).area();
     assert_close(&[pass.mean_pressure], &[pass.mean_load / area], 1e-12, "mean pressure");
 }
@@ -290,7 +291,7 @@ fn only_the_offset_of_two_periodic_surfaces_counts() {
     let lower = periodic_loads(Strategy::Shift { speed_lower: -3.0, speed_upper: 0.0 });
     assert!(deviation(&upper) > 0.02, "the load changes over the pass: {upper:?}");
     assert_close(&lower, &upper, 1e-5, "either surface may move");
-    // Both half a turn against each other: a whole period, at twice the speed.
+    // Both move by half a period against each other: a whole period, at twice the speed.
     let both = periodic_loads(Strategy::Shift { speed_lower: -1.0, speed_upper: 1.0 });
     let twice: Vec<f64> = (0..32).map(|k| upper[2 * k % 32]).collect();
     assert_close(&both, &twice, 1e-5, "a period later the load is the first again");
@@ -318,7 +319,7 @@ fn a_mirrored_pair_meets_the_same_loads_in_reverse() {
 
 #[test]
 fn exchanging_the_bodies_exchanges_their_losses() {
-    // Upside down: z₁ ↔ −z₂, and what entered from the left now enters from the right.
+    // Upside down: z₁ ↔ −z₂, and the body enters from the right instead of the left.
     let forth = rough_pair(24);
     let mut over = forth.clone();
     (over.lower.heights, over.upper.heights) = (-&forth.upper.heights, -&forth.lower.heights);
@@ -374,7 +375,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
     }
 }
 
-/// Motions of every kind, of three passes that yield.
+/// Motions of every kind, with three passes that yield.
 fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
     let slides = Friction::coulomb(0.3).unwrap();
     let grows = slides.with_junction_growth(9.0);
@@ -402,7 +403,7 @@ fn motions_of_every_kind() -> Vec<(Boundary, Motion)> {
 #[test]
 fn a_resumed_motion_goes_on_with_the_same_bits() {
     for (index, (boundary, motion)) in motions_of_every_kind().into_iter().enumerate() {
-        // Every other pair is of dissimilar bodies, which the shear displaces normally.
+        // Every other pair has dissimilar bodies, which shear displaces normally.
         let pair = if index % 2 == 0 { rough_pair(16) } else { dissimilar_pair(16) };
         let simulation = |pair: &Pair, passes: usize| {
             Simulation::new(pair.clone(), boundary, motion.with_passes(passes), Params::default())
@@ -427,7 +428,7 @@ fn a_resumed_motion_goes_on_with_the_same_bits() {
 
 #[test]
 fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bits() {
-    /// Stops after so many positions.
+    /// Stops after a number of positions.
     struct Impatient {
         left: AtomicUsize,
     }
@@ -446,7 +447,7 @@ fn an_interrupted_motion_keeps_its_finished_passes_and_goes_on_with_the_same_bit
             let mut kept = Kept::default();
             let mut simulation =
                 Simulation::new(rough_pair(24), Boundary::FREE, motion, Params::default()).unwrap();
-            // A pass has 47 positions, and some trials where its load is sought.
+            // A pass has 47 positions, and several trials if its load is prescribed.
             let mut interrupted = 0;
             while kept.passes.len() < 3 {
                 let watch = Impatient { left: AtomicUsize::new(positions + 300 * interrupted) };
@@ -496,7 +497,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
         panic!("there is no such approach");
     };
     assert_eq!((load, cause), (0.9 * limit, LoadLimit::Yielded));
-    // However far beyond: what was lowered by more has the same shape, and bears the same.
+    // At any larger approach: a body lowered by more has the same shape, and the same load.
     for far in [1.5, 20.0] {
         let at = step.with_control(Control::Approach(far * approach));
         let bears = run(pair(), at).passes[0].mean_load;
@@ -507,7 +508,7 @@ fn bodies_that_yield_at_each_position_bear_so_much_and_no_more() {
         assert!((kept.passes[0].mean_load / (share * most) - 1.0).abs() <= 1e-4, "{share}");
         assert!(kept.passes[0].approach < approach);
     }
-    // Bodies that yield after the pass bear it.
+    // Bodies that yield after the pass can carry it.
     let after = step
         .with_plastic_update(PlasticUpdate::Pass)
         .with_control(Control::Load(0.9 * limit))
@@ -636,7 +637,7 @@ fn rough_pair(cells: usize) -> Pair {
     steel_pair(surface([cells, cells], 1), surface([cells, cells], 2))
 }
 
-/// Compliant on stiff, so that shear displaces the surfaces normally; both yield sooner than steel.
+/// A compliant body on a stiff one, so that shear displaces the surfaces normally; both yield earlier than steel.
 fn dissimilar_pair(cells: usize) -> Pair {
     let [soft, hard] = [70e9, 210e9].map(|young| Material::new(young, STEEL[1], 0.4 * HARDNESS).unwrap());
     Pair::new(surface([cells, cells], 1), surface([cells, cells], 2), [&soft, &hard]).unwrap()
@@ -647,7 +648,7 @@ fn elastic_pair(cells: usize) -> Pair {
     Pair::new(surface([cells, cells], 1), surface([cells, cells], 2), [&steel, &steel]).unwrap()
 }
 
-/// Two elastic surfaces that continue over their edges.
+/// Two elastic periodic surfaces.
 fn periodic_pair() -> Pair {
     let grid = Grid::new([32, 32], [PITCH, PITCH]).unwrap();
     let method =
@@ -657,7 +658,7 @@ fn periodic_pair() -> Pair {
     Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap()
 }
 
-/// Loads over a pass of the periodic pair at an approach that presses about a tenth of it together.
+/// Loads over a pass of the periodic pair, at an approach with about a tenth of it in contact.
 fn periodic_loads(strategy: Strategy) -> Vec<f64> {
     let motion = motion(at_approach(-70e-9), 1).with_strategy(strategy);
     let params = Params::default().with_tolerance(1e-8);
@@ -677,18 +678,18 @@ fn motion((control, load_control): Held, passes: usize) -> Motion {
         .with_friction(None)
 }
 
-/// The approach of a first pass whose mean load is `load`.
+/// Returns the approach of a first pass with the mean load `load`.
 fn approach_of(pair: &Pair, load: f64) -> f64 {
     run(pair.clone(), motion(pass_load(load), 1)).passes[0].approach
 }
 
-/// The plastic limit of the mean load of a pass over two bodies of so many columns.
+/// Returns the plastic limit of the mean load of a pass over two bodies with this number of columns.
 fn pass_limit(columns: usize, width: usize, stride: usize) -> f64 {
     let columns = columns as f64 * columns as f64 / ((2 * columns - 1) as f64 / stride as f64);
     HARDNESS * PITCH * PITCH * width as f64 * columns
 }
 
-/// All that a motion yields.
+/// All results of a motion.
 #[derive(Default)]
 struct Kept {
     passes: Vec<PassRecord>,
@@ -744,7 +745,7 @@ fn plastic_volumes(kept: &Kept) -> Vec<f64> {
     kept.passes.iter().map(|p| p.lost("plastic")[0] + p.lost("plastic")[1]).collect()
 }
 
-/// The records but for the time they took.
+/// Returns the records without times.
 fn untimed(passes: &[PassRecord]) -> Vec<PassRecord> {
     let mut passes = passes.to_vec();
     passes.iter_mut().for_each(|pass| pass.wall_time_s = 0.0);
@@ -780,7 +781,7 @@ fn deviation(values: &[f64]) -> f64 {
 #[track_caller]
 fn assert_each_body_lost_what_it_fell(initial: &Pair, kept: &Kept) {
     let area = initial.cell_area();
-    // Of the sums of heights.
+    // Round-off of the sums of heights.
     let roundoff = 1e-14 * area * initial.lower.heights.len() as f64 * 35e-9;
     let mut before = initial;
     for (pass, after) in kept.passes.iter().zip(&kept.pairs) {

@@ -1,7 +1,6 @@
-//! The motion against an independent dense implementation (numpy and scipy): two surfaces of 12 × 12 cells.
+//! The motion compared with an independent dense implementation (numpy and scipy): two surfaces of 12 × 12 cells.
 //!
-//! `data/moving_surfaces_12.json` holds its numbers, computed with exact active sets and pass-mean loads to
-//! 1e-12.
+//! `data/moving_surfaces_12.json` contains its numbers, computed with exact active sets and pass-mean loads to 1e-12.
 
 use asperity::material::Material;
 use asperity::motion::{Contact, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy};
@@ -13,7 +12,7 @@ use serde_json::Value;
 
 use crate::support::{Held, assert_close, at_approach, pass_load};
 
-/// How close each method must come, relative to the largest value of its kind.
+/// Tolerance of each method, relative to the largest value of its kind.
 const METHODS: [(Method, f64); 2] = [(Method::Direct, 1e-8), (Method::ActiveSet, 1e-5)];
 
 fn case() -> Value {
@@ -30,7 +29,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-/// Two rigid-plus-elastic bodies whose composite modulus is the case's, of one hardness.
+/// Two bodies with equal hardness, one of them rigid, with the composite modulus of the case.
 fn pair(case: &Value, hardness: f64, share: f64) -> Pair {
     let grid = Grid::new([12, 12], [1e-6, 1e-6]).unwrap();
     let topography = |key: &str| Topography::new(grid, field(&case[key], 1e-12)).unwrap();
@@ -55,7 +54,7 @@ fn params(method: Method) -> Params {
     Params::default().with_method(method).with_tolerance(1e-11)
 }
 
-/// Keeps what the passes yield.
+/// Stores the results of the passes.
 #[derive(Default)]
 struct Keep {
     contacts: Vec<Vec<Contact>>,
@@ -120,7 +119,7 @@ fn a_pass_at_a_fixed_approach_has_the_references_loads_pressures_energies_and_pl
             assert_close(&peaks, &numbers(&expected["pmax_k"]), tolerance, &what);
             let plastic: Vec<f64> = contacts.iter().map(|c| c.plastic_volume(&initial) / area).collect();
             assert_close(&plastic, &numbers(&expected["wp_sum_k"]), tolerance, &what);
-            // The complementary energy without the cell area, as the reference counts it: ½ pᵀCp − pᵀ(δ − h).
+            // The complementary energy without the cell area, as in the reference: ½ pᵀCp − pᵀ(δ − h).
             let energies: Vec<f64> = contacts
                 .iter()
                 .map(|contact| {
@@ -197,7 +196,7 @@ fn pass_mean_load_with_and_without_plasticity_is_the_references_over_three_passe
     }
 }
 
-/// The reference's other rule for a frozen geometry: the mean instead of the largest interference.
+/// The other rule of the reference for a frozen geometry: the mean instead of the largest interference.
 fn deformed_by_the_mean(before: &Pair, contacts: &[Contact], share: f64) -> Pair {
     let mut after = before.clone();
     let positions = contacts.len() as f64;

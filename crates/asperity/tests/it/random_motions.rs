@@ -1,6 +1,6 @@
-//! Motions of all combinations of options at random, each position solved again by an independent way.
+//! Motions with random combinations of options; each position is solved again by an independent method.
 //!
-//! `CASES=1000 cargo test -p asperity --test it random_motions` tries so many, from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity --test it random_motions` tries this number, starting from the seed `SEED`.
 
 use asperity::error::LoadLimit;
 use asperity::material::{Coating, Material};
@@ -39,7 +39,7 @@ struct Tally {
     largest_error: f64,
 }
 
-/// Share of the hardness that the softest cells of a map have.
+/// Hardness of the softest cells of a map, relative to the nominal one.
 const SOFTEST: f64 = 0.6;
 
 #[derive(Debug)]
@@ -104,7 +104,7 @@ impl Case {
         let column = width as f64 * PITCH * PITCH * cap.min(3e9);
         let positions = strategy.positions(columns[0], columns[1], stride);
         let bearable: Vec<f64> = positions.iter().map(|p| column * p.columns as f64).collect();
-        // From light to 95 % of the plastic limit, evenly in the logarithm.
+        // From light to 95 % of the plastic limit, uniform in the logarithm.
         let share = 0.95 * 10f64.powf(-6.0 * rng.random_range(0.0f64..1.0).powi(2));
         let mut load = |holds: LoadControl| {
             motion.load_control = holds;
@@ -118,7 +118,7 @@ impl Case {
         let method = [Method::Auto, Method::ActiveSet, Method::Direct, Method::PolonskyKeer][pick(rng, 4)];
         let tolerance = [1e-6, 1e-8, 1e-3][pick(rng, 3)];
         let seed: u64 = rng.random();
-        // Lines of contact and coupled friction are those of bodies without a coating.
+        // Line contacts and coupled friction are supported only without a coating.
         let coated = boundary.repeats(0) == boundary.repeats(1) && pick(rng, 3) == 0;
         let mut coating = || {
             let thickness = PITCH * 10f64.powf(rng.random_range(-1.5..1.0));
@@ -175,7 +175,7 @@ impl Case {
         pair.unwrap().with_hardness([map(0), map(1)]).unwrap()
     }
 
-    /// What a cell of the lower and one of the upper body bear.
+    /// Returns the pressure that a cell of the lower and one of the upper body can carry.
     fn borne(&self, cells: [[usize; 2]; 2]) -> [f64; 2] {
         [0, 1].map(|body| {
             let [i, j] = cells[body];
@@ -184,7 +184,7 @@ impl Case {
         })
     }
 
-    /// The cells of a body under a cell of the contact, with its part on each.
+    /// Returns the cells of a body under a cell of the contact, with their weights.
     fn under(&self, position: &Position, body: usize, [j, iy]: [usize; 2]) -> Vec<([usize; 2], f64)> {
         let first = [position.lower, position.upper][body];
         let part = position.fraction[body];
@@ -195,7 +195,7 @@ impl Case {
         [(cell(0), 1.0 - part), (cell(1), part)].into_iter().filter(|(_, weight)| *weight > 0.0).collect()
     }
 
-    /// What the lower and the upper body bear where they face each other.
+    /// Returns the pressures that opposing cells of the lower and of the upper body can carry.
     fn facing(&self, position: &Position, cell: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|body| {
             let borne = |(cell, weight)| weight * self.borne([cell; 2])[body];
@@ -240,7 +240,7 @@ fn check(case: &Case, index: u64, tally: &mut Tally) {
                     tally.yielded += 1;
                     assert_eq!(case.motion.plastic_update, PlasticUpdate::Step, "{}", what());
                     if kept.passes.is_empty() {
-                        // No approach up to there bears more.
+                        // No smaller approach has a larger load.
                         for share in [0.1, 0.3, 1.0] {
                             let (_, at) = case.run(Control::Approach(share * approach));
                             let bears = at.passes[0].mean_load;
@@ -269,8 +269,8 @@ fn check(case: &Case, index: u64, tally: &mut Tally) {
     }
 }
 
-/// Holds a pass against each position solved again at its approach, directly and to round-off, over geometry that is lowered
-/// here. Returns the bodies after the pass.
+/// Compares a pass with the solution of each position at its approach, by the direct method and to round-off, on geometry
+/// that is lowered here. Returns the bodies after the pass.
 fn hold(
     case: &Case,
     before: &Pair,
@@ -300,7 +300,7 @@ fn hold(
         let gap = now.initial_gap(position);
         let (pressure, interference) = again(case, &operators, position, &gap, step);
         let load = area * pressure.sum();
-        // At one approach the load is off by some part of the residual; what it is a part of is the load at which the
+        // At one approach the error of the load is a fraction of the residual. The reference is the load at which the
         // displacement deviates by as much as here.
         let scale = load.max(step.load).max(area * pressure.len() as f64 * 1e-6);
         let error = (load - step.load).abs() / scale / case.tolerance;
@@ -354,7 +354,7 @@ fn hold(
     after.clone()
 }
 
-/// Pressure and plastic interference at a position, at the approach of the record.
+/// Returns pressure and plastic interference at a position, at the approach of the record.
 fn again(
     case: &Case,
     operators: &Operators,
@@ -363,7 +363,7 @@ fn again(
     step: &StepRecord,
 ) -> (Field, Field) {
     let shape = [position.columns, case.width];
-    // In full contact between bodies that continue over all their edges the approach says nothing of the load.
+    // In full contact of bodies periodic along both axes the approach does not determine the load.
     let full = step.contact_area > PITCH * PITCH * (gap.len() as f64 - 0.5);
     let normal = if case.boundary.leaves_mean_free() && full {
         Control::Load(step.load)

@@ -1,6 +1,7 @@
-//! Steady rolling of all combinations of options at random, each answer held against the conditions of friction cell by cell.
+//! Steady rolling with random combinations of options; each solution is checked against the conditions of friction cell by
+//! cell.
 //!
-//! `CASES=1000 cargo test -p asperity --test it random_rolling` tries so many, from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity --test it random_rolling` tries this number, starting from the seed `SEED`.
 
 use asperity::material::{Compliances, Material};
 use asperity::operator::{Boundary, CoupledOperator, CoupledSum, Edge, Operators};
@@ -12,7 +13,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const TOLERANCE: f64 = 1e-8;
-/// The errors that an answer may have, in tolerances: the solver counts them by other shares.
+/// Accepted errors of a solution, in tolerances: the solver measures them relative to other quantities.
 const MARGIN: f64 = 10.0;
 
 #[test]
@@ -29,7 +30,7 @@ fn steady_rolling_meets_the_conditions_of_friction_in_every_cell() {
                 let mut wrong = case.faults(&solution);
                 failures.extend(wrong.drain(..).map(|fault| format!("{number}: {fault}\n    {case:?}")));
             }
-            // A random film or junction may hold less than the force, a random map of the hardness less than the load.
+            // A random friction law may hold less than the force, a random hardness map less than the load.
             Err(Error::BeyondFriction { .. } | Error::BeyondPlasticLimit { .. }) => {}
             Err(error) => failures.push(format!("{number}: {error}\n    {case:?}")),
         }
@@ -49,7 +50,7 @@ struct Case {
     hardness: f64,
     /// Whether the hardness differs from cell to cell.
     maps: bool,
-    /// Curvature of the gap along x and y, its middle from that of the grid, amplitude and phase of waves.
+    /// Curvature of the gap along x and y, offset of its middle from that of the grid, amplitude and phase of waves.
     curvature: [f64; 2],
     middle: [f64; 2],
     rough: f64,
@@ -105,7 +106,7 @@ impl Case {
             _ => rng.random_range(0.0f64..6.3),
         };
         let direction = [angle.cos(), angle.sin()].map(|part| if part.abs() < 1e-9 { 0.0 } else { part });
-        // From all but stick to gross sliding, and at times nothing.
+        // From nearly full stick to gross slip, and sometimes zero.
         let size = match pick(rng, 10) {
             0 => 0.0,
             _ => coefficient * mean_pressure * decades(rng, -3.0, 2.0),
@@ -158,7 +159,7 @@ impl Case {
         })
     }
 
-    /// The hardness of each cell.
+    /// Returns the hardness of each cell.
     fn caps(&self) -> Field {
         Field::from_shape_fn(self.shape, |(i, j)| match self.maps {
             true => self.hardness * (0.75 + 0.25 * ((3 * i + 5 * j) as f64 + self.phase).sin()),
@@ -183,7 +184,7 @@ impl Case {
         )
     }
 
-    /// The displacement under the tractions of a solution, by a direct sum where the boundary is free.
+    /// Returns the displacement under the tractions of a solution, by a direct sum for a free boundary.
     fn displacement(&self, solution: &RollingSolution) -> [Field; 3] {
         let (grid, pair) = (self.grid(), self.pair());
         let mut operator: Box<dyn CoupledOperator> = match self.boundary {
@@ -203,11 +204,11 @@ impl Case {
         u
     }
 
-    /// What is wrong with a solution.
+    /// Returns the faults of a solution.
     fn faults(&self, solution: &RollingSolution) -> Vec<String> {
         let mut faults = Vec::new();
         let mut hold = |what: &str, error: f64, most: f64| {
-            // What is not a number is wrong.
+            // NaN is a fault.
             if error.is_nan() || error > most {
                 faults.push(format!("{what}: {error:e}, at most {most:e}"));
             }
@@ -219,7 +220,7 @@ impl Case {
         let largest = |field: &Field| field.iter().fold(0.0f64, |most, v| most.max(v.abs()));
         let normal_error = MARGIN * TOLERANCE * largest(&u_z).max(own.zz * largest(p)) + 1e-14 * largest(&h);
         let shear_error = MARGIN * TOLERANCE * contact.max_shear();
-        // A periodic contact of one cell does not deform, and slips as its creepage says.
+        // A periodic contact of one cell does not deform, and slips according to its creepage.
         let given = solution.creepage[0].hypot(solution.creepage[1]) * self.pitch[0];
         let slip_error =
             shear_error * 0.5 * (own.xx + own.yy) + 1e-12 * given + 1e-14 * largest(&u_x).max(largest(&u_y));
@@ -261,7 +262,7 @@ impl Case {
                 let along = (slip[0] * q[0] + slip[1] * q[1]) / size;
                 let across = (slip[0] * q[1] - slip[1] * q[0]) / size;
                 hold("slip against the shear", -along, slip_error);
-                // Shear that is off by that error turns by as much, and the slip with it.
+                // An error of the shear rotates it by as much, and the slip with it.
                 hold("slip across the shear", across.abs(), slip_error + along.abs() * shear_error / size);
             }
         }
@@ -276,7 +277,7 @@ impl Case {
                 }
             }
         }
-        // What the step from cell to cell takes is positive where all cells have the cell ahead on the grid.
+        // The energy of the step from cell to cell is positive if all cells have the cell ahead on the grid.
         let alike = (self.young[0] == self.young[1] && self.poisson[0] == self.poisson[1])
             || self.friction.coupling == Coupling::None;
         if alike && self.boundary.repeats(0) {

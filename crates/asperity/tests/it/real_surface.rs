@@ -1,7 +1,7 @@
-//! A measured surface, as an instrument wrote it, against a generated one: from the file to the last pass.
+//! A measured surface, as written by an instrument, against a generated one: from the file to the last pass.
 //!
-//! The file is `x3p-2.x3p` of the folder that `ASPERITY_TOPOGRAPHIES` names, else of `shared/topographies` beside the
-//! workspace. Where it is missing the test is skipped, but not under CI.
+//! The file is `x3p-2.x3p` in the folder `ASPERITY_TOPOGRAPHIES`, by default `shared/topographies` beside the workspace.
+//! Without it the test is skipped, but not in CI.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Bodies of one's own, from outside the library: all that a contact is made of takes them.
+//! User-defined elastic responses, from outside the library: all kinds of contacts accept them.
 
 use asperity::error::Error;
 use asperity::kernel::{HalfSpaces, Influence, Layering, Response};
@@ -13,7 +13,7 @@ use asperity::solver::{
 use asperity::surface::LowPass;
 use asperity::{Field, Grid};
 
-/// Half-spaces under a bed of springs, u = kp, which gives way where it is pressed and nowhere else.
+/// Half-spaces under a bed of springs, u = kp, which deforms only under pressure.
 #[derive(Debug)]
 struct Sprung {
     modulus: f64,
@@ -36,7 +36,7 @@ impl Response for Sprung {
     }
 }
 
-/// A body that grows stiffer with depth, of which the harmonics alone are known.
+/// A body whose stiffness increases with depth, given by its harmonics alone.
 #[derive(Debug)]
 struct Graded;
 
@@ -75,8 +75,8 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let params = Params::default().with_tolerance(1e-10).with_method(Method::ActiveSet);
     let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params, &()).unwrap();
     let (record, solution) = (found.record, found.solution);
-    // u = Cp by the coefficients of half-spaces, cell by cell, and by the springs; the gap is never below 0, and 0 under
-    // pressure below the hardness.
+    // u = Cp from the coefficients of half-spaces, cell by cell, and from the springs. The gap is never below 0, and it is
+    // 0 under pressure below the hardness.
     let mut displacement = Field::zeros(GRID.shape);
     DirectSum::new(GRID, modulus).apply(&solution.pressure, &mut displacement);
     displacement.scaled_add(compliance, &solution.pressure);
@@ -87,7 +87,7 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
         assert!(*p == 0.0 || *g < 1e-8 * size, "gap {g:e} under {p:e}");
     }
     assert!((record.load / 0.3 - 1.0).abs() < 1e-9 && record.contact_area > 0.0);
-    // It is another contact than that without springs.
+    // It differs from the contact without springs.
     let plain = press(&rough_pair([&steel(), &steel()]), Boundary::FREE, Control::Load(0.3), &params, &())
         .unwrap()
         .record;
@@ -190,7 +190,7 @@ fn materials_with_a_coating_press_as_their_two_bodies() {
         let sum = of(&soft.coated(coating), &rigid) + of(&rigid, &steel().coated(coating));
         let size = both.fold(0.0, |most: f64, u| most.max(u.abs()));
         assert!((&both - &sum).iter().all(|error| error.abs() < 1e-12 * size));
-        // A rigid body with a coating is a body.
+        // A coated rigid body is valid.
         let thin = of(&rigid.coated(coating), &rigid);
         assert!(thin.iter().any(|u| *u > 0.0));
     }

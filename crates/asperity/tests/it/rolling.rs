@@ -1,4 +1,4 @@
-//! Bodies that flow below their surfaces as they move over each other.
+//! Elasto-plastic bodies that move over each other.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ fn steel() -> Material {
     Material::elastic(210e9, 0.3).unwrap()
 }
 
-/// A body on so many cells that flows from 1.5 GPa on.
+/// A body with this grid that yields at 1.5 GPa.
 fn flowing(shape: [usize; 2], boundary: Boundary, kinematic: f64) -> PlasticBody {
     let grid = Grid::new(shape, [PITCH; 2]).unwrap();
     let layers = Layers::new(60e-6, 8, 1.15).unwrap();
@@ -35,7 +35,7 @@ fn flowing(shape: [usize; 2], boundary: Boundary, kinematic: f64) -> PlasticBody
     PlasticBody::new(Volume::new(grid, layers, boundary, &steel()).unwrap(), Arc::new(law))
 }
 
-/// A surface on so many cells, by what its heights are over x and y from its middle.
+/// A surface with this grid, from its height as a function of x and y relative to its middle.
 fn surface(shape: [usize; 2], height: impl Fn(f64, f64) -> f64) -> Topography {
     let grid = Grid::new(shape, [PITCH; 2]).unwrap();
     let middle = shape.map(|n| 0.5 * (n as f64 - 1.0));
@@ -53,7 +53,7 @@ fn flat(_: f64, _: f64) -> f64 {
     0.0
 }
 
-/// The passes of a motion, in numbers, and what it leaves.
+/// Records of the passes of a motion, and its residual state.
 #[derive(Default)]
 struct Kept {
     passes: Vec<PassRecord>,
@@ -85,7 +85,7 @@ fn shift(lower: f64, upper: f64) -> Strategy {
     Strategy::Shift { speed_lower: lower, speed_upper: upper }
 }
 
-/// A ball that rolls over a flat body, which flows, under a step load.
+/// A ball that rolls over a flat elasto-plastic body, with a load at each position.
 fn rolling(load: f64, passes: usize, kinematic: f64) -> Simulation {
     let shape = [32, 16];
     let pair = Pair::new(surface(shape, flat), surface(shape, ball), [&steel(), &steel()]).unwrap();
@@ -99,7 +99,7 @@ fn rolling(load: f64, passes: usize, kinematic: f64) -> Simulation {
         .unwrap()
 }
 
-/// The load at which the ball presses with a peak pressure of so many k = σY/√3, by Hertz.
+/// Load at which the ball has the peak pressure `times` k, k = σY/√3, by Hertz.
 fn hertz(times: f64) -> f64 {
     let modulus = 0.5 * steel().plane_strain_modulus();
     let peak = times * 1.5e9 / 3f64.sqrt();
@@ -141,7 +141,7 @@ fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
         kept.passes.iter().map(|p| p.flow).collect::<Vec<_>>()
     );
     assert!(flow(0).plastic_work_lower > 0.0 && flow(0).plastic_work_upper == 0.0);
-    // Deepest along the middle, alike all along the way, but around the middle, where a pass begins and ends.
+    // Deepest along the middle, and uniform along the path, except around the middle, where a pass begins and ends.
     let r = &kept.displacement[0];
     let far = || (0..8).chain(24..32);
     let along = |iy: usize| far().map(|ix| r[[ix, iy]]).sum::<f64>() / 16.0;
@@ -183,7 +183,8 @@ fn one_approach_bears_the_mean_load_and_later_passes_begin_from_it() {
     assert!(one.clone().all(|approach| approach == kept.steps[0].approach));
 }
 
-/// A ball on the upper body over a flat lower one, and upside down the other way round: the lower body stands still in both.
+/// A ball on the upper body over a flat lower one, and upside down in the other direction: the lower body is stationary in
+/// both.
 #[test]
 fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
     let shape = [24, 12];
@@ -218,7 +219,7 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
 
 #[test]
 fn a_body_that_lies_between_columns_flows_as_much() {
-    // The upper surface moves by halves of a cell: what flows in it is what its cells bear by their parts.
+    // The upper surface moves by half cells: its plastic strain follows the weights of its cells.
     let shape = [24, 12];
     let pair = Pair::new(surface(shape, flat), surface(shape, ball), [&steel(), &steel()]).unwrap();
     let motion = Motion::new(shift(1.0, 0.5), Control::Load(hertz(5.0)))
@@ -232,8 +233,8 @@ fn a_body_that_lies_between_columns_flows_as_much() {
     assert!(kept.passes[1].flow.unwrap().max_plastic_strain_upper >= flow.max_plastic_strain_upper);
 }
 
-/// Of a ball that comes over a flat body and leaves it, at an approach, and of one on a ring, at the load of the first: the
-/// grooves in the middle.
+/// A ball passes over a flat body and leaves it, at constant approach; another one runs on a ring, at the load of the
+/// first. Compares the grooves in the middle.
 #[test]
 fn an_overlap_far_from_all_rims_is_a_shift() {
     let params = Params::default();
@@ -256,7 +257,7 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let shifted = Simulation::new(pair, periodic, motion, params).unwrap();
     let shifted =
         Kept::of(shifted.with_flow([Some(flowing(ring, periodic, 0.0)), None], FlowParams::new()).unwrap());
-    // The pass on the ring begins and ends in its middle: the groove is looked at where it has been for long.
+    // The pass on the ring begins and ends in its middle: the groove is evaluated where the ball has been rolling for long.
     let groove = |r: &Field, columns: [usize; 8]| {
         let depth = |ix: usize| {
             let row = r.row(ix);
@@ -285,7 +286,7 @@ fn friction_shears_the_body_the_way_that_it_slides() {
     };
     let [none, forth, back] = [run(None, 1.0), run(Some(0.3), 1.0), run(Some(0.3), -1.0)];
     assert!(forth.plastic_work_lower > 1.2 * none.plastic_work_lower, "{none:?} {forth:?}");
-    // Without friction the surface creeps little, under it where it is dragged.
+    // Without friction the surface creeps slightly, in the direction of the motion under it.
     assert!(forth.surface_shift_lower > 0.0 && back.surface_shift_lower < 0.0, "{forth:?} {back:?}");
     assert!(forth.surface_shift_lower > 2.0 * none.surface_shift_lower.abs(), "{none:?} {forth:?}");
     assert!((forth.surface_shift_lower / -back.surface_shift_lower - 1.0).abs() < 0.05);
@@ -324,7 +325,7 @@ fn what_bodies_that_flow_do_not_have_is_refused() {
     assert!(refused(free, Boundary::FREE).contains("periodic along x"));
 }
 
-/// The ball in a case, which rolls back and forth in passes under one approach.
+/// The ball in a case, with forward and return strokes at constant approach.
 fn case(keep: &str) -> Case {
     let text = format!(
         "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n[lower.plasticity]\nyield_stress = \"1.5 GPa\"\n\
@@ -350,7 +351,7 @@ impl Watch for StopAt {
     }
 }
 
-/// All that results hold, but for times.
+/// Returns the complete content of results, without times.
 fn content(out: &Path, passes: usize) -> (String, Vec<Vec<u8>>) {
     let results = Results::open(out).unwrap();
     let timeless: Vec<PassRecord> = results
@@ -393,7 +394,7 @@ fn an_interrupted_motion_goes_on_to_the_same_bits_and_keeps_the_volumes_asked_fo
             (1..=3).filter(|pass| out.join(format!("fields/plasticity-{pass:04}.h5")).exists()).collect();
         assert_eq!(kept, [3]);
     }
-    // Resumed when all is done it tells the same once more.
+    // Resumed after completion, it returns the same results.
     assert_eq!(run("last", &whole, Existing::Resume, &()).unwrap().plasticity.unwrap(), flow);
     let all = folder.path().join("all");
     run("passes", &all, Existing::Keep, &()).unwrap();
@@ -405,7 +406,7 @@ fn an_interrupted_motion_goes_on_to_the_same_bits_and_keeps_the_volumes_asked_fo
     assert!(strain(1) > 0.0 && strain(1) < strain(2) && strain(2) < strain(3));
 }
 
-/// A motion whose results warn of what its model bears badly, and of nothing where it does not.
+/// A motion whose results warn where its model is poor, and do not warn elsewhere.
 #[test]
 fn what_the_model_bears_badly_is_told() {
     let warnings = |edits: &[(&str, &str)]| {

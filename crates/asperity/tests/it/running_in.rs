@@ -1,4 +1,4 @@
-//! Wear, films and jumps over passes that are not computed.
+//! Wear, films and extrapolation over passes.
 
 use std::f64::consts::PI;
 
@@ -83,7 +83,7 @@ fn grooves(passes: usize, jump: usize, exponent: f64) -> f64 {
     let modulus = pair.modulus();
     let mean = 1.5 * PI * modulus * AMPLITUDE / length;
     let control = Control::Load(mean * grid.area());
-    // One position a pass, which slides over the length of the grid.
+    // One position per pass, which slides over the length of the grid.
     let motion =
         Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
     let distance = passes as f64 * 4.0 * PITCH;
@@ -114,7 +114,7 @@ fn grooves_along_the_sliding_wear_as_their_closed_form() {
     // Every pass computed: order 1.
     let [coarse, fine] = [error(80, 1), error(160, 1)];
     assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse:e}, {fine:e}");
-    // Jumps: order 2.
+    // Extrapolation: order 2.
     let [coarse, fine] = [error(1280, 32), error(1280, 16)];
     assert!((3.4..4.8).contains(&(coarse / fine)), "{coarse:e}, {fine:e}");
     assert!(fine < 1e-4, "{fine:e}");
@@ -183,7 +183,7 @@ fn the_volume_is_archards_and_the_ledger_balances() {
         for (pass, work) in kept.passes.iter().zip(&kept.work) {
             let worn = pass.lost("wear")[body];
             let expected = 4e-15 * work * 4.0 * PITCH * pass.represents() as f64;
-            // Between jumps the load is met within its tolerance, and so is the volume of what is taken for granted.
+            // Between extrapolations the load is met within its tolerance, and so is the volume of the extrapolated passes.
             let within = if pass.represents() == 1 { 1e-12 } else { 3e-4 };
             assert!((worn / expected - 1.0).abs() < within, "{worn:e}, {expected:e}");
             lost += worn + pass.lost("plastic")[body];
@@ -207,7 +207,7 @@ fn zddp(removal: f64) -> Film {
     Film::new(law, 10e-9, None).unwrap()
 }
 
-/// Flat bodies: the pressure is the same everywhere, and so is the film.
+/// Flat bodies: pressure and film are uniform.
 fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> f64 {
     let grid = Grid::new([8, 8], [PITCH; 2]).unwrap();
     let material = steel(f64::INFINITY);
@@ -225,7 +225,7 @@ fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> 
     let film = &kept.pair.as_ref().unwrap().lower.state[FILM].values;
     let mean = film.mean().unwrap();
     assert!(film.iter().all(|f| *f >= 0.0 && (f - mean).abs() <= 1e-9 * mean));
-    // What the film grows, the surface rises by.
+    // The surface rises by the growth of the film.
     let rise = kept.heights()[0].mean().unwrap();
     assert!((rise - mean).abs() <= 1e-9 * mean, "{rise:e}, {mean:e}");
     mean
@@ -249,8 +249,8 @@ fn a_film_is_exact_over_any_jump_and_tends_to_its_steady_value() {
     assert!((thick / 6e-9 - 1.0).abs() < 1e-6, "{thick:e}: f_max − C₃");
 }
 
-/// A film that is removed faster than it grows is used up: its cell is bare, which the film is never less than, until growth is
-/// faster again. Against steps of a thousandth of a pass's share of the course.
+/// A film that is removed faster than it grows is used up. Its cell stays bare, with a thickness of 0, until growth is
+/// faster again. Compared with steps of a thousandth of a pass.
 #[test]
 fn a_film_is_never_below_0_over_any_jump() {
     let (x, most, c3) = (1e-13, 10e-9, 4e-9);
@@ -279,7 +279,7 @@ fn a_film_is_never_below_0_over_any_jump() {
     }
 }
 
-/// Takes a nanometre off every cell of the lower body in a pass, whatever that stands for.
+/// Removes a nanometre from every cell of the lower body in a pass, for any extrapolation.
 struct Once;
 
 impl Law for Once {
@@ -303,7 +303,7 @@ fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
     let simulation = Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default());
     let simulation = simulation.unwrap().with_law(archard(4e-15)).with_law(Once);
-    // Its volume counts as that of what flows: the wear of a jump is to exceed it.
+    // Its volume counts like plastic deformation: the wear of an extrapolation must exceed it.
     let kept = Kept::of(simulation.with_acceleration(Acceleration::default()).unwrap());
     assert_eq!(kept.represented(), 20);
     let volume = 256.0 * PITCH * PITCH * 1e-9;
@@ -332,14 +332,15 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     }
 }
 
-/// A pass of one position over the whole length of surfaces that are pressed flat: wear by the law, or by the caller as the
-/// explicit step takes it. How strongly pressures alternate from cell to cell, over their mean, after so many passes.
+/// A pass with one position over the whole length of surfaces that are pressed flat. The wear is computed by the law, or by
+/// the caller as an explicit step. Returns the amplitude of the checkerboard mode of the pressures over their mean, after
+/// `passes` passes.
 fn chequered(wear: f64, passes: usize, by_law: bool) -> f64 {
     const CELLS: usize = 16;
     let grid = Grid::new([CELLS, CELLS], [PITCH; 2]).unwrap();
     let steel = steel(f64::INFINITY);
     let alternating = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1.0 } else { -1.0 };
-    // A chequered surface whose pressures alternate by a thousandth of the mean, which is E*/1000.
+    // A checkerboard surface whose pressures alternate by a thousandth of the mean, which is E*/1000.
     let flat = Form::Flat.on(&grid).unwrap();
     let pair = Pair::new(flat.clone(), flat, [&steel; 2]).unwrap();
     let (modulus, softness) = (pair.modulus(), chequered_softness(&pair));
@@ -371,25 +372,25 @@ fn chequered(wear: f64, passes: usize, by_law: bool) -> f64 {
     left.abs()
 }
 
-/// Displacement of a periodic surface under a chequered pressure of 1: 2/E*q at the shortest wave of cells.
+/// Displacement of a periodic surface under a checkerboard pressure of 1: 2/E*q at the shortest wave on the grid.
 fn chequered_softness(pair: &Pair) -> f64 {
     2.0 * PITCH / (pair.modulus() * PI * 2.0_f64.sqrt())
 }
 
-/// The explicit step swings above the bound (k₁ + k₂) Σ|Δs| = 2λ, till every second cell bears nothing; where a law wears more, a
-/// pass is solved with its wear and does not.
+/// The explicit step oscillates above the bound (k₁ + k₂) Σ|Δs| = 2λ, until every second cell has no pressure. If a law
+/// wears more, a pass is solved together with its wear, and does not oscillate.
 #[test]
 fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_wear() {
     let first = chequered(0.9, 1, false);
     assert!((first / 1e-3 - 1.0).abs() < 1e-3, "{first:e}");
-    // The part of a chequered pressure that a pass leaves is |1 − 2 · 0.9|, and |1 − 2 · 1.1|.
+    // A pass multiplies a checkerboard pressure by |1 − 2 · 0.9|, and by |1 − 2 · 1.1|.
     for (wear, by_law) in [(0.9, false), (0.9, true)] {
         let left = chequered(wear, 21, by_law);
         assert!((left / first / 0.8_f64.powi(20) - 1.0).abs() < 0.01, "{left:e}");
     }
     let swung = chequered(1.1, 61, false);
     assert!(swung > 0.5, "{swung}");
-    // Implicitly 1/(1 + 2 · 1.1) of it is left.
+    // An implicit pass multiplies it by 1/(1 + 2 · 1.1).
     let worn = chequered(1.1, 6, true);
     let expected = 1e-3 / 3.2_f64.powi(6);
     assert!((worn / expected - 1.0).abs() < 0.01, "{worn:e}, expected {expected:e}");
@@ -422,8 +423,8 @@ fn an_interrupted_run_goes_on_with_the_same_jumps() {
     assert_eq!(jumps(&rest), jumps(&whole)[6..]);
 }
 
-/// Some passes of a body in zinc dialkyl dithiophosphate against one that runs over it so fast under friction, heated in every so
-/// many passes, in none at 0.
+/// Some passes of a body in zinc dialkyl dithiophosphate against a body that slides over it at this speed with friction,
+/// heated in every `every`-th pass, or in none for 0.
 fn heated(speed: f64, passes: usize, every: usize) -> Kept {
     use asperity::solver::{Coupling, Friction};
     use asperity::temperature::Thermal;
@@ -455,7 +456,7 @@ fn friction_heats_the_cells_and_films_see_it() {
         warmest(&slow),
         warmest(&fast)
     );
-    // The work is that of friction, whatever the speed: μ Σ W Δs.
+    // The work is that of friction, for any speed: μ Σ W Δs.
     for kept in [&slow, &fast] {
         let work = kept.passes[0].running.unwrap().friction_work;
         assert!((work / (0.1 * kept.work[0] * 4.0 * PITCH) - 1.0).abs() < 1e-12);
@@ -465,7 +466,7 @@ fn friction_heats_the_cells_and_films_see_it() {
     assert!(grown(&slow) > 1.001 * grown(&cold), "{:e} {:e}", grown(&slow), grown(&cold));
 }
 
-/// Between passes whose flash temperature is computed the cells are as warm as they were in the last of these.
+/// Between passes with a computed flash temperature, the cells have the temperature of the last of these.
 #[test]
 fn what_is_heated_in_some_passes_grows_films_in_all() {
     let [never, each, third] = [0, 1, 3].map(|every| heated(5.0, 7, every));
@@ -485,7 +486,8 @@ fn what_is_heated_in_some_passes_grows_films_in_all() {
     assert!(!each.pair.as_ref().unwrap().lower.state.contains_key(asperity::motion::FLASH));
 }
 
-/// A pass that is solved with its wear has the pressures of the bodies that it leaves: those of the same approach on them.
+/// A pass solved together with its wear has the pressures of the bodies after it: those at the same approach on these
+/// bodies.
 #[test]
 fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
     let params = Params::default().with_tolerance(1e-9);
@@ -495,7 +497,7 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
         (Strategy::Shift { speed_lower: 0.2, speed_upper: 0.5 }, Boundary::PERIODIC, f64::INFINITY),
     ] {
         let pair = rough(hardness, 16);
-        // Thirty times the bound of a cell that bears all the way.
+        // Thirty times the bound for a cell in contact all the time.
         let coefficient = 30.0 * 2.0 * 0.45 * PITCH / pair.modulus() / (2.0 * 16.0 * PITCH);
         let motion = Motion::new(strategy, Control::Load(0.02))
             .with_stride(4)
@@ -515,7 +517,7 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
             let off = difference.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
             assert!(off < 1e-4 * largest, "{strategy:?}: {off:e} of {largest:e}");
         }
-        // As much as is worn explicitly, but not the same: k Σ W Δs.
+        // The same volume as with explicit wear, but another distribution: k Σ W Δs.
         let distance = motion.sliding_distance(PITCH);
         let volume = coefficient * load * distance * worn.contacts().len() as f64;
         let [lower, upper] = worn.record().lost("wear");
@@ -526,13 +528,13 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
     }
 }
 
-/// Flat bodies of a period that pass over each other: what the film has lost is k p s, whether each pass is computed or few are.
+/// Flat periodic bodies that pass over each other: the film has lost k p s, whether each pass is computed or only a few.
 #[test]
 fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
     let grid = Grid::new([16, 8], [PITCH; 2]).unwrap();
     let flat = || Form::Flat.on(&grid).unwrap();
     let (thickness, k, pressure, passes) = (50e-9, 1e-15, 0.1e9, 40);
-    // The lower body slides under the same pressure over one length in each pass.
+    // The lower body slides one length under the same pressure in each pass.
     let lost = k * pressure * passes as f64 * 16.0 * PITCH;
     for (thickness, left) in [(thickness, thickness - lost), (0.6 * lost, 0.0)] {
         for acceleration in [Acceleration::NONE, Acceleration::default()] {

@@ -1,4 +1,4 @@
-//! Bodies that slide over each other: each position against the same contact solved alone, and what symmetry asks for.
+//! Bodies in sliding motion: each position compared with the same contact solved alone, and tests of symmetry.
 
 use asperity::material::Material;
 use asperity::motion::{Contact, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy};
@@ -53,7 +53,8 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
     }
 }
 
-/// The bodies mirrored in x slide the other way as these slide this way, and bear another pressure than without friction.
+/// The bodies mirrored in x slide in the other direction like these in this one. The pressure differs from that without
+/// friction.
 #[test]
 fn sliding_to_the_other_side_is_the_mirror_image() {
     let mirrored = |z: Field| z.slice(ndarray::s![..;-1, ..]).to_owned();
@@ -88,7 +89,7 @@ fn identical_bodies_slide_under_the_pressures_of_no_friction() {
     }
 }
 
-/// Two rough bodies of these moduli, their heights as `arranged`.
+/// Two rough bodies with these moduli, with their heights changed by `arranged`.
 fn pair(young: [f64; 2], arranged: impl Fn(Field) -> Field) -> Pair {
     let form =
         SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(35e-9) };

@@ -1,4 +1,4 @@
-//! Every method solves the same problem, and the answer obeys the conditions of contact.
+//! Every method solves the same problem, and the solution satisfies the conditions of contact.
 
 use asperity::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
@@ -16,14 +16,14 @@ fn operator(grid: Grid, periodic: bool) -> Box<dyn Operator> {
     if periodic { Box::new(PeriodicFft::new(grid, 1.0)) } else { Box::new(FreeFft::new(grid, 1.0)) }
 }
 
-/// A self-affine gap of rms slope 0.1.
+/// A self-affine gap with rms slope 0.1.
 fn rough(grid: &Grid, seed: u64) -> Field {
     let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
     let heights = -form.generate(grid, seed).unwrap().into_heights();
     &heights - heights.iter().copied().fold(INF, f64::min)
 }
 
-/// Solves and holds the answer to the conditions of contact.
+/// Solves, and checks the conditions of contact.
 fn solve(
     method: Method,
     operator: &mut dyn Operator,
@@ -45,7 +45,7 @@ fn solve(
         assert!(error.abs() <= 1e-10, "{method:?}: relative error of the load {error:e}");
     }
     if operator.influence(0, 0) == 0.0 {
-        return solution; // A single periodic cell does not deform: there is nothing to measure a residual by.
+        return solution; // A single periodic cell does not deform: there is no scale for a residual.
     }
     let mut displacement = operator.grid().zeros();
     operator.apply(&solution.pressure, &mut displacement);
@@ -118,7 +118,8 @@ fn the_residual_is_that_of_the_direct_sum() {
             sum.influence(0, 0),
             None,
         );
-        // Single precision may leave a tenth of the tolerance in the displacement, and it counts in the residual.
+        // Single precision may cause an error of a tenth of the tolerance in the displacement, which counts in the
+        // residual.
         let below = solution.residual - independent.eta;
         assert!((0.0..0.2e-6).contains(&below), "{independent:?}, {}", solution.residual);
         assert!((independent.approach / solution.approach - 1.0).abs() < 1e-8);
@@ -387,7 +388,7 @@ fn a_uniform_contact_converges_by_every_method() {
                     if periodic {
                         assert!(solution.pressure.iter().all(|p| (p / 1e8 - 1.0).abs() < 1e-5), "{what}");
                     } else {
-                        // The punch: its corners bear most, its middle least.
+                        // The punch: the pressure is largest at its corners and smallest in its middle.
                         assert_eq!(solution.contact_cells(), n * n, "{what}");
                         assert!(
                             solution.pressure[[0, 0]] > 2.0 * solution.pressure[[n / 2, n / 2]],
@@ -402,10 +403,11 @@ fn a_uniform_contact_converges_by_every_method() {
 
 #[test]
 fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
-    // In units of a micrometre, of nanometre heights 3 m away, under loads that press one cell down by ever less.
+    // In units of a micrometre, with nanometre heights at a distance of 3 m, under ever smaller loads that press one cell
+    // down.
     for shape in [[12, 16], [40, 32]] {
         let grid = Grid::new(shape, [1e-6, 1e-6]).unwrap();
-        // Heights with few digits, which 3 m leave unchanged.
+        // Heights with few digits, which an offset of 3 m leaves unchanged.
         let near = rough(&grid, 3).mapv(|h| (h * 1e-2 * 2f64.powi(40)).round() * 2f64.powi(-50));
         let far = near.mapv(|h| h + 3.0);
         for periodic in [false, true] {
@@ -438,7 +440,7 @@ fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
 
 #[test]
 fn the_answer_does_not_depend_on_the_units() {
-    // Lengths by 1000^k, loads by any factor with the modulus: the same numbers.
+    // Lengths scaled by 1000^k, and loads with the modulus by any factor: the same numbers.
     let reference = grid([24, 24]);
     let gap = rough(&reference, 8);
     for method in METHODS {

@@ -1,4 +1,4 @@
-//! Steady rolling against rolling cell by cell until nothing changes any more.
+//! Steady rolling compared with rolling cell by cell until the state is stationary.
 
 use asperity::material::{Compliances, Material};
 use asperity::operator::{Boundary, CoupledOperator, Operators};
@@ -13,7 +13,7 @@ fn pair(young: [f64; 2]) -> Compliances {
     Compliances::new(&lower, &upper).unwrap()
 }
 
-/// A sphere of radius 1 on `n`² cells of a square of that side.
+/// A sphere of radius 1 on `n`² cells of a square with this side.
 fn sphere(n: usize, side: f64) -> (Grid, Field) {
     let grid = Grid::new([n, n], [side / n as f64; 2]).unwrap();
     let middle = 0.5 * side;
@@ -24,12 +24,12 @@ fn sphere(n: usize, side: f64) -> (Grid, Field) {
     (grid, gap)
 }
 
-/// The load under which a sphere of radius 1 touches within a radius `a`, E* = 1.
+/// Load at which the contact radius of a sphere of radius 1 is `a`, E* = 1.
 fn hertz(a: f64) -> f64 {
     4.0 / 3.0 * a.powi(3)
 }
 
-/// A contact that may roll.
+/// A contact for rolling.
 struct Contact<'a> {
     operator: &'a mut dyn CoupledOperator,
     gap: &'a Field,
@@ -44,7 +44,7 @@ impl Contact<'_> {
             .unwrap()
     }
 
-    /// Rolls cell by cell till the shear changes by less than that share of the largest.
+    /// Rolls cell by cell until the shear changes by less than this fraction of the largest.
     fn cell_by_cell(&mut self, rolling: Rolling, params: &Params, change: f64) -> FrictionalSolution {
         let grid = *self.operator.grid();
         let repeats = self.operator.normal().boundary().repeats(0);
@@ -97,7 +97,7 @@ impl Contact<'_> {
     }
 }
 
-/// Largest difference of the shear of two contacts, as a share of the largest.
+/// Largest difference between the shear of two contacts, relative to the largest shear.
 fn apart(one: &FrictionalSolution, other: &FrictionalSolution) -> f64 {
     let pairs = one.shear.iter().flatten().zip(other.shear.iter().flatten());
     pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs())) / one.max_shear()
@@ -115,7 +115,7 @@ fn the_steady_state_is_what_rolling_cell_by_cell_comes_to() {
     let force = |x, y| Creep::Force([x, y]);
     let (free, periodic) = (Boundary::FREE, Boundary::PERIODIC);
     let elastic = Bounds::ELASTIC;
-    // Shape, bodies, boundary, roughness, friction, bounds, what is prescribed as a share of the load or of 1, spin.
+    // Shape, bodies, boundary, roughness, friction, bounds, prescribed values relative to the load or to 1, spin.
     #[rustfmt::skip]
     let cases = [
         ([24, 24], alike, free, 0.0, plain(0.3), elastic.clone(), force(0.18, 0.0), 0.0),
@@ -233,7 +233,8 @@ fn a_sphere_rolls_at_the_price_of_some_increments() {
     }
 }
 
-/// The energy that leaves is what force, moment and pressure give; what the cells' slip takes comes to it as the cells become small.
+/// The supplied energy is that of force, moment and pressure; the energy of the slip of the cells converges to it as the
+/// cells become small.
 #[test]
 fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
     let radius = 0.3;
@@ -264,7 +265,7 @@ fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
             let rolled = contact.steady(Rolling { creep, spin }, &Params::default().with_tolerance(1e-8));
             let RollingSolution { contact, creepage, dissipation, .. } = &rolled;
             let given: f64 = creepage.iter().zip(contact.force()).map(|(xi, force)| xi * force).sum();
-            // Pressure works on the gap that moves on with the contact.
+            // Pressure does work on the gap that moves on with the contact.
             let u = &contact.normal.displacement;
             let gradient = Field::from_shape_fn(grid.shape, |(i, j)| {
                 0.5 * (u[[(i + 1).min(n - 1), j]] - u[[i.max(1) - 1, j]])
@@ -285,7 +286,7 @@ fn the_work_of_the_slip_comes_to_the_energy_that_is_given() {
     }
 }
 
-/// What slips without end gives all that friction takes, up to the step from cell to cell of a shear that no longer changes.
+/// In gross slip all frictional energy is that of the slip, up to the step from cell to cell of a stationary shear.
 #[test]
 fn in_gross_sliding_all_energy_goes_into_slip() {
     let (grid, gap) = sphere(12, 1.0);
@@ -307,7 +308,7 @@ fn in_gross_sliding_all_energy_goes_into_slip() {
     assert!((rolled.slip_work() / taken - 1.0).abs() < 1e-3, "{:e} {taken:e}", rolled.slip_work());
 }
 
-/// On a grid of one column nothing strains along the rolling: all cells slip as the creepage says.
+/// On a grid with one column there is no strain along the rolling direction: all cells slip according to the creepage.
 #[test]
 fn a_single_column_slides_whatever_the_creepage() {
     let pair = pair([1.0, 30.0]);

@@ -1,4 +1,4 @@
-//! The stress under the surface, from a case file to its results.
+//! Stress under the surface, from a case file to its results.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ upper = { young = "70 GPa", poisson = 0.2, topography = { form = "sphere", radiu
 contact = { load = "0.4 N" }
 "#;
 
-/// Rough bodies in motion; the positions 1, 5, 9, … are kept.
+/// Rough bodies in motion; positions 1, 5, 9, … are stored.
 const MOVING: &str = r#"
 lower = { young = "210 GPa", poisson = 0.3, hardness = "4 GPa", topography = { generate = "low-pass", shape = [32, 32], pitch = "1 um", sq = "35 nm", cutoff = "8 um", seed = 1 } }
 upper = { young = "210 GPa", poisson = 0.3, topography = { generate = "low-pass", shape = [32, 32], pitch = "1 um", sq = "35 nm", cutoff = "8 um", seed = 2 } }
@@ -52,7 +52,7 @@ fn a_ball_yields_below_the_surface_where_hertz_says_in_either_body() {
         assert!((record.max_von_mises / most - 1.0).abs() < 2e-3, "{body}: {record:?}, {most:e}");
         assert!((record.max_shear / at(depth).max_shear() - 1.0).abs() < 2e-3, "{body}: {record:?}");
         assert!((z - depth).abs() < 0.02 * a, "{body}: {z:e}, {depth:e}");
-        // The apex stands where four cells meet.
+        // The apex is where four cells meet.
         assert!((x - 24e-6).abs() < 0.6e-6 && (y - 24e-6).abs() < 0.6e-6, "{record:?}");
         assert_eq!((record.pass, record.step), (None, None));
     }
@@ -71,7 +71,7 @@ fn the_stress_is_one_wherever_it_is_kept_and_bears_the_pressure() {
     assert_eq!(attributes["section"], 20.5e-6.into());
     assert_eq!(attributes["planes"], vec![4e-6, 0.0].into());
     let Attribute::Numbers(columns) = &attributes["columns"] else { panic!("{attributes:?}") };
-    // The rim belongs to the last cell.
+    // The edge belongs to the last cell.
     let expected = [30.5e-6, 20.5e-6, 0.5e-6, 47.5e-6];
     assert!(columns.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-18));
     let section = |name: &str| stress.read(&format!("section_{name}")).unwrap();
@@ -115,7 +115,7 @@ fn a_motion_leaves_the_stress_of_each_pass_and_goes_on() {
     );
     let results = Results::open(directory.path()).unwrap();
     for pass in 1..=2 {
-        // The position of the offset 4: its first column is the lower body's fifth.
+        // The position with the offset 4: its first column is the fifth of the lower body.
         let stress = results.subsurface_fields(Some(pass)).unwrap();
         let zz = stress.read("section_zz").unwrap();
         let Attribute::Number(y) = stress.attributes().unwrap()["section"] else { panic!() };
@@ -134,7 +134,7 @@ fn a_motion_leaves_the_stress_of_each_pass_and_goes_on() {
     assert_eq!((&all.subsurface[..2], all.subsurface[2].pass), (&first.subsurface[..], Some(3)));
     assert_eq!(results.summary().unwrap(), all);
 
-    // Left out, the position is that at which all faces all: the eighth of 7 + 1 + 7.
+    // By default the position is that of full overlap: the eighth of 7 + 1 + 7.
     run(MOVING, "to = \"6 um\"\nlayers = 6", directory.path(), Existing::Overwrite);
     let flush = results.subsurface_fields(Some(2)).unwrap();
     assert_eq!(flush.attributes().unwrap()["step"], 8.into());
@@ -167,7 +167,7 @@ fn it_does_not_depend_on_the_number_of_threads() {
     assert!(files[0] == files[1]);
 }
 
-/// The numbers of the last array of a `.vti` file.
+/// Returns the numbers of the last array of a `.vti` file.
 fn last_array(path: &Path) -> Vec<f32> {
     let bytes = std::fs::read(path).unwrap();
     let text = String::from_utf8_lossy(&bytes);
@@ -205,7 +205,7 @@ fn paraview_gets_every_field_and_the_stress_as_a_volume() {
     };
     assert!((sq("initial.vti") / 35e-9 - 1.0).abs() < 1e-6);
 
-    // What is missing is written again, what is there stays.
+    // A missing file is written again, an existing one stays.
     let before = std::fs::read(file("pass-0002.vti")).unwrap();
     std::fs::remove_file(file("pass-0002.vti")).unwrap();
     run(&case, wanted, directory.path(), Existing::Resume);

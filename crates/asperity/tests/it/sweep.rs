@@ -1,4 +1,4 @@
-//! A static contact under one load after another: each is a contact of its own, and its stiffness the slope of the curve.
+//! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of the curve.
 
 use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -29,7 +29,7 @@ fn pair(grid: Grid, gap: Field, hardness: f64) -> Pair {
     Pair::new(topography(grid.zeros()), topography(gap), [&steel, &steel]).unwrap()
 }
 
-/// A self-affine surface of slope 0.05 on a plane.
+/// A self-affine surface with slope 0.05 on a plane.
 fn rough(shape: [usize; 2], hardness: f64, seed: u64) -> Pair {
     let grid = Grid::new(shape, [1e-6; 2]).unwrap();
     let amplitude = Amplitude::Sdq(0.05);
@@ -103,8 +103,8 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
     }
 }
 
-/// K is the slope of the load over the approach: a central difference over ±0.2 % of the load on fine pressures. Beyond
-/// the elastic range too, where cells at the hardness bear no more.
+/// K is the slope of the load over the approach, compared with a central difference over ±0.2 % of the load on accurate
+/// pressures. It also holds beyond the elastic range, where the pressure of cells at the hardness is constant.
 #[test]
 fn the_stiffness_is_the_slope_of_the_load_over_the_approach() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
@@ -124,14 +124,14 @@ fn the_stiffness_is_the_slope_of_the_load_over_the_approach() {
         assert!((slope - stiffness).abs() <= change, "{n}: {slope:e} {stiffness:e} {ends:?}");
         assert!(change < 0.1 * stiffness, "{n}: {ends:?}");
         if boundary == Boundary::PERIODIC && hardness.is_infinite() {
-            // The mean displacement is 0: approach and mean gap are one.
+            // The mean displacement is 0: approach and mean gap are equivalent.
             let of_gap = (more.load - less.load) / (less.mean_gap - more.mean_gap);
             assert!((of_gap / slope - 1.0).abs() < 1e-6, "{of_gap} {slope}");
         }
     }
 }
 
-/// K = 2 E* a, a = (3WR/4E*)^⅓; the edge of the contact is known to a part of a cell.
+/// K = 2 E* a, a = (3WR/4E*)^⅓; the edge of the contact is known to a fraction of a cell.
 #[test]
 fn the_stiffness_of_a_ball_is_that_of_hertz() {
     let (modulus, radius) = (210e9 / (2.0 * (1.0 - 0.09)), 1e-3);
@@ -213,7 +213,7 @@ loads = { from = "1 mN", to = "0.3 N", points = 6 }
 pressure_every = 2
 "#;
 
-/// Stops after so many points.
+/// Stops after a number of points.
 struct StopAfter(usize, AtomicUsize);
 
 impl StopAfter {
@@ -232,7 +232,7 @@ impl Watch for StopAfter {
     }
 }
 
-/// A cylinder that rolls, of which little is looked at, through creepages.
+/// A cylinder rolling at several creepages, with few outputs.
 const ROLLING: &str = r#"
 [lower]
 young = "210 GPa"
@@ -251,7 +251,7 @@ coefficient = 0.2
 creepages = [2e-3, 4e-4, 0, -1e-3]
 "#;
 
-/// Carter, Proc. R. Soc. A 112, 151 (1926): Q/μW = 1 − (1 − ξR/μa)², full sliding from ξ = μa/R on.
+/// Carter, Proc. R. Soc. A 112, 151 (1926): Q/μW = 1 − (1 − ξR/μa)², gross slip from ξ = μa/R on.
 #[test]
 fn through_creepages_a_cylinder_draws_carters_curve() {
     let folder = tempfile::tempdir().unwrap();
@@ -269,7 +269,7 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
         let found = point.tangential_force_x / point.load;
         assert!((found - expected).abs() < 0.03 * friction, "{creepage}: {found}, Carter {expected}");
         assert_eq!((point.creepage_x, point.creepage_y), (creepage, 0.0));
-        // As it comes out alone, to the bit.
+        // Equal to a single contact, to the bit.
         let one = ROLLING
             .replace("[2e-3, 4e-4, 0, -1e-3]", &format!("{creepage:e}"))
             .replace("creepages", "creepage");
@@ -285,7 +285,7 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
         };
         assert_eq!(point.tangential_force_x, alone.shear.unwrap().tangential_force[0]);
     }
-    // Interrupted after any point it goes on to the same bytes.
+    // Interrupted after any point, it continues to the same bytes.
     for count in 1..4 {
         let broken = folder.path().join(format!("broken-{count}"));
         let stopped = study::run(
@@ -348,7 +348,7 @@ fn an_interrupted_sweep_goes_on_to_the_same_bits() {
         }
         assert_eq!(fs::read_dir(broken.join("fields")).unwrap().count(), 3);
     }
-    // What is damaged or of another sweep is refused.
+    // Damaged files, and those of another sweep, are refused.
     let broken = folder.path().join("broken-3");
     fs::remove_file(broken.join("fields/point-0003.h5")).unwrap();
     let error = study::run(&case, asperity::study::Given::default(), &broken, Existing::Resume, &())

@@ -1,4 +1,4 @@
-//! What fuzzing has found, and what it starts from, holds on a stable toolchain too: `fuzz/corpus`.
+//! Inputs found by fuzzing, and its seeds, also pass on a stable toolchain: `fuzz/corpus`.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! What a run warns of when a contact is not what its model is for, on both sides of each threshold, and over random
-//! contacts held against the same contact on a grid that holds it and against Hertz.
+//! Warnings of a run outside the validity of its model, on both sides of each threshold. Random contacts are compared with
+//! the same contact on a sufficiently large grid, and with Hertz.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ fn a_coating_thinner_than_a_cell_is_told_of_and_hertz_says_nothing_of_a_coated_b
     let warnings = |motion| Static { form: sphere(), load: 1.0, motion, ..Static::default() }.check();
     let said = "the coating of the lower body is thinner, 0.4 µm, than a cell, 0.5 µm";
     assert!(warnings(THIN).iter().any(|warning| warning.starts_with(said)), "{:?}", warnings(THIN));
-    // By Hertz a body without the coating is cut off by the rim.
+    // By Hertz' estimate the boundary cuts off a body without the coating.
     assert!(warnings("").iter().any(|warning| warning.contains("by Hertz")));
     assert_eq!(warnings(THICK), Vec::<String>::new());
 }
@@ -41,15 +41,15 @@ fn a_coating_thinner_than_a_cell_is_told_of_and_hertz_says_nothing_of_a_coated_b
 const ROUGH: &str =
     "shape = [32, 16]\npitch = \"1 um\"\ngenerate = \"low-pass\"\nsq = \"20 nm\"\ncutoff = \"10 um\"\n";
 
-/// Surfaces that the caller gives by the names of their bodies; what follows is no key.
+/// Surfaces supplied by the caller under the names of their bodies; the following text is not a key.
 const RAISED: &str = "given = \"BODY\"\n#";
 
-/// Two rough bodies of 32 × 16 cells that slide at a speed, with `more` of each.
+/// Two rough bodies of 32 × 16 cells that slide at a speed, with `more` keys for each.
 fn sliding(speed: &str, more: &str, rest: &str) -> Case {
     sliding_under("30 mN", ROUGH, speed, more, rest)
 }
 
-/// The same under a load, with other topographies.
+/// The same bodies under a load, with other topographies.
 fn sliding_under(load: &str, topography: &str, speed: &str, more: &str, rest: &str) -> Case {
     let body = |name: &str, seed: u32| {
         format!(
@@ -93,7 +93,7 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
         !told(&light, "of the wear") && !told(&light, "the film") && !told(&light, "computed"),
         "{light:?}"
     );
-    // Pressed flat, the whole of a body grows the film.
+    // Pressed flat, the whole body grows the film.
     let flat =
         sliding_under("2 N", ROUGH, "0.5 m/s", &format!("{wear}{film}"), &format!("stride = 4\n{bulk}"));
     let flat = run(&flat).warnings;
@@ -101,7 +101,7 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     let case = sliding_under("30 mN", RAISED, "0.5 m/s", wear, &format!("stride = 4\n{bulk}"));
     let mut given = study::Given::default();
     for name in ["lower", "upper"] {
-        // Its ends stand out.
+        // Its ends are raised.
         let heights = Field::from_shape_fn([32, 16], |(i, j)| {
             if (2..30).contains(&i) { 0.0 } else { 2e-7 + 1e-9 * (j % 3) as f64 }
         });
@@ -132,13 +132,13 @@ fn passes_that_change_the_bodies_no_more_are_told_of() {
     assert_eq!(elastic, "from pass 2 on the bodies change no more: `passes = 1` tells as much");
     assert_eq!(warned("", 10), None);
     assert_eq!(warned("wear = { coefficient = \"1e-8 mm3/(N m)\" }\n", 11), None);
-    // It flows until it has shaken down.
+    // It yields until it has shaken down.
     let shaken = warned("hardness = \"1 GPa\"\n", 60).unwrap();
     let first: usize = shaken.split(' ').nth(2).unwrap().parse().unwrap();
     assert!((3..50).contains(&first), "{shaken}");
 }
 
-// ---- the rim of the grid ---------------------------------------------------------------------------------
+// ---- the boundary of the grid ----------------------------------------------------------------------------
 
 #[test]
 fn a_ball_whose_contact_the_rim_cuts_off_is_told_of_with_the_pressures() {
@@ -146,7 +146,7 @@ fn a_ball_whose_contact_the_rim_cuts_off_is_told_of_with_the_pressures() {
         let case = Static { form: sphere(), load, ..Static::default() };
         (rim(&case.check()), rim(&case.run().warnings))
     };
-    // Hertz' radius is 16 µm, half the grid, at 0.63 N; the largest pressure is his up to 0.9 N.
+    // Hertz' radius is 16 µm, half the grid, at 0.63 N; the largest pressure agrees with his up to 0.9 N.
     assert_eq!(cuts(0.6), (None, None));
     assert_eq!(cuts(0.8), (None, None));
     let (foreseen, seen) = cuts(1.0);
@@ -220,10 +220,10 @@ fn a_ball_that_passes_over_a_plane_is_told_of_by_hertz() {
     }
 }
 
-/// Balls, ellipsoids, cones and cylinders on grids of all shapes under both boundaries.
+/// Balls, ellipsoids, cones and cylinders on grids of various shapes with both boundaries.
 ///
-/// Where the largest pressure is wrong by more than 5 % because of the rim there is a warning, and none where pressure and
-/// approach are right to 1 %. The contact on a grid twice as long and wide, itself held against Hertz, says what is right.
+/// There is a warning if the boundary changes the largest pressure by more than 5 %, and none if pressure and approach are
+/// accurate to 1 %. The reference is the contact on a grid twice as long and wide, itself compared with Hertz.
 #[test]
 fn a_warning_stands_where_the_rim_changes_the_contact_and_nowhere_else() {
     random_rims(1, 40);
@@ -241,7 +241,7 @@ fn random_rims(seed: u64, cases: usize) {
     for _ in 0..cases {
         let shape = [random.random_range(24..56), random.random_range(24..56)];
         let half = 0.5 * PITCH * shape[0].min(shape[1]) as f64;
-        // Over the shorter half of the grid, where the ball would reach.
+        // Relative to the shorter half of the grid.
         let reach = random.random_range(0.4..1.7) * half;
         let periodic = random.random_bool(0.15);
         let boundary = if periodic { "periodic" } else { "free" };
@@ -283,10 +283,10 @@ fn random_rims(seed: u64, cases: usize) {
             assert!(told.is_some() && early.is_some(), "{name}");
             continue;
         }
-        // Its apex at the same place in a cell.
+        // Its apex has the same place in a cell.
         let held = Static { shape: shape.map(|n| n + 2 * (n / 2)), ..case.clone() }.run();
         let (here, there) = (record(&summary), record(&held));
-        // Where the larger grid holds it, it is Hertz'; a contact of few cells is not quite.
+        // If the larger grid is sufficient, the contact is that of Hertz, except with few cells.
         if let (Some(peak), None) = (hertz, rim(&held.warnings)) {
             assert!(
                 (there.max_pressure / peak - 1.0).abs() < 0.03,
@@ -298,7 +298,7 @@ fn random_rims(seed: u64, cases: usize) {
         let approach = (here.approach / there.approach - 1.0).abs();
         assert!(pressure < 0.05 || told.is_some(), "{name}: pressure off by {pressure}");
         assert!(pressure.max(approach) > 0.01 || told.is_none(), "{name}: {pressure}, {approach}");
-        // Foreseen by an estimate.
+        // Predicted by an estimate.
         assert!(pressure < 0.3 || early.is_some(), "{name}: pressure off by {pressure}");
         assert!(pressure.max(approach) > 0.002 || early.is_none(), "{name}: {pressure}, {approach}");
         match told {
@@ -367,7 +367,7 @@ fn a_stride_over_material_that_yields_is_told_of_with_the_share_that_meets() {
 #[test]
 fn a_rim_that_takes_most_of_the_plastic_volume_is_told_of_with_its_share() {
     let mut warned = [0; 2];
-    // So many cells at each end belong to it.
+    // This number of cells at each end belongs to it.
     for (seed, cells, rim) in [(2, 64, 6), (2, 32, 3), (3, 32, 3), (4, 32, 3)] {
         let area = 1.0 - (f64::from(cells - 2 * rim) / f64::from(cells)).powi(2);
         let told = |rim: &str| {
@@ -420,7 +420,7 @@ impl Static {
         let of_form = if form.contains("shape") { format!("pitch = {PITCH}\n") } else { grid.clone() };
         let prescribed =
             approach.map_or(format!("load = {load}"), |approach| format!("approach = {approach}"));
-        // What is added to a form stands after its own keys.
+        // Layers on a form follow the keys of the form.
         let (own, plus) = form
             .split_once("[[")
             .map_or((form.as_str(), String::new()), |(own, plus)| (own, format!("[[{plus}")));

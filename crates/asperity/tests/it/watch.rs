@@ -1,4 +1,4 @@
-//! Who looks on at a contact sees it go on, and can stop it within an iteration.
+//! The observer of a contact sees its progress, and can stop it within an iteration.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use asperity::study::{self, Case, Existing, Given};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Error, Grid};
 
-/// Counts what it is told, and stops at so many times that it is asked.
+/// Counts its notifications, and stops after a number of calls.
 struct Patience {
     told: AtomicUsize,
     asked: AtomicUsize,
@@ -60,7 +60,7 @@ fn a_contact_at_rest_tells_how_far_it_is_and_stops_when_it_is_asked_to() {
         let [told, asked] = [&patient.told, &patient.asked].map(|count| count.load(Ordering::Relaxed));
         assert!(method == Method::Direct || told > 2, "{method:?}: told {told} times");
         assert!(asked as f64 >= 0.5 * solved.solution.stats.convolutions, "{method:?}: asked {asked} times");
-        // Whenever it stops it is told so, and what is not stopped is the same to the last bit.
+        // Every stop is reported, and an uninterrupted computation is the same to the last bit.
         for most in [0, asked / 3, asked / 2, asked - 1] {
             let stopped = press(&pair, Boundary::FREE, load, &params, &Patience::new(most));
             assert!(matches!(stopped, Err(Error::Interrupted)), "{method:?}, {most} of {asked}: {stopped:?}");
@@ -129,7 +129,7 @@ fn motions_and_sweeps_that_stop_within_a_solution_say_so_alone() {
     }
 }
 
-/// Stops as soon as a file is there.
+/// Stops as soon as a file exists.
 struct Until(PathBuf);
 
 impl Watch for Until {

@@ -1,4 +1,4 @@
-//! What a run writes: every number is one, no field is missing, and each belongs to the contact that it stands beside.
+//! Output of a run: every number is finite, no field is missing, and each belongs to the right contact.
 
 use std::fs;
 use std::path::Path;
@@ -25,9 +25,9 @@ fn run(text: &str, folder: &Path) -> (Summary, Results) {
     (summary, Results::open(folder).unwrap())
 }
 
-// ---- numbers that are none -------------------------------------------------------------------------------
+// ---- numbers that are not finite -------------------------------------------------------------------------
 
-/// A law that spoils one cell of the upper body, or of what it keeps of it, in its n-th call.
+/// A law that corrupts one cell of the upper body, or of its state, in its n-th call.
 struct Spoil {
     field: &'static str,
     value: f64,
@@ -94,7 +94,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
     }
 }
 
-/// A film that overflows: the largest growth that can be asked for leaves it at its thickest.
+/// A film that grows without bound: the largest accepted growth leaves it at its largest thickness.
 #[test]
 fn a_film_that_grows_without_bound_stays_at_its_thickest() {
     let film = "film = { law = \"arrhenius\", max_thickness = \"10 nm\", rate = 1e9, at_temperature = 200, at_stress = 0, \
@@ -110,7 +110,7 @@ fn a_film_that_grows_without_bound_stays_at_its_thickest() {
     assert!(pressure.iter().any(|p| *p > 0.0));
 }
 
-/// A ball that slides in place; wear, film and constants of the lower body follow, then the ball.
+/// A ball that wears in place; wear, film and constants of the lower body follow, then the ball.
 const SLIDING: &str = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n\
     topography = { form = \"flat\", shape = [16, 16], pitch = \"1 um\" }\n";
 const BALL: &str = "[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { form = \"sphere\", radius = \"1 mm\" }\n\
@@ -118,7 +118,7 @@ const BALL: &str = "[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { 
 
 // ---- films -----------------------------------------------------------------------------------------------
 
-/// A mechano-chemical film is removed before it has grown: nothing is taken that has not grown, and what has is in the ledger.
+/// A mechano-chemical film is not removed before it has grown, and its growth is in the ledger.
 #[test]
 fn what_a_film_loses_has_grown_and_its_volume_is_that_of_its_thickness() {
     for x in [1e-13, 3e-11] {
@@ -137,7 +137,7 @@ fn what_a_film_loses_has_grown_and_its_volume_is_that_of_its_thickness() {
     }
 }
 
-/// Bodies whose film softens them, in passes.
+/// Bodies softened by a film, in passes.
 const SOFTENED: &str = r#"
 [lower]
 young = "210 GPa"
@@ -219,7 +219,7 @@ approach = "-3 nm"
 coefficient = 0.1
 "#;
 
-/// Tables have empty cells, the summary `null`, for numbers that are not known; forces of nothing are 0, never −0.
+/// Unknown numbers are empty cells in tables and `null` in the summary; forces without contact are 0, never −0.
 #[test]
 fn a_number_that_is_not_known_is_an_empty_cell_that_reads_back() {
     let folder = tempfile::tempdir().unwrap();
@@ -262,7 +262,7 @@ fn a_number_that_is_not_known_is_an_empty_cell_that_reads_back() {
             }
         }
         assert_eq!(found, empty, "{name}");
-        // What is written reads back, in the tables as in the summary.
+        // The output can be read back, from tables and from the summary.
         results.steps().unwrap();
         results.increments().unwrap();
         assert_eq!(results.sweep().unwrap().len(), if name == "sweep" { 2 } else { 0 });
@@ -281,7 +281,7 @@ fn a_number_that_is_not_known_is_an_empty_cell_that_reads_back() {
     }
 }
 
-/// Positions at which nothing touches have a temperature like all others: of no cell.
+/// Positions without contact have a temperature field like all others, without values.
 #[test]
 fn each_position_has_the_fields_that_others_have() {
     let folder = tempfile::tempdir().unwrap();
@@ -322,7 +322,7 @@ fn each_position_has_the_fields_that_others_have() {
     assert!(matches!(rest.outcome, Outcome::Static(_)));
 }
 
-/// The errors of the guard name what is wrong to programs, too.
+/// Errors of this check also describe the fault to programs.
 #[test]
 fn an_error_of_the_guard_names_field_cell_and_step() {
     let inner = || Box::new(Error::NotFinite { field: "film_lower".to_owned(), cell: vec![0, 7] });

@@ -145,6 +145,7 @@ macro_rules! columns {
     (@unit [[$of:tt; $components:tt]]) => { $crate::motion::columns!(@unit [$of]) };
     (@unit [bool]) => { "" };
     (@unit [Regime]) => { "" };
+    (@unit [Theory]) => { "" };
     (@unit [usize]) => { "1" };
     (@unit [f64]) => { "1" };
     (@unit [Metre]) => { "m" };

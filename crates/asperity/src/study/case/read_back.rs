@@ -1,4 +1,4 @@
-//! Reads a case from what it serialises to.
+//! Deserialisation of a case from its serialised form.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::Case;
 impl<'de> Deserialize<'de> for Case {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let keys = toml::Table::deserialize(deserializer)?;
-        // The reader of case files checks each key, and what does not go together.
+        // The reader of case files checks each key, and combinations of keys.
         Self::parse(&keys.to_string(), Path::new("case"), Path::new("")).map_err(D::Error::custom)
     }
 }

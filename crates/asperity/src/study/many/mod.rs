@@ -1,11 +1,11 @@
 //! A study: many cases made from one, each in its own folder, computed by any number of processes.
 //!
 //! ```text
-//! STUDY/study.json          what the study is known by
+//! STUDY/study.json          identity of the study
 //!       plan.csv            a row per case: its number, the values of its axes
-//!       files.json          digests of the files that the study names, as they were when the plan was made
-//!       cases/0001/         case.toml and the results of a run, made when a process takes the case
-//!       cases/0002/failed.json    in place of results: why there are none
+//!       files.json          digests of the files named in the study, when the plan was made
+//!       cases/0001/         case.toml and the results of a run, created when a process takes the case
+//!       cases/0002/failed.json    in place of results: the reason of the failure
 //!       table.csv table.h5  a row per case: the values of its axes, the numbers of its summary
 //! ```
 //!

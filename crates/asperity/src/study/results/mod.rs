@@ -1,22 +1,22 @@
 //! A results directory: its content, and how it is read.
 //!
 //! ```text
-//! DIR/case.json            the case as resolved, SI, with the digests that --resume compares
+//! DIR/case.json            the resolved case, SI, with the digests compared when resuming
 //!     steps.csv passes.csv a motion: a row per position, a row per pass
 //!     fields/initial.h5    the surfaces before the first pass
-//!     fields/pass-0001.h5  the surfaces after it, its mean pressures, the pressures kept
-//!     fields/state-0001.h5 where the step after that many goes on, of the last step only; of a motion it stays once all is done
-//!     fields/subsurface-0001.h5    the stress under the surface in it, where it is wanted
-//!     fields/plasticity-0001.h5    what has flowed below the surfaces of bodies that do; of the last pass, or of each
+//!     fields/pass-0001.h5  surfaces after the pass, its mean pressures, and the pressures kept
+//!     fields/state-0001.h5 state after that many steps, for the last step only; for a motion it stays after completion
+//!     fields/subsurface-0001.h5    the stress under the surface in the pass, if requested
+//!     fields/plasticity-0001.h5    plastic state of elasto-plastic bodies; after the last pass, or after each
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
-//!     updates.csv          a contact that slides in place: a row per update
-//!     sweep.csv            a sweep: a row per point; `fields.h5` is that of the last
+//!     updates.csv          a contact that wears in place: a row per update
+//!     sweep.csv            a load sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
-//!     subsurface.h5        the stress under its surface, where it is wanted
-//!     plasticity.h5        what has flowed below the surfaces of bodies that do
-//!     *.vti                beside the fields, for ParaView, where they are wanted
-//!     summary.json         once all is done
+//!     subsurface.h5        the stress under its surface, if requested
+//!     plasticity.h5        plastic state of elasto-plastic bodies
+//!     *.vti                beside the fields, for ParaView, if requested
+//!     summary.json         once the computation is complete
 //!     report.html          a page of all of it
 //!     figures/             pictures
 //!     .lock                locked while a run writes here

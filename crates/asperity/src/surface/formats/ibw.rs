@@ -10,7 +10,7 @@
 //!   46 units of the data, of x 2 × 4                64 + 12 count of numbers i32, kind of number i16
 //!   58 count of numbers i32                            + 68 sizes of 4 dimensions i32, + 84 their steps f64
 //!   64 step f64                                        + 148 units of the data 4, of the dimensions 4 × 4
-//!   126 numbers                                        + 320 numbers, the first dimension fastest, what has a size
+//!   126 numbers                                        + 320 numbers, the first dimension fastest, those with a size
 //! ```
 //!
 //! The first dimension is x, the second y, upwards, and the third the channels, named by the labels of that dimension. A

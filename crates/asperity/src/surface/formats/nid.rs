@@ -7,7 +7,7 @@
 //! ```text
 //! Points=256  Lines=256  SaveBits=16  SaveSign=Signed  SaveOrder=Intel  Frame=Scan forward
 //! Dim0Range=2e-05  Dim0Unit=m    Dim1Range=2e-05  Dim1Unit=m
-//! Dim2Name=Z-Axis  Dim2Unit=m  Dim2Min=-5e-06  Dim2Range=1e-05    from the least to above the largest number
+//! Dim2Name=Z-Axis  Dim2Unit=m  Dim2Min=-5e-06  Dim2Range=1e-05    from the smallest to above the largest number
 //! ```
 //!
 //! Data sets in units of length are channels, named by their frame and the name of their third dimension.

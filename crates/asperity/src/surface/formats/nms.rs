@@ -3,8 +3,8 @@
 //! Little-endian; recognised by `OM_MS_` at 32.
 //!
 //! ```text
-//! 16    least and largest height in µm 2 f64      1368  sizes along x and y 2 u32, steps along x and y in nm 2 f64
-//! 3468  heights u16, x fastest, 0 the least, 65534 the largest; then an image
+//! 16    smallest and largest height in µm 2 f64     1368  sizes along x and y 2 u32, steps along x and y in nm 2 f64
+//! 3468  heights u16, x fastest, 0 the smallest, 65534 the largest; then an image
 //! ```
 
 use super::binary::{Cursor, Number, Order, Raster, shape};

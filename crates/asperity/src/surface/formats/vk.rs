@@ -3,8 +3,8 @@
 //! VK6 and VK7 are a preamble and a zip archive, whose entry `Vk4File` is a VK4. Little-endian, in u32:
 //!
 //! ```text
-//! 0   VK4_, version, 0    12  places of the parts: 17, of VK4 18, the seventh to ninth those of heights (0: none)
-//! behind them the conditions; their 43rd to 45th are the steps along x, along y and of the heights in pm
+//! 0   VK4_, version, 0    12  places of the parts: 17, in VK4 18; the seventh to ninth are heights (0: none)
+//! then the conditions; the 43rd to 45th are the steps along x, along y and of the heights in pm
 //! heights: sizes along x and y, bits (8, 16, 32), compression, bytes, 2 more, a palette of 768 bytes, numbers, x fastest
 //! ```
 

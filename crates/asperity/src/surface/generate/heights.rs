@@ -12,8 +12,8 @@ use crate::math::fft::symmetric_transform;
 /// Heights are z = f(g), with a Gaussian process g and the curve f of Johnson's system with these moments: a translation
 /// process (Grigoriu, *Applied Non-Gaussian Processes*, 1995). It does not depend on the length of the filter. The
 /// alternative of Hu & Tonder translates the noise before the filter. It needs noise of kurtosis 3 + (Sku − 3)(Σh²)²/Σh⁴,
-/// which is 1070 for Sku = 4.5 and a cut-off of 32 samples, and no sample of it has that. It is also limited to Sku > 3 +
-/// 1.3 Ssk².
+/// which is 1070 for Sku = 4.5 and a cut-off of 32 samples, and no sample of it has that. It is also limited to
+/// Sku > 3 + 1.3 Ssk².
 ///
 /// The translation changes the autocorrelation. That of g is chosen so that the result has the prescribed one, as far as
 /// such a process exists. Spectra with a sharp edge are only approximated, see [`crate::surface::LowPass`]. The moments are

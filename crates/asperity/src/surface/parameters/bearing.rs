@@ -7,12 +7,13 @@ use crate::units::Metre;
 /// Height above which a given fraction of the samples lies, relative to the mean of the samples.
 ///
 /// The `n` defined samples, in descending order, lie at the centres of their fractions of the ratio, z(p = (i − ½)/n) = zᵢ.
-/// Between them the curve is linear, before the first and after the last it is constant. Its integral is therefore the sum
+/// Between them the curve is linear. Before the first and after the last it is constant. Its integral is therefore the sum
 /// of the samples, and a sampled ramp gives a ramp.
 ///
-/// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 define the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`, Smc(p) =
-/// [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q), Vm(p) = [`material_volume`](Self::material_volume)`(p)`,
-/// Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A ratio outside 0 … 1 is clamped.
+/// ISO 25178-2:2021, 4.5, and ISO 21920-2:2021 define the functions: Smr(c) = [`ratio`](Self::ratio)`(c)`,
+/// Smc(p) = [`height`](Self::height)`(p)`, Sdc(p, q) = Smc(p) − Smc(q),
+/// Vm(p) = [`material_volume`](Self::material_volume)`(p)`, Vv(p) = [`void_volume`](Self::void_volume)`(p)`. A ratio
+/// outside 0 … 1 is clamped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingCurve {
     /// Descending, relative to the mean.

@@ -16,8 +16,8 @@ use asperity_transforms::{Fft, Precision};
 /// Method to compute the smooth surface of a filter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// The mean of the neighbouring heights weighted by the areal Gaussian of ISO 16610-61: w = exp(−π r²/(αλ)²)/(αλ)², α =
-    /// √(ln 2/π). A wave of length Λ keeps the fraction exp(−π(αλ/Λ)²), which is half at Λ = λ.
+    /// The mean of the neighbouring heights weighted by the areal Gaussian of ISO 16610-61: w = exp(−π r²/(αλ)²)/(αλ)²,
+    /// α = √(ln 2/π). A wave of length Λ keeps the fraction exp(−π(αλ/Λ)²), which is half at Λ = λ.
     #[default]
     Gaussian,
     /// The weighted mean of the neighbouring heights, with weights that also decrease with the distance r from the smooth

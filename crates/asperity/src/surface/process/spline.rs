@@ -7,8 +7,8 @@ use crate::grid::Field;
 /// Computes the slopes, per sample, of the cubic spline through the samples of each line along `axis`.
 ///
 /// The equation is dᵢ₋₁ + 4dᵢ + dᵢ₊₁ = 3(zᵢ₊₁ − zᵢ₋₁). The slope at an end is that of the cubic through the last four
-/// samples (of the polynomial through all, if there are fewer), so that the spline is of fourth order up to the boundary.
-/// De Boor, A Practical Guide to Splines (1978), ch. IV.
+/// samples, or of the polynomial through all if there are fewer. The spline is therefore of fourth order up to the
+/// boundary. De Boor, A Practical Guide to Splines (1978), ch. IV.
 pub(super) fn slopes(field: &Field, axis: Axis) -> Field {
     /// Coefficients of the one-sided derivative at the end, from one to four samples.
     const ENDS: [&[f64]; 4] =

@@ -247,7 +247,7 @@ mod tests {
             assert_abs_diff_eq!(rough.heights()[i] + wavy.heights()[i], *z, epsilon = 1e-15);
         }
         let (rough, wavy) = (rough.parameters(), wavy.parameters());
-        // Of the long wave the fraction 1 − 2^(−(1/10)²) = 0.7 % stays in the roughness, more only at the ends.
+        // The fraction 1 − 2^(−(1/10)²) = 0.7 % of the long wave stays in the roughness, more only at the ends.
         let rest = 3.0 * (1.0 - 2f64.powf(-0.01));
         assert_relative_eq!(rough.rq, (0.005 + 0.5 * rest * rest).sqrt(), max_relative = 0.01);
         assert_relative_eq!(rough.rsm, 0.2, max_relative = 0.01);

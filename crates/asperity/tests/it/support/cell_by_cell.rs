@@ -1,10 +1,10 @@
-//! A slow and simple solution of the contact with friction, to hold the solver against.
+//! A slow and simple solution of the contact with friction, for comparison with the solver.
 
 use asperity::Field;
 use asperity::operator::CoupledOperator;
 use asperity::solver::{Coupling, Friction};
 
-/// Cell by cell, each for the tractions of all others, over and over: slow and simple.
+/// Iterates cell by cell, each for the tractions of all others.
 pub(crate) struct CellByCell {
     matrix: Vec<[[f64; 3]; 3]>,
     cells: usize,

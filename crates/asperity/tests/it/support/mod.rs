@@ -1,11 +1,11 @@
-//! What several tests share.
+//! Helpers shared by several tests.
 
 pub(crate) mod cell_by_cell;
 
 use asperity::motion::LoadControl;
 use asperity::solver::Control;
 
-/// Numbers that agree to `tolerance` of the largest expected.
+/// Checks that numbers agree to `tolerance` of the largest expected one.
 #[track_caller]
 pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(got.len(), expected.len(), "{what}");
@@ -15,7 +15,7 @@ pub(crate) fn assert_close(got: &[f64], expected: &[f64], tolerance: f64, what: 
     }
 }
 
-/// What is prescribed in the normal direction of a motion, and where a load holds.
+/// Prescribed load or approach of a motion, and where a load holds.
 pub(crate) type Held = (Control, LoadControl);
 
 pub(crate) fn pass_load(load: f64) -> Held {

@@ -1,8 +1,8 @@
 //! States of courses in files: everything the next step depends on, so that an interrupted run gives the same bits.
 
-pub(super) mod increment; // of a loading
-pub(super) mod pass; // of a motion
-pub(super) mod update; // of a contact that slides in place
+pub(super) mod increment; // state of a loading
+pub(super) mod pass; // state of a motion
+pub(super) mod update; // state of a contact that wears in place
 
 use std::collections::BTreeMap;
 use std::io;

@@ -1,15 +1,15 @@
 //! Start of the next pass of a motion.
 //!
 //! ```text
-//! /              attributes: pass; approach and slope of the guess (m, 1/m; where a mean load is prescribed);
-//!                represented, the passes of the motion that are done; jump, those that the last one stands for
-//! /approach      of each position, m
+//! /              attributes: pass; approach and slope of the guess (m, 1/m; with a prescribed mean load);
+//!                represented, the finished passes of the motion; jump, the passes of the last extrapolation
+//! /approach      at each position, m
 //! /bearing       cells with p > 0 at each position
 //! /cell          those cells, position by position: flat index
 //! /pressure      their pressure, Pa
 //! /change        its change since the computed pass before, Pa per pass of the motion
-//! /persistence   of each position, the share of this change that is expected again
-//! /sum_lower_1_1 what the first law that repeats has summed first over the last pass of the lower body; and so on, where
+//! /persistence   at each position, the fraction of this change that is expected again
+//! /sum_lower_1_1 first sum of the first repeating law over the last pass, for the lower body; and so on, if
 //!                bodies wear or grow films
 //! ```
 
