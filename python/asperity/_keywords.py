@@ -32,6 +32,8 @@ class Common(TypedDict, total=False):
     approach: Annotated[Quantity | None, "contact", "Approach of the bodies from the heights as they are, m."]
     boundary: Annotated[str | Sequence[str] | None, "contact",
         'What lies beyond the rim: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.']
+    grid: Annotated[str | None, "contact",
+        '``"common"`` resamples both surfaces to the coarser pitch and crops them to a common size; ``"as-prepared"`` by default.']
     method: Annotated[str | None, "contact",
         'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same answer.']
     tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]

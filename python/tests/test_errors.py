@@ -48,7 +48,7 @@ def test_flow_that_does_not_settle_says_in_which_increment() -> None:
     soft = asp.Material(young="210 GPa", poisson=0.3, plasticity=asp.Plasticity(yield_stress="100 MPa"))
     ball = asp.form.sphere("1 mm")
     flows = {"depth": "40 um", "layers": 8, "increments": 1, "tolerance": 1e-14}
-    with pytest.raises(asp.errors.AtIncrement, match=r"increment 1: plastic flow does not settle") as raised:
+    with pytest.raises(asp.errors.AtIncrement, match=r"increment 1: the plastic strain did not converge") as raised:
         asp.contact(asp.form.flat((16, 16), pitch="6 um"), ball, soft, soft, load="100 N", plasticity=flows, progress=False)
     cause = raised.value.cause
     assert raised.value.increment == 1 and isinstance(cause, asp.errors.FlowNotConverged)

@@ -224,7 +224,7 @@ pub enum Error {
     },
     /// The requested load exceeds the largest that one approach for a whole pass can carry.
     #[error(
-        "one approach for the whole pass bears {} in the mean up to {}, not {}: there {cause}",
+        "with one approach for the whole pass, the mean load is at most {} (at an approach of {}), less than {}: {cause}",
         forces(*most, *load)[0],
         format(*approach, Dimension::Length),
         forces(*most, *load)[1]
@@ -295,7 +295,7 @@ pub enum Error {
     },
     /// The return mapping did not converge: plastic strain and stress do not agree.
     #[error(
-        "plastic flow does not settle in {products} products: mismatch {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
+        "the plastic strain did not converge in {products} operator applications: return-mapping residual {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
     )]
     FlowNotConverged {
         /// Applications of the residual-stress operator.
@@ -431,7 +431,7 @@ pub enum Error {
 pub enum LoadLimit {
     /// Yielding bodies conform to each other at each position. From there the load no longer grows if one of them takes all
     /// of the plastic deformation. It grows only as the logarithm of the approach if both do.
-    #[error("every cell yields where it first meets another, and bears less at the positions that follow")]
+    #[error("every cell yields at its first position and carries less load later")]
     Yielded,
     /// Periodic bodies in full contact: their mean displacement is free.
     #[error(
@@ -463,7 +463,7 @@ impl Error {
                     .into(),
             ),
             Self::NoFormat { .. } => {
-                Some("the end of the name tells the format: .npy, .x3p, .sdf, .gwy or .vtk".into())
+                Some("the file extension selects the format: .npy, .x3p, .sdf, .gwy or .vtk".into())
             }
             Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
                 "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
@@ -472,7 +472,7 @@ impl Error {
                 Some("fill them, from the nearest sample or by a membrane over each hole".into())
             }
             Self::FlowNotConverged { .. } => {
-                Some("take more increments, so that each of them flows less".into())
+                Some("use more increments, with less plastic strain in each".into())
             }
             Self::NotFinite { .. } => Some(
                 "a quantity of the input is far too large or too small, for example one whose unit is missing".into(),
@@ -482,14 +482,14 @@ impl Error {
             | Self::AtPass { source, .. }
             | Self::AtUpdate { source, .. }
             | Self::AtPoint { source, .. } => source.hint(),
-            Self::TooManyRanks { .. } => Some("start fewer: each holds a row or more".into()),
+            Self::TooManyRanks { .. } => Some("start fewer ranks: each needs a row or more".into()),
             Self::RanksDiffer { .. } => {
-                Some("start the same program on every machine, where it finds the same files".into())
+                Some("start the same program on every machine, with the same files".into())
             }
             Self::OtherRows { .. } => {
-                Some("bring back the file that the rank has written, or compute the contact anew".into())
+                Some("restore the file that the rank wrote, or compute the contact again".into())
             }
-            Self::Memory { .. } => Some("fewer cells take less, and so do fewer threads".into()),
+            Self::Memory { .. } => Some("use fewer cells or fewer threads".into()),
             _ => None,
         }
     }
@@ -506,7 +506,7 @@ fn forces(one: Newton, other: Newton) -> [String; 2] {
 
 fn no_channel(path: &std::path::Path, channel: &str) -> String {
     match channel {
-        "" => format!("{} holds several data sets, none of which is chosen", path.display()),
+        "" => format!("{} holds several data sets: choose one", path.display()),
         _ => format!("no height channel `{channel}` in {}", path.display()),
     }
 }

@@ -56,7 +56,7 @@ impl Layers {
             "a first face on the surface, at 0",
         )?;
         let low = faces.windows(2).find(|pair| !(pair[0] < pair[1] && pair[1].is_finite()));
-        let grow = "faces of layers at depths that grow";
+        let grow = "faces of layers at increasing depths";
         low.map_or(Ok(()), |pair| check_in(Dimension::Length, "face", pair[1], false, grow))?;
         Ok(Self { faces: faces.to_vec() })
     }

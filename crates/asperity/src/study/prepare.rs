@@ -4,11 +4,12 @@ mod slab;
 
 use std::path::Path;
 
+use ndarray::s;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::case::document::Document;
-use super::case::{Body, Case, Hardness, Mount, Source, TopographySpec, topography_alone};
+use super::case::{Body, Case, GridMatch, Hardness, Mount, Source, TopographySpec, topography_alone};
 use super::given::Given;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
@@ -108,7 +109,7 @@ pub fn topography_until(text: &str, folder: &Path, mut given: Given, stop: Stop<
         let message = format!("missing key '{key}': what is made alone has no other body to take it from");
         return Err(document.error_at(&format!("topography.{key}"), message, None));
     }
-    made(Place { document: &document, table: "topography", spec: &spec }, None, &mut given, stop)
+    made(Place { document: &document, table: "topography", spec: &spec, pitch: None }, None, &mut given, stop)
 }
 
 /// Reads the table `[topography]` in `text`, and checks it as far as possible without its files.
@@ -136,16 +137,60 @@ pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
 /// The errors of [`bodies`]; [`Error::Interrupted`].
 pub fn bodies_until(case: &Case, mut given: Given, stop: Stop<'_>) -> Result<Bodies> {
     let grid_of = |body: &Prepared| *body.topography.grid();
-    let [lower, mut upper] =
-        in_turn(case, grid_of, |name, body, other| prepared(case, name, body, other, &mut given, stop))?;
-    let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
-    let axes: &[usize] = if overlap { &[1] } else { &[1, 0] };
+    let pitch = common_pitch(case, &given)?;
+    let make = |name: &str, body: &Body, other| prepared(case, name, body, other, pitch, &mut given, stop);
+    let [mut lower, mut upper] = in_turn(case, grid_of, make)?;
+    let axes = shared_axes(case);
+    if case.contact.grid == GridMatch::Common {
+        let common = common_shape(axes, [&lower, &upper].map(|body| grid_of(body).shape));
+        lower = lower.cropped(common[0])?;
+        upper = upper.cropped(common[1])?;
+    }
     let both = [&lower, &upper];
     let (grids, origins) = (both.map(grid_of), both.map(|body| body.origin.as_ref()));
     Fit { case, grids, origins }.check(axes)?;
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     Ok(Bodies { lower, upper })
+}
+
+/// Axes along which both bodies have the same number of cells: an overlap joins bodies of any length.
+fn shared_axes(case: &Case) -> &'static [usize] {
+    let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
+    if overlap { &[1] } else { &[1, 0] }
+}
+
+/// Returns the coarser pitch of both prepared surfaces along each axis, to which they are resampled; `None` if they must fit
+/// by themselves.
+fn common_pitch(case: &Case, given: &Given) -> Result<Option<[Metre; 2]>> {
+    if case.contact.grid == GridMatch::AsPrepared {
+        return Ok(None);
+    }
+    let [lower, upper] = grids_as_prepared(case, given, None)?.map(|grid| grid.pitch);
+    Ok(Some([0, 1].map(|axis| lower[axis].max(upper[axis]))))
+}
+
+/// Returns the shapes of both bodies with the smaller number of cells along each of these axes.
+fn common_shape(axes: &[usize], shapes: [[usize; 2]; 2]) -> [[usize; 2]; 2] {
+    let least = [0, 1].map(|axis| shapes[0][axis].min(shapes[1][axis]));
+    shapes.map(|shape| [0, 1].map(|axis| if axes.contains(&axis) { least[axis] } else { shape[axis] }))
+}
+
+impl Prepared {
+    /// Returns the body with the cells about its centre that this shape leaves.
+    fn cropped(self, shape: [usize; 2]) -> Result<Self> {
+        let whole = self.topography.grid().shape;
+        let first = [0, 1].map(|axis| (whole[axis] - shape[axis]) / 2);
+        let window = [first[0], first[1], shape[0], shape[1]];
+        let hardness = match self.hardness {
+            CellValues::Field(map) => {
+                let part = s![first[0]..first[0] + shape[0], first[1]..first[1] + shape[1]];
+                CellValues::Field(map.slice(part).to_owned())
+            }
+            uniform @ CellValues::Uniform(_) => uniform,
+        };
+        Ok(Self { topography: self.topography.window(window)?, hardness, ..self })
+    }
 }
 
 /// Generates the heights of the upper body of a `pass` after the first, like those of the first but from another seed, on
@@ -159,7 +204,8 @@ pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Fie
         *seed = seed_of_pass(*seed, pass);
     }
     let given = &mut Given::default();
-    let topography = turned(case, "upper", &body, Some(lower), given, NEVER)?.0.topography;
+    let pitch = (case.contact.grid == GridMatch::Common).then_some(lower.pitch);
+    let topography = turned(case, "upper", &body, Some(lower), pitch, given, NEVER)?.0.topography;
     Ok(topography.into_heights())
 }
 
@@ -175,7 +221,15 @@ fn seed_of_pass(seed: u64, pass: usize) -> u64 {
 /// # Errors
 /// [`Error::Case`] as for [`bodies`], for files and for preparation steps that are invalid on their grid.
 pub fn grids(case: &Case, given: &Given) -> Result<[Grid; 2]> {
-    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other, given))
+    let Some(pitch) = common_pitch(case, given)? else { return grids_as_prepared(case, given, None) };
+    let both = grids_as_prepared(case, given, Some(pitch))?;
+    let [lower, upper] = common_shape(shared_axes(case), both.map(|grid| grid.shape));
+    Ok([Grid::new(lower, both[0].pitch)?, Grid::new(upper, both[1].pitch)?])
+}
+
+/// Returns the grids of both prepared surfaces, resampled to a `pitch` if one is given.
+fn grids_as_prepared(case: &Case, given: &Given, pitch: Option<[Metre; 2]>) -> Result<[Grid; 2]> {
+    in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other, pitch, given))
 }
 
 /// Processes both bodies; the one that takes its shape or pitch from the other comes second.
@@ -195,10 +249,17 @@ fn in_turn<T>(
     }
 }
 
-fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>, given: &Given) -> Result<Grid> {
+fn grid(
+    case: &Case,
+    name: &str,
+    body: &Body,
+    other: Option<Grid>,
+    pitch: Option<[Metre; 2]>,
+    given: &Given,
+) -> Result<Grid> {
     let table = topography_of(name);
     let spec = &body.topography;
-    let at = Place { document: case.document(), table: &table, spec };
+    let at = Place { document: case.document(), table: &table, spec, pitch };
     let (grid, preparation) = match &spec.source {
         Source::File { path, channel, unit } => {
             let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
@@ -213,7 +274,7 @@ fn grid(case: &Case, name: &str, body: &Body, other: Option<Grid>, given: &Given
             (spec.made_on(other).map_err(|error| at.parameter(error))?, spec.preparation)
         }
     };
-    preparation.grid(grid).map_err(|error| at.preparing(error))
+    at.resampled(preparation).grid(grid).map_err(|error| at.preparing(error))
 }
 
 /// Name of the table of a body's topography.
@@ -226,10 +287,11 @@ fn prepared(
     name: &str,
     body: &Body,
     other: Option<Grid>,
+    pitch: Option<[Metre; 2]>,
     given: &mut Given,
     stop: Stop<'_>,
 ) -> Result<Prepared> {
-    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, given, stop)?;
+    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, pitch, given, stop)?;
     let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
     Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
 }
@@ -240,11 +302,12 @@ fn turned(
     name: &str,
     body: &Body,
     other: Option<Grid>,
+    pitch: Option<[Metre; 2]>,
     given: &mut Given,
     stop: Stop<'_>,
 ) -> Result<(Made, Mount)> {
     let table = topography_of(name);
-    let at = Place { document: case.document(), table: &table, spec: &body.topography };
+    let at = Place { document: case.document(), table: &table, spec: &body.topography, pitch };
     let Made { topography, origin, findings } = made(at, other, given, stop)?;
     if topography.undefined() > 0 {
         let shape = origin.as_ref().map_or(topography.grid().shape, |origin| origin.shape);
@@ -287,7 +350,7 @@ fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -
     };
     let topography = topography.map_err(|error| at.parameter(error))?;
     let (mut topography, findings) =
-        preparation.apply_until(topography, stop).map_err(|error| at.preparing(error))?;
+        at.resampled(preparation).apply_until(topography, stop).map_err(|error| at.preparing(error))?;
     for (n, layer) in spec.plus.iter().enumerate() {
         let added =
             layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
@@ -419,9 +482,17 @@ struct Place<'a> {
     /// The dotted name of the topography's table.
     table: &'a str,
     spec: &'a TopographySpec,
+    /// The pitch of the common grid; `None` if the surface keeps its own.
+    pitch: Option<[Metre; 2]>,
 }
 
 impl Place<'_> {
+    /// Returns the preparation with the pitch of the common grid.
+    fn resampled(&self, preparation: Preparation) -> Preparation {
+        let resample = self.pitch.map(Resample::Pitch).or(preparation.resample);
+        Preparation { resample, ..preparation }
+    }
+
     fn error(&self, key: &str, message: String, hint: Option<String>) -> Error {
         self.document.error_at(&format!("{}.{key}", self.table), message, hint)
     }
@@ -591,7 +662,7 @@ impl Fit<'_> {
         if preparation.rotate != 0.0 {
             let name = NAMES[changed];
             let hint = format!(
-                "a smaller `window` in [{name}.topography], in samples before `rotate`, leaves fewer"
+                "a smaller `window` in [{name}.topography], in samples before `rotate`, leaves fewer; or set `grid = \"common\"` in [contact]"
             );
             return Err(self.case.error_at(&format!("{name}.topography.window"), message, Some(hint)));
         }
@@ -619,7 +690,11 @@ impl Fit<'_> {
 
     fn error(&self, key: &str, body: usize, message: String, settings: &[String]) -> Error {
         let settings: Vec<_> = settings.iter().map(|setting| format!("`{setting}`")).collect();
-        let hint = format!("set {} in [{}.topography]", settings.join(" and "), NAMES[body]);
+        let hint = format!(
+            "set `grid = \"common\"` in [contact], or {} in [{}.topography]",
+            settings.join(" and "),
+            NAMES[body]
+        );
         self.case.error_at(&format!("{}.topography.{key}", NAMES[body]), message, Some(hint))
     }
 }

@@ -52,7 +52,7 @@ pub struct Rest {
 /// computed, because it is written to a file.
 pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     if case.motion.is_some() {
-        return Err(Error::Unsupported("what moves is no contact at rest"));
+        return Err(Error::Unsupported("a motion is not a static contact"));
     }
     let bodies = bodies_until(case, given, &|| watch.stop())?;
     let estimate = estimate(case, &bodies)?;

@@ -60,8 +60,8 @@ fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
     let error = error / shear.dissipation;
     (error > ACCURATE).then(|| {
         format!(
-            "cells slip while what they bear changes: `dissipation` is known within {:.0} % only; give more `increments` \
-             where the load and what acts in the plane change together",
+            "cells slip while their pressure changes: `dissipation` has an error of up to {:.0} %; give more `increments` \
+             where the load and the tangential load change together",
             (100.0 * error).ceil()
         )
     })
@@ -83,7 +83,7 @@ pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<S
         flows && increment.increment > 1 && step.abs() > STEP * record.load.max(increment.load)
     });
     if coarse {
-        let hint = "a step of the load above 15 % of it while the bodies flow follows their path roughly: give more `increments`";
+        let hint = "the load changes by more than 15 % in an increment while the bodies yield, which follows the loading path only roughly: give more `increments`";
         warnings.push(hint.to_owned());
     }
     warnings.extend(record.shear.as_ref().and_then(|shear| inaccurate(contact.dissipation_error, shear)));
@@ -102,7 +102,7 @@ pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<Strin
         let strain = &volume.state.accumulated;
         if strain.outer_iter().next_back().is_some_and(flows) {
             warnings.push(format!(
-                "the {name} body flows in the deepest layer, below which it is elastic: give a larger `depth`"
+                "the {name} body yields in its deepest layer, and below it the model is elastic: give a larger `depth`"
             ));
         }
         let at_edge = |axis: usize| {
@@ -111,13 +111,13 @@ pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<Strin
         };
         if [0, 1].iter().any(|axis| !boundary.repeats(*axis) && at_edge(axis + 1)) {
             warnings.push(format!(
-                "the {name} body flows at the edge of the grid, beyond which it is elastic: take a larger grid"
+                "the {name} body yields at the edge of the grid, and beyond it the model is elastic: take a larger grid"
             ));
         }
         let steepest = slope(&volume.displacement, volume.grid.pitch);
         if steepest > SMALL[1] {
             warnings.push(format!(
-                "flow leaves a slope of {} on the {name} body: strains and slopes are taken to be small",
+                "plastic strain leaves a slope of {} on the {name} body: the model assumes small strains and slopes",
                 units::format_number(steepest)
             ));
         }
@@ -125,7 +125,7 @@ pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<Strin
     }
     if largest > SMALL[0] {
         warnings.push(format!(
-            "the largest plastic strain is {}: strains are taken to be small, up to {}",
+            "the largest plastic strain is {}: the model assumes small strains, up to {}",
             units::format_number(largest),
             SMALL[0]
         ));
@@ -138,7 +138,7 @@ fn thick_layers(volumes: &[FlowedVolume], strain: f64, spot: Metre) -> Option<St
     let first = volumes.first().map_or(0.0, |volume| volume.faces[1]);
     (strain > 0.0 && first > 0.25 * spot).then(|| {
         format!(
-            "the first layer, {} thick, is more than a quarter of the contact across: give more `layers`, or let them grow",
+            "the first layer is {} thick, more than a quarter of the width of the contact: give more `layers`, or set `growth` above 1",
             units::format(first, Dimension::Length)
         )
     })
@@ -172,15 +172,15 @@ pub(super) fn rolled(
     });
     if rough {
         warnings.push(
-            "a step of the load above 15 % of it while the bodies flow follows their path roughly: give a smaller `stride`"
+            "the load changes by more than 15 % from one position to the next while the bodies yield, which follows the loading path only roughly: give a smaller `stride`"
                 .to_owned(),
         );
     }
     let stride = case.motion.map_or(1, |motion| motion.stride) as f64;
     if stride > STRIDE * widest {
         warnings.push(format!(
-            "a step of {stride} cells is {:.0} % of the widest contact spot, {widest} cells: the path of flow is followed to some 4 % \
-             at a tenth, 17 % at a quarter: give a smaller `stride`, or finer grids",
+            "a stride of {stride} cells is {:.0} % of the widest contact spot, {widest} cells: the error of the plastic strain is about \
+             4 % at a tenth and 17 % at a quarter; give a smaller `stride` or finer grids",
             100.0 * stride / widest
         ));
     }
@@ -191,7 +191,7 @@ pub(super) fn rolled(
     let rim = sum(|flow| flow.plastic_work_rim);
     if rim > RIM * work {
         warnings.push(format!(
-            "{:.0} % of the plastic work is under the outer two columns of the overlap: edges plough; add a sphere or a cylinder to \
+            "{:.0} % of the plastic work is under the outer two columns of the overlap, where free edges plough; add a sphere or a cylinder to \
              a body by `[[upper.topography.plus]]`, `taper` it, or let surfaces without ends pass by `strategy = \"shift\"` under \
              a periodic boundary",
             100.0 * rim / work
@@ -264,7 +264,7 @@ fn all_computed(case: &Case, passes: &[PassRecord]) -> Option<String> {
     let repeats = case.motion?.repeats();
     let all = case.acceleration.is_none() && case.runs_in() && passes.len() >= MANY;
     (all && repeats).then(|| {
-        format!("all {} passes were computed: with `[acceleration]` one stands for many, within an error that is told", passes.len())
+        format!("all {} passes were computed: `[acceleration]` extrapolates over many passes with an error estimate", passes.len())
     })
 }
 
@@ -286,10 +286,7 @@ fn settled(passes: &[PassRecord]) -> Option<String> {
     let last = passes.iter().skip(1).rev().take_while(|pass| moved(pass) <= NONE * most).count();
     let finished: usize = passes[..passes.len() - last].iter().map(PassRecord::represents).sum();
     (last >= MANY).then(|| {
-        format!(
-            "from pass {} on the bodies change no more: `passes = {finished}` tells as much",
-            finished + 1
-        )
+        format!("the bodies stop changing at pass {}: `passes = {finished}` is enough", finished + 1)
     })
 }
 

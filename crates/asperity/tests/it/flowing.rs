@@ -151,7 +151,7 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     }
     let thin = study::rest(&case("20 N", FLOWS, &depth("18 um")), Given::default(), &()).unwrap();
     assert!(
-        thin.warnings.iter().any(|warning| warning.contains("flows in the deepest layer")),
+        thin.warnings.iter().any(|warning| warning.contains("yields in its deepest layer")),
         "{:?}",
         thin.warnings
     );

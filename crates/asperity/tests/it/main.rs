@@ -5,6 +5,7 @@ mod bounds;
 mod case_file;
 mod circles;
 mod closed_forms;
+mod common_grid;
 mod convergence;
 mod documents;
 mod extremes;

@@ -426,7 +426,7 @@ fn what_the_model_bears_badly_is_told() {
         study::run(&case, Given::default(), &out, Existing::Keep, &()).unwrap().0.warnings.join("\n")
     };
     assert_eq!(warnings(&[]), "");
-    assert!(warnings(&[("\"80 um\"", "\"20 um\"")]).contains("flows in the deepest layer"));
+    assert!(warnings(&[("\"80 um\"", "\"20 um\"")]).contains("yields in its deepest layer"));
     assert!(warnings(&[("layers = 12", "layers = 4")]).contains("more than a quarter of the contact across"));
     assert!(warnings(&[("passes = 1", "passes = 1\nstride = 4")]).contains("a step of 4 cells is"));
     assert!(warnings(&[("\"5 N\"", "\"60 N\"")]).contains("the largest plastic strain is"));
@@ -440,5 +440,5 @@ fn what_the_model_bears_badly_is_told() {
         ("passes = 1", "passes = 1\nstride = 3"),
     ];
     let told = warnings(&overlap);
-    assert!(told.contains("edges plough") && told.contains("flows at the edge of the grid"), "{told}");
+    assert!(told.contains("edges plough") && told.contains("yields at the edge of the grid"), "{told}");
 }

@@ -129,7 +129,7 @@ fn passes_that_change_the_bodies_no_more_are_told_of() {
         warnings.into_iter().find(|warning| warning.contains("change no more"))
     };
     let elastic = warned("", 11).unwrap();
-    assert_eq!(elastic, "from pass 2 on the bodies change no more: `passes = 1` tells as much");
+    assert_eq!(elastic, "the bodies stop changing at pass 2: `passes = 1` is enough");
     assert_eq!(warned("", 10), None);
     assert_eq!(warned("wear = { coefficient = \"1e-8 mm3/(N m)\" }\n", 11), None);
     // It yields until it has shaken down.

@@ -11,7 +11,7 @@ pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
     known_in(table)?;
     const PRESCRIBED: [&str; 6] =
         ["load", "mean_pressure", "approach", "loads", "mean_pressures", "approaches"];
-    table.exactly_one(&PRESCRIBED, "for example `load = \"2 N\"` and no other of them")?;
+    table.exactly_one(&PRESCRIBED, "for example `load = \"2 N\"`")?;
     let sweep = sweep(table)?;
     Ok(Contact {
         prescribed: match sweep.iter().max_by(|a, b| a.value().total_cmp(&b.value())) {
@@ -20,6 +20,7 @@ pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
         },
         sweep,
         boundary: keys::BOUNDARY.of(table)?,
+        grid: keys::GRID.of(table)?,
         method: keys::METHOD.of(table)?,
         tolerance: keys::TOLERANCE.of(table)?,
     })

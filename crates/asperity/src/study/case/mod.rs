@@ -147,11 +147,25 @@ pub struct Contact {
     pub sweep: Vec<Prescribed>,
     /// Continuation of the surfaces beyond the grid.
     pub boundary: Boundary,
+    /// Whether the surfaces are brought to a common grid.
+    pub grid: GridMatch,
     /// The solver.
     pub method: Method,
     /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
     pub tolerance: f64,
 }
+
+/// Treatment of two surfaces whose grids differ.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum GridMatch {
+    /// Both surfaces must fit as they are prepared.
+    #[default]
+    AsPrepared,
+    /// Both surfaces are resampled to the coarser pitch, and cropped about their centres to a common size.
+    Common,
+}
+
+choice!(GridMatch: "as-prepared" => AsPrepared, "common" => Common);
 
 impl Serialize for Contact {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
@@ -162,15 +176,17 @@ impl Serialize for Contact {
             #[serde(flatten)]
             sweep: BTreeMap<&'a str, Vec<f64>>,
             boundary: Boundary,
+            #[serde(skip_serializing_if = "is_as_prepared")]
+            grid: GridMatch,
             method: Method,
             tolerance: f64,
         }
-        let Self { prescribed, ref sweep, boundary, method, tolerance } = *self;
+        let Self { prescribed, ref sweep, boundary, grid, method, tolerance } = *self;
         let values = || sweep.iter().map(|point| point.value()).collect();
         let sweep: BTreeMap<_, _> =
             sweep.first().map(|point| (point.key_of_list(), values())).into_iter().collect();
         let prescribed = sweep.is_empty().then_some(prescribed);
-        Keys { prescribed, sweep, boundary, method, tolerance }.serialize(serializer)
+        Keys { prescribed, sweep, boundary, grid, method, tolerance }.serialize(serializer)
     }
 }
 
@@ -430,6 +446,10 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
 }
 
 // Default values are omitted, so that cases from before these keys keep their digests.
+
+fn is_as_prepared(grid: &GridMatch) -> bool {
+    *grid == GridMatch::AsPrepared
+}
 
 fn is_one_way(path: &MotionPath) -> bool {
     *path == MotionPath::OneWay

@@ -87,7 +87,7 @@ pub(super) fn flow(table: &Table<'_>) -> Result<FlowSpec> {
     let (kinematic, recovery) = (flow::KINEMATIC.of(table)?, flow::RECOVERY.of(table)?);
     if let Some(entry) = flow::RECOVERY.entry(table).filter(|_| recovery > 0.0 && kinematic == 0.0) {
         let hint = Some("give a modulus `kinematic`, or leave 'recovery' out".to_owned());
-        let message = "'recovery' is that of a back stress, of which there is none".to_owned();
+        let message = "'recovery' needs a back stress".to_owned();
         return Err(entry.error(message, hint));
     }
     Ok(FlowSpec { hardening, kinematic, recovery })

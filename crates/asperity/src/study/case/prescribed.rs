@@ -52,10 +52,7 @@ pub(super) const LISTS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
 
 /// The one of the three that `table`, [contact] or a stage of a [[history]], gives.
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
-    table.exactly_one(
-        &["load", "mean_pressure", "approach"],
-        "for example `load = \"2 N\"` and no other of them",
-    )?;
+    table.exactly_one(&["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")?;
     let load = keys::LOAD.of(table)?.map(Prescribed::Load);
     let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
     let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);

@@ -76,7 +76,7 @@ pub(super) fn wear(table: &Table<'_>, hardness: &Hardness) -> Result<WearSpec> {
                     WearKey::Coefficient(number / hardness)
                 }
                 _ => {
-                    let message = "'dimensionless' is multiplied with the load over the 'hardness', of which there is none";
+                    let message = "'dimensionless' needs a 'hardness' of the body";
                     let hint = "give one hardness to this body, or `coefficient = \"1e-7 mm3/(N m)\"`";
                     let entry = wear::DIMENSIONLESS.demand(table)?;
                     return Err(entry.error(message.to_owned(), Some(hint.to_owned())));

@@ -8,7 +8,7 @@ use super::{Bodies, Fit, Origin, Place, Prepared, bodies, grids, hardness, topog
 use crate::error::Result;
 use crate::grid::{CellValues, Grid};
 use crate::ranks::{Ranks, Slab};
-use crate::study::case::{Body, Case, Layer, Mount, Source, TopographySpec};
+use crate::study::case::{Body, Case, GridMatch, Layer, Mount, Source, TopographySpec};
 use crate::study::given::Given;
 use crate::surface::{Form, Generator, Preparation, Topography};
 
@@ -35,7 +35,7 @@ pub(in crate::study) struct SlabBody {
 /// The errors of [`super::bodies`]; [`crate::Error::TooManyRanks`].
 pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
     let specs = [&case.lower.topography, &case.upper.topography];
-    if !specs.into_iter().all(made_by_slabs) {
+    if !specs.into_iter().all(made_by_slabs) || case.contact.grid == GridMatch::Common {
         let Bodies { lower, upper } = bodies(case, Given::default())?;
         let slab = Slab::new(ranks, *upper.topography.grid())?;
         let bodies = [cut(lower, &slab)?, cut(upper, &slab)?];
@@ -65,7 +65,7 @@ pub(in crate::study) fn made_by_slabs(spec: &TopographySpec) -> bool {
 /// Generates the rows of a body on this rank.
 fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     let (table, spec) = (topography_of(name), &body.topography);
-    let at = Place { document: case.document(), table: &table, spec };
+    let at = Place { document: case.document(), table: &table, spec, pitch: None };
     let mount = body.mount.unwrap_or(Mount::TurnedOver);
     let turned_over = mount == Mount::TurnedOver;
     let generated = |generate: &Generator, seed| generate.generate_slab(slab, seed, turned_over);

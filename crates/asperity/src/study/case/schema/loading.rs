@@ -48,6 +48,7 @@ pub(in crate::study) mod contact {
     use super::*;
     use crate::operator::Boundary;
     use crate::solver::Method;
+    use crate::study::case::GridMatch;
 
     section! { &["contact"], "";
         LOAD: Optional<f64> = super::LOAD;
@@ -83,6 +84,14 @@ pub(in crate::study) mod contact {
             "[\"free\", \"periodic\"]",
             "what lies beyond the edges: `\"free\"`, an unloaded half-space; `\"periodic\"`, the contact itself over and over; one of \
              each: a line contact",
+        );
+        GRID: Typed<GridMatch> = defaulted(
+            "grid",
+            choice::<GridMatch>(),
+            "\"as-prepared\"",
+            "\"common\"",
+            "`\"common\"` resamples both prepared surfaces to the coarser pitch and crops them about their centres to a common size; \
+             `\"as-prepared\"` requires surfaces that fit",
         );
         METHOD: Typed<Method> =
             defaulted("method", choice::<Method>(), "\"auto\"", "\"direct\"", "the solver; all give the same answer");

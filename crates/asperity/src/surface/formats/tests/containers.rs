@@ -462,7 +462,7 @@ fn of_several_data_sets_one_is_to_be_chosen() {
     let Err(Fault::NoChannel { available }) = decode(&declared(), None) else { panic!("a choice") };
     assert_eq!(available, ["/counts", "/scan/height", "/scan/speed"]);
     let message = from_bytes(Path::new("a.h5"), &declared(), None, None).unwrap_err();
-    assert_eq!(message.to_string(), "a.h5 holds several data sets, none of which is chosen");
+    assert_eq!(message.to_string(), "a.h5 holds several data sets: choose one");
     assert!(message.hint().unwrap().starts_with("it holds `/counts`, `/scan/height`"));
     let height = decode(&declared(), Some("/scan/height")).unwrap();
     assert_eq!((height.format, height.pitch, height.unit), ("hdf5", None, LengthUnit::Known));
