@@ -43,9 +43,9 @@ def test_parameters_are_a_mapping_that_prints():
     assert len(p) == len(dict(p)) == sum(len(p.family(name)) for name in p.families) > 35
     assert list(p.family("hybrid")) == ["Sdq", "Sdr"]
     assert "Sq" in p and "Rq" not in p and "Sq" in dir(p)
-    assert p["Sq"].text == "0.2 µm" and str(p["Sq"]) == "Sq = 0.2 µm"
-    assert "  Sq               0.2 µm  Root mean square height" in str(p)
-    assert "<td>Sq</td><td>0.2 µm</td>" in p._repr_html_()
+    assert p["Sq"].text == "200 nm" and str(p["Sq"]) == "Sq = 200 nm"
+    assert "  Sq               200 nm  Root mean square height" in str(p)
+    assert "<td>Sq</td><td>200 nm</td>" in p._repr_html_()
     assert p.numbers["Sq"] == p.Sq
     assert copy.deepcopy(p) == p == pickle.loads(pickle.dumps(p)) != ROUGH.parameters()
     with pytest.raises(KeyError, match="no parameter 'Rq', there are Sa, Sq"):

@@ -10,11 +10,11 @@ use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bod
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
-use crate::machine;
 use crate::report::{Outcome, clipped, note, print};
+use crate::{machine, place};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
-    let case = Case::load(&arguments.case)?;
+    let case = place::case(&arguments.case, "check")?;
     let demand = machine::demand(&case)?;
     let bodies = bodies(&case, Given::default())?;
     let estimate = estimate(&case, &bodies)?;
@@ -55,15 +55,14 @@ fn body(body: &Prepared) -> String {
     let grid = body.topography.grid();
     let length = |value| units::format(value, Dimension::Length);
     let ([nx, ny], [dx, dy], [lx, ly]) = (grid.shape, grid.pitch, grid.extent());
-    let mut text = format!(
-        "{nx} × {ny} cells of {} × {}, {} × {}; Sq {}, Sdq {:.4}",
-        length(dx),
-        length(dy),
-        length(lx),
-        length(ly),
-        length(body.topography.sq()),
-        body.topography.sdq()
-    );
+    let mut text =
+        format!("{nx} × {ny} cells of {} × {}, {} × {}; ", length(dx), length(dy), length(lx), length(ly));
+    match body.topography.sq() {
+        0.0 => text.push_str("flat"),
+        sq => {
+            let _ = write!(text, "Sq {}, Sdq {:.4}", length(sq), body.topography.sdq());
+        }
+    }
     if let Some(origin) = &body.origin {
         let [sx, sy] = origin.shape;
         let _ = write!(text, "; {} `{}`, {sx} × {sy} samples", origin.format, origin.channel);
@@ -147,7 +146,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     if let Control::Load(load) = estimate.control {
         let mean = units::format(load / estimate.mean_facing_area, Dimension::Pressure);
         let at_most = if !case.contact.sweep.is_empty() { " at most" } else { "" };
-        let _ = write!(text, ", mean pressure {mean} on what faces{at_most}");
+        let _ = write!(text, ", nominal pressure {mean}{at_most}");
     }
     let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);
     text

@@ -1,20 +1,19 @@
 //! `asperity plot`: the figures of a results directory, drawn again.
 
-use asperity::study::Results;
-
 use crate::args::Plot;
 use crate::figures::{self, Wanted};
+use crate::place;
 use crate::report::{Failure, Outcome, print};
 
 /// Draws the figures and prints their paths.
 pub(crate) fn plot(arguments: &Plot) -> Outcome {
-    let Plot { directory, only, drawing } = arguments;
+    let Plot { directory, only, overwrite, drawing } = arguments;
     let paper = drawing.paper();
     if paper.range.is_some() && only.is_empty() {
         let hint = Some("name the figure whose range it is: --only pressure");
         return Err(Failure::usage("--range without --only", hint));
     }
-    let wanted = Wanted { paper, only: only.clone() };
-    let drawn = figures::draw(&Results::open(directory)?, &wanted, &|| false)?;
+    let wanted = Wanted { paper, only: only.clone(), keep: !overwrite };
+    let drawn = figures::draw(&place::results(directory, "plot")?, &wanted, &|| false)?;
     print(&drawn.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -172,9 +172,10 @@ fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     let title = Level::ERROR.with_name(name).primary_title(message.as_str());
     let hint = match failure {
         Failure::Library(error) => hint_on_ranks(error, program).unwrap_or_else(|| hint(error)),
-        Failure::FiguresInterrupted { directory } => {
-            Some(format!("the results are whole; `asperity plot {}` draws the figures", directory.display()))
-        }
+        Failure::FiguresInterrupted { directory } => Some(format!(
+            "the results are whole; `asperity plot {} --overwrite` draws the figures",
+            directory.display()
+        )),
         Failure::StudyInterrupted => Some("the same command goes on".to_owned()),
         Failure::Cases { .. } => Some("`--list` tells why, `--retry` computes them again".to_owned()),
         Failure::Figure(_) | Failure::Checks { .. } | Failure::Stdout(_) => None,

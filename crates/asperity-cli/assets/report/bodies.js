@@ -15,34 +15,35 @@ function remaining(body) {
 }
 
 async function showBody(place, body) {
-  await Promise.all([unpack(body.before), body.lost && unpack(body.lost), ...body.kept.map((state) => unpack(state.map))]);
+  await Promise.all([unpack(body.before), body.change && unpack(body.change), ...body.kept.map((state) => unpack(state.map))]);
   const region = [0, 1].map((axis) => [0, body.before.shape[axis] * body.before.pitch[axis]]);
-  const profiles = element("div", { class: "charts" });
-  const shown = new Profiles(profiles, body);
   let relief = false;
   let at = region.map(([, end]) => end / 2);
   const views = [];
-  if (!body.flat) views.push({ title: body.lost ? `${body.title}, before` : body.title, file: `${body.name}-before`, packed: body.before, heights: true });
-  if (body.lost) {
-    views.push({ title: `${body.title}, after the last pass`, file: `${body.name}-after`, packed: remaining(body), heights: true });
-    views.push({ title: `depth that the ${body.title.split(",")[0]} has lost`, file: `${body.name}-lost`, packed: body.lost, heights: false });
+  if (!body.flat) views.push({ title: body.change ? `Heights of the ${body.title} before the first pass.` : `Heights of the ${body.title}.`, file: `${body.name}-before`, packed: body.before, heights: true });
+  if (body.change) {
+    views.push({ title: `Heights of the ${body.title} after the last pass.`, file: `${body.name}-after`, packed: remaining(body), heights: true });
+    views.push({ title: `Change of height of the ${body.title.split(",")[0]}: negative where material is gone.`, file: `${body.name}-change`, packed: body.change, change: true });
   }
   for (const { name, title, quantity, map, unit } of body.kept) {
     views.push({ title, file: `${body.name}-${name}`, packed: map, quantity, unit });
   }
   const pick = body.flat ? null : (x, y) => { at = [x, y]; draw(); shown.show(x, y); };
   for (const view of views) view.map = new MapView(place, view.title, view.file, pick);
+  // Beside the maps, in the same grid.
+  const shown = body.flat ? null : new Profiles(place, body);
   function draw() {
     const cross = body.flat ? [] : [{ from: [region[0][0], at[1]], to: [region[0][1], at[1]] }, { from: [at[0], region[1][0]], to: [at[0], region[1][1]] }];
-    for (const { map, packed, heights, quantity, unit: own } of views) {
-      const range = heights ? body.range : [0, Math.max(packed.high, 0)];
-      const unit = heights ? body.unit : own || body.lost_unit;
-      const kind = heights ? "heights" : "signed";
+    for (const { map, packed, heights, change, quantity, unit: own } of views) {
+      const most = Math.max(packed.high, -packed.low);
+      const range = heights ? body.range : change ? [-most, most] : [0, Math.max(packed.high, 0)];
+      const unit = heights ? body.unit : own || body.change_unit;
+      const kind = heights ? "heights" : change ? "diverging" : "signed";
       map.show({
         region, length: body.length, lines: cross,
         images: [{ packed, kind, range, corner: [0, 0], relief: relief && heights, told: (v) => written(v, unit) }],
-        bar: { range, unit, label: heights ? "height" : quantity || "depth", kind },
-        classes: heights ? null : [["var(--blank)", "nothing"], ...(packed.low < -1e-3 * packed.high ? [["rgb(213,94,0)", "has grown"]] : [])],
+        bar: { range, unit, label: heights ? "height" : change ? "change" : quantity, kind },
+        classes: heights || change ? null : [["var(--blank)", `zero ${quantity}`]],
       });
     }
   }
@@ -51,7 +52,6 @@ async function showBody(place, body) {
   if (!body.flat) {
     place.before(element("div", { class: "controls" }, element("label", {}, light, "light from the upper left"),
       element("span", { class: "remark" }, "click a map for profiles through that point")));
-    place.after(profiles);
   }
   draw();
   if (!body.flat) shown.show(...at);

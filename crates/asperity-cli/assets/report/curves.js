@@ -10,7 +10,8 @@ class ChartView {
     this.legend = element("div", { class: "legend" });
     this.readout = element("output", { "aria-live": "off" });
     const csv = element("button", { type: "button", "aria-label": `CSV of ${chart.title}`, onclick: () => this.saveCsv() }, "CSV");
-    place.append(this.host, this.legend, element("div", { class: "tools" }, this.readout, csv));
+    place.querySelector("figcaption").append(csv);
+    place.append(this.host, this.legend, element("div", { class: "readout" }, this.readout));
     new ResizeObserver(() => this.resize()).observe(place);
     redraws.add(() => this.show(this.chart));
     this.show(chart);
@@ -20,13 +21,14 @@ class ChartView {
     this.chart = chart;
     if (this.plot) this.plot.destroy();
     const [ink, line] = [style("--ink"), style("--line")];
-    const colour = (n) => SERIES[n % SERIES.length] || ink;
+    const colour = (n) => SERIES[(series[n].colour === undefined ? n : series[n].colour) % SERIES.length] || ink;
+    const bounds = (s) => [s.y, s.low || [], s.high || []].map((all) => all.map((y) => plotted(y, axisOf(s))));
     const series = chart.series;
     const axisOf = (s) => (s.right ? chart.right : chart.y);
     const points = series.map((s) => [s.x.map((x) => plotted(x, chart.x)), s.y.map((y) => plotted(y, axisOf(s)))]);
     const spans = {
       x: span(points.map((p) => p[0]), chart.x, false),
-      y: span(points.filter((_, n) => !series[n].right).map((p) => p[1]), chart.y, series.some((s) => s.mark === "bars")),
+      y: span(series.filter((s) => !s.right).flatMap(bounds), chart.y, series.some((s) => s.mark === "bars")),
     };
     if (chart.right) spans.right = span(points.filter((_, n) => series[n].right).map((p) => p[1]), chart.right, false);
     const scale = (name) => ({
@@ -36,7 +38,7 @@ class ChartView {
     const axis = (name, of, side) => ({
       scale: name, side, stroke: ink, grid: { stroke: line, width: 1, show: name !== "right" }, ticks: { stroke: line, width: 1 },
       label: of.symbol ? `${of.label} (${of.symbol})` : of.label, labelSize: 22, labelFont: FONT, font: FONT,
-      size: name === "x" ? 34 : 58, space: name === "x" ? 55 : 34,
+      size: name === "x" ? 34 : labelsWidth, space: name === "x" ? 55 : 34,
       ...(of.log ? { splits: (u, _, min, max) => decades(min, max) } : {}),
       ...(of.whole ? { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5] } : {}),
       values: (_, all) => labels(all, of.log),
@@ -47,7 +49,7 @@ class ChartView {
       axes: [axis("x", chart.x, 2), axis("y", chart.y, 3), ...(chart.right ? [axis("right", chart.right, 1)] : [])],
       series: [{}, ...series.map((s, n) => ({
         facets: [{ scale: "x", auto: true }, { scale: s.right ? "right" : "y", auto: true }],
-        stroke: colour(n), paths: (u) => { drawSeries(u, s, points[n], colour(n)); return null; },
+        stroke: colour(n), paths: (u) => { drawSeries(u, s, points[n], colour(n), chart); return null; },
       }))],
       cursor: { points: { show: false }, drag: { x: true, y: false, setScale: false }, dataIdx: () => null },
       hooks: {
@@ -62,7 +64,7 @@ class ChartView {
     const canvas = this.host.querySelector("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${chart.title}: ${chart.y.label} over ${chart.x.label}`);
-    this.legend.replaceChildren(...series.flatMap((s, n) => (s.name ? [element("span", {},
+    this.legend.replaceChildren(...(chart.colours ? [element("span", {}, `${chart.colours}:`)] : []), ...series.flatMap((s, n) => (s.name ? [element("span", {},
       element("i", { class: s.mark === "dashed" ? "dashed" : "", style: `color:${colour(n)}` }), s.name)] : [])));
   }
 
@@ -116,6 +118,8 @@ class ChartView {
       const axis = s.right ? this.chart.right : this.chart.y;
       if (!over || !same(over, s.x)) columns.push([head(x.label, x.si || "1"), s.x]);
       over = s.x;
+      const named = (what) => head([axis.label, s.name, what].filter(Boolean).join(", "), axis.si || "1");
+      if (s.low) columns.push([named("least"), s.low], [named("largest"), s.high]);
       columns.push([head(s.name ? `${axis.label}, ${s.name}` : axis.label, axis.si || "1"), s.y]);
     }
     const rows = Math.max(0, ...columns.map(([, values]) => values.length));
@@ -127,6 +131,12 @@ class ChartView {
   saveCsv() {
     save(`${this.chart.name}.csv`, new Blob([this.csv()], { type: "text/csv" }));
   }
+}
+
+/** The room that the labels of an axis of y need. */
+function labelsWidth(u, all) {
+  const longest = Math.max(0, ...(all || []).map((text) => text.length));
+  return Math.max(44, 24 + 7.2 * longest);
 }
 
 /** A number, SI, as it is plotted on an axis: in its unit, or the decimal logarithm of that; NaN where it cannot be. */
@@ -144,8 +154,9 @@ function span(all, axis, fromZero) {
   for (const values of all) for (const v of values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
   if (low > high) return axis.log ? [-1, 0] : [0, 1];
   if (axis.log) {
-    const end = Math.ceil(high - 1e-9);
-    return [Math.min(end - 1, Math.max(Math.floor(low + 1e-9), end - DECADES)), end];
+    low = Math.max(low, high - DECADES);
+    const room = Math.max(0.05 * (high - low), high - low < 0.3 ? 0.2 : 0.04);
+    return [low - room, high + room];
   }
   if (fromZero) low = Math.min(0, low);
   const room = 0.04 * (high - low) || 0.05 * Math.abs(high) || 1;
@@ -156,7 +167,7 @@ function span(all, axis, fromZero) {
 function decades(min, max) {
   const [first, last] = [Math.floor(min + 1e-9), Math.ceil(max - 1e-9)];
   const stride = Math.max(1, Math.ceil((last - first) / 6));
-  const between = last - first > 2 ? [1] : [1, 2, 5];
+  const between = max - min > 2.2 ? [1] : [1, 2, 5];
   const all = [];
   for (let e = first; e <= last; e += stride) for (const m of between) all.push(e + Math.log10(m));
   return all.filter((v) => v >= min - 1e-9 && v <= max + 1e-9);
@@ -177,7 +188,7 @@ function power(v) {
   return `${Math.abs(mantissa - 1) > 1e-6 ? `${digits(mantissa)}·` : ""}10${raised}`;
 }
 
-function drawSeries(u, s, [xs, ys], colour) {
+function drawSeries(u, s, [xs, ys], colour, chart) {
   const c = u.ctx;
   const ratio = devicePixelRatio || 1;
   const scale = s.right ? "right" : "y";
@@ -193,6 +204,7 @@ function drawSeries(u, s, [xs, ys], colour) {
   c.clip();
   c.strokeStyle = c.fillStyle = colour;
   c.lineWidth = 1.6 * ratio;
+  if (s.low) band(c, u, s, xs, scale, chart);
   if (s.mark === "bars") {
     const width = xs.length > 1 ? u.valToPos(xs[1], "x", true) - u.valToPos(xs[0], "x", true) : 8 * ratio;
     const zero = u.valToPos(0, scale, true);
@@ -213,6 +225,17 @@ function drawSeries(u, s, [xs, ys], colour) {
     for (let k = 0; k < xs.length; k++) { const at = place(k); if (at) { c.beginPath(); c.arc(at[0], at[1], 3 * ratio, 0, 7); c.fill(); } }
   }
   if (s.mark === "arrows") arrows(c, xs.map((_, k) => place(k)).filter(Boolean), ratio);
+  c.restore();
+}
+
+/** The range of values around a line. */
+function band(c, u, s, xs, scale, chart) {
+  const edge = (values) => values.map((y, k) => [u.valToPos(xs[k], "x", true), u.valToPos(plotted(y, chart.y), scale, true)]);
+  c.save();
+  c.globalAlpha = 0.18;
+  c.beginPath();
+  for (const at of [...edge(s.high), ...edge(s.low).reverse()]) c.lineTo(...at);
+  c.fill();
   c.restore();
 }
 

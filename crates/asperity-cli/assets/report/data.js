@@ -23,6 +23,11 @@ function lengthUnit(size) {
     || { symbol: "pm", factor: 1e-12 };
 }
 
+/** A title as a caption: it begins with a capital and ends with a full stop. */
+function sentence(title) {
+  return `${title.charAt(0).toUpperCase()}${title.slice(1)}.`;
+}
+
 /** A value, SI, in a unit { factor, symbol }. */
 function written(value, unit) {
   return `${digits(value / unit.factor)} ${unit.symbol}`.trim();
@@ -104,7 +109,7 @@ function style(name) {
   return styles.get(name);
 }
 
-/** The colours of all levels of a map, as pixels: `range` SI, `kind` heights, between, positive, signed or class. */
+/** The colours of all levels of a map, as pixels: `range` SI, `kind` heights, between, diverging, positive, signed or class. */
 function colouring(packed, kind, range) {
   const levels = packed.code === "even" ? 65536 : 256;
   const pixels = new Uint32Array(levels);
@@ -124,12 +129,12 @@ function colouring(packed, kind, range) {
 }
 
 function paletteOf(kind) {
-  return kind === "heights" ? "heights" : "pressure";
+  return kind === "heights" || kind === "diverging" ? kind : "pressure";
 }
 
 /** Whether the colours of a kind run from the lowest value on, and not from 0. */
 function runsFromLowest(kind) {
-  return kind === "heights" || kind === "between";
+  return kind === "heights" || kind === "between" || kind === "diverging";
 }
 
 /** Offers bytes as a file. */

@@ -6,11 +6,11 @@ const FONT = "12px system-ui, sans-serif";
 
 /** A canvas in a figure, drawn again where the figure's width or the colours of the page change. */
 class Drawing {
-  /** `below` stands under the canvas. */
-  constructor(place, kind, label, ...below) {
+  /** `beside` stands in the row of the title, `below` under the canvas. */
+  constructor(place, kind, label, beside, ...below) {
     this.canvas = element("canvas", { role: "img", "aria-label": label });
-    this.caption = element("figcaption", {}, label);
-    this.figure = element("figure", { class: kind }, this.caption, this.canvas, ...below);
+    this.caption = element("span", {}, label);
+    this.figure = element("figure", { class: kind }, element("figcaption", {}, this.caption, ...beside), this.canvas, ...below);
     place.append(this.figure);
     this.width = 0;
     new ResizeObserver(([entry]) => { this.width = entry.contentRect.width; this.draw(); }).observe(this.figure);
@@ -89,7 +89,7 @@ class MapView extends Drawing {
     const readout = element("output", { "aria-live": "off" });
     const legend = element("div", { class: "legend" });
     const png = element("button", { type: "button", "aria-label": `PNG of ${title}`, onclick: () => this.savePng(file) }, "PNG");
-    super(place, "map", title, legend, element("div", { class: "tools" }, readout, png));
+    super(place, "map", title, [png], legend, element("div", { class: "readout" }, readout));
     Object.assign(this, { readout, legend, images: [] });
     this.canvas.addEventListener("pointermove", (event) => this.read(event));
     this.canvas.addEventListener("pointerleave", () => { this.readout.textContent = ""; });
@@ -239,16 +239,23 @@ class MapView extends Drawing {
   /** The map as a picture of its own, with its title. */
   savePng(file) {
     const map = document.createElement("canvas");
+    // The lines that choose a section are the page's own.
+    const { scene } = this;
+    this.scene = { ...scene, lines: [] };
     this.paint(map, Math.max(560, this.width), 2, false);
+    this.scene = scene;
     const sheet = document.createElement("canvas");
-    [sheet.width, sheet.height] = [map.width, map.height + 56];
+    [sheet.width, sheet.height] = [map.width, map.height + 88];
     const c = sheet.getContext("2d");
     c.fillStyle = style("--paper");
     c.fillRect(0, 0, sheet.width, sheet.height);
     c.fillStyle = style("--ink");
     c.font = "26px system-ui, sans-serif";
     c.fillText(this.caption.textContent, 20, 38, sheet.width - 40);
-    c.drawImage(map, 0, 56);
+    c.fillStyle = style("--faint");
+    c.font = "20px system-ui, sans-serif";
+    c.fillText(document.title, 20, 68, sheet.width - 40);
+    c.drawImage(map, 0, 88);
     sheet.toBlob((blob) => save(`${file}.png`, blob));
   }
 }

@@ -10,8 +10,13 @@ class Scrubber {
     this.layer = contact.layers[0];
     this.row = null;
     const last = this.groups[this.group];
-    // First what bears the most.
-    this.step = Math.floor(last.length / 2);
+    // First the middle of the pass, or beside it a position whose contact the edge of a periodic map does not cut.
+    const middle = Math.floor(last.length / 2);
+    const cut = (step) => this.frames[last[step]].seam || 0;
+    this.step = last.reduce((best, _, step) => {
+      const nearer = Math.abs(step - middle) < Math.abs(best - middle);
+      return cut(step) < cut(best) || (cut(step) === cut(best) && nearer) ? step : best;
+    }, middle);
     this.build(place);
   }
 
@@ -51,7 +56,7 @@ class Scrubber {
     if (data.bodies) this.section = new SectionView(right, this.contact.wraps);
     if (most > 0 || this.groups.length > 1) {
       this.map.canvas.tabIndex = 0;
-      views.before(element("p", { class: "remark" }, "Keys on the map: ← → position, ↑ ↓ pass, Home and End, space plays. A click chooses the section."));
+      views.before(element("p", { class: "remark" }, `Keys on the map: ← → ${this.contact.groups[0].label ? "position" : "point"}, ${this.groups.length > 1 ? "↑ ↓ pass, " : ""}Home and End, space plays. A click chooses the section.`));
       this.map.canvas.addEventListener("keydown", (event) => this.key(event));
     }
   }
@@ -91,8 +96,8 @@ class Scrubber {
     if (this.positions) this.positions.value = this.step;
     const packed = frame.maps[layer.name];
     const pressure = frame.maps.pressure;
-    const lost = groups[this.group].lost;
-    await Promise.all([packed && unpack(packed), unpack(pressure), ...(lost || []).map(unpack), ...(data.bodies || []).map((body) => unpack(body.before))]);
+    const { changes } = groups[this.group];
+    await Promise.all([packed && unpack(packed), unpack(pressure), ...(changes || []).map(unpack), ...(data.bodies || []).map((body) => unpack(body.before))]);
     // Another frame may have been asked for meanwhile.
     if (frame !== this.frame || layer !== this.layer) return;
     const label = [groups[this.group].label, frame.label].filter(Boolean).join(", ");
@@ -105,21 +110,22 @@ class Scrubber {
     const row = this.row === null ? busiest(pressure) + corner[1] : Math.min(Math.max(this.row, 0), lower[1]);
     const rects = this.moves ? [{ from: [frame.offset, 0], size: upper, colour: "#d02020", dashed: true }] : [];
     const classes = layer.kind === "class" ? layer.classes.map((name, k) => [["var(--blank)", "rgb(0,114,178)", "rgb(213,94,0)"][k], name])
-      : layer.kind === "positive" ? [["var(--blank)", layer.name === "pressure" ? "no contact" : "none"]]
+      : layer.kind === "positive" ? [["var(--blank)", layer.name === "pressure" ? "no contact" : "zero"]]
         : layer.kind === "between" ? [["var(--missing)", "no contact"]]
         : [["var(--blank)", "in contact"], ...(layer.range[0] < 0 ? [["rgb(213,94,0)", "in contact and flattened"]] : [])];
     if (this.moves) classes.push(["#d02020", "edge of the upper body"]);
     const told = layer.kind === "class" ? (v) => layer.classes[v] || "" : (v, level) =>
       (level === 0 && layer.kind === "positive" ? (layer.name === "pressure" ? "no contact" : "0") : `${layer.title} ${written(v, layer.unit)}`);
-    this.map.title([layer.title, label].filter(Boolean).join(", "));
+    this.map.title(sentence([layer.title, label].filter(Boolean).join(", ")));
+    const range = layer.ranges[this.group];
     this.map.show({
       region, length, rects, classes,
-      images: packed ? [{ packed, kind: layer.kind, range: layer.range, corner, wraps: this.contact.wraps, told }] : [],
+      images: packed ? [{ packed, kind: layer.kind, range, corner, wraps: this.contact.wraps, told }] : [],
       lines: [{ from: [region[0][0], row], to: [region[0][1], row], colour: "#8a8f98" }],
-      bar: layer.kind === "class" ? null : { range: layer.range, unit: layer.unit, label: layer.title, kind: layer.kind },
+      bar: layer.kind === "class" ? null : { range, unit: layer.unit, label: layer.title, kind: layer.kind },
     });
     if (this.places) this.places.show({ lower, upper, offset: frame.offset, length });
-    if (this.section) this.section.show({ known: groups[this.group].known !== false, frame, lost, row, region: region[0], length });
+    if (this.section) this.section.show({ known: groups[this.group].known !== false, frame, changes, row, region: region[0], length });
   }
 }
 
@@ -138,7 +144,7 @@ function busiest(packed) {
 /** Where both bodies are, seen from above and to scale; what faces is shaded. */
 class PlacesView extends Drawing {
   constructor(place) {
-    super(place, "places", "where both bodies are, from above");
+    super(place, "places", "where both bodies are, from above", []);
   }
 
   paint(canvas, width, ratio) {
@@ -147,7 +153,7 @@ class PlacesView extends Drawing {
     const scale = Math.min((width - 8) / (lower[0] + 2 * upper[0]), 150 / deep);
     const tall = Math.max(8, deep * scale);
     const overlap = Math.max(0, Math.min(lower[0], offset + upper[0]) - Math.max(0, offset));
-    this.title(`from above, to scale: ${written(overlap, length)} overlap, offset ${written(offset, length)}`);
+    this.title(`From above, to scale: ${written(overlap, length)} overlap, offset ${written(offset, length)}.`);
     const c = this.context(canvas, width, tall + 8, ratio);
     c.clearRect(0, 0, width, tall + 8);
     const px = (x) => 4 + (x + upper[0]) * scale;
@@ -165,7 +171,9 @@ class PlacesView extends Drawing {
     c.textBaseline = "middle";
     c.textAlign = "center";
     if (tall > 40) {
+      c.fillStyle = "#3a86c8";
       c.fillText("lower", px(lower[0] / 2), 4 + tall * 0.72);
+      c.fillStyle = "#e05050";
       c.fillText("upper", px(offset + upper[0] / 2), 4 + tall * 0.32);
     }
   }
@@ -174,7 +182,7 @@ class PlacesView extends Drawing {
 /** Both bodies in a section along x, undeformed and together as far as they are; where they overlap is marked. */
 class SectionView extends Drawing {
   constructor(place, wraps) {
-    super(place, "section", "both bodies in a section", element("div", { class: "legend" },
+    super(place, "section", "both bodies in a section", [], element("div", { class: "legend" },
       ...[["#0072b2", "lower body"], ["#c04040", "upper body"], ["#e69f00", "where they would overlap undeformed"]].map(([colour, name]) =>
         element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name))));
     this.wraps = wraps;
@@ -188,14 +196,14 @@ class SectionView extends Drawing {
 
   /** Heights of a body along the section, as they are then. */
   profile(b) {
-    const { frame, lost, row } = this.scene;
+    const { frame, changes, row } = this.scene;
     const { before, sign } = data.bodies[b];
     const [[nx, ny], dy] = [before.shape, before.pitch[1]];
     // What is displaced across comes in on the other side.
     const across = b === 1 ? Math.round((frame.across || 0) / dy) : 0;
     const j = (((Math.max(0, Math.min(ny - 1, Math.floor(row / dy))) - across) % ny) + ny) % ny;
-    const [gone, down] = [lost && lost[b], b === 1 ? frame.approach : 0];
-    return Float64Array.from({ length: nx }, (_, i) => cell(before, i, j) - (gone ? sign * cell(gone, i, j) : 0) - down);
+    const [change, down] = [changes && changes[b], b === 1 ? frame.approach : 0];
+    return Float64Array.from({ length: nx }, (_, i) => cell(before, i, j) - (change ? -sign * cell(change, i, j) : 0) - down);
   }
 
   paint(canvas, width, ratio) {
@@ -207,7 +215,7 @@ class SectionView extends Drawing {
     const room = 0.06 * (high - low) || Math.abs(high) || 1e-9;
     [low, high] = [low - room, high + room];
     const unit = lengthUnit(high - low);
-    this.title(`both bodies, undeformed, at y = ${written(row, length)}, approach ${frame.together}`);
+    this.title(`Both bodies, undeformed, at y = ${written(row, length)}, approach ${frame.together}.`);
     const [left, top, h] = [MARGIN.left, 8, 170];
     const w = Math.max(60, width - left - MARGIN.right);
     const c = this.context(canvas, width, h + top + 40, ratio);

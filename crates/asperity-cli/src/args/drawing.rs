@@ -17,6 +17,16 @@ pub(crate) struct Drawing {
     /// Width of a figure, as 85mm; by default one that suits it. Letters keep their size
     #[arg(long, value_name = "LENGTH", value_parser = width)]
     width: Option<f64>,
+    /// No title and no line below it, for a journal that prints the caption outside the figure
+    #[arg(long)]
+    no_title: bool,
+}
+
+/// The drawing of figures that have values of their own.
+#[derive(Debug, Args)]
+pub(crate) struct RangedDrawing {
+    #[command(flatten)]
+    drawing: Drawing,
     /// Values at the ends of the colours, of curves those of the axis of y, as 0,2GPa
     #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
     range: Option<Pair>,
@@ -28,8 +38,15 @@ impl Drawing {
             format: self.format,
             dpi: self.dpi,
             width: self.width,
-            range: self.range.map(|range| range.0),
+            titled: !self.no_title,
+            ..Paper::default()
         }
+    }
+}
+
+impl RangedDrawing {
+    pub(crate) fn paper(&self) -> Paper {
+        Paper { range: self.range.map(|range| range.0), ..self.drawing.paper() }
     }
 }
 

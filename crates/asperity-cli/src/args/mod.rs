@@ -15,7 +15,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::report::{Failure, Outcome, written};
 use values::threads;
 
-pub(crate) use drawing::Drawing;
+pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
@@ -117,7 +117,7 @@ pub(crate) struct Run {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity plot results --format pdf\n  asperity plot results --only pressure --range 0,2GPa \
---width 85mm"
+--width 85mm --overwrite"
 )]
 pub(crate) struct Plot {
     /// Results directory
@@ -126,8 +126,11 @@ pub(crate) struct Plot {
     /// Name of a figure, as pressure; may be given several times, and is needed by --range
     #[arg(long, value_name = "NAME")]
     pub(crate) only: Vec<String>,
+    /// Replace the figures that are there
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     #[command(flatten)]
-    pub(crate) drawing: Drawing,
+    pub(crate) drawing: RangedDrawing,
 }
 
 /// Write the page of a results directory: maps, curves and tables in one HTML file
@@ -149,6 +152,7 @@ pub(crate) struct Report {
 /// Prints the size of the influence matrix over a pass, and what sub-matrices cost against circular shifting: with dense
 /// matrices up to 48 cells along a side, by FFT up to --largest; each size five times, in turns. Takes some minutes.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  asperity paper --format pdf --width 85mm --no-title")]
 pub(crate) struct Paper {
     /// Folder for the figures and cost.csv
     #[arg(long, value_name = "DIR", default_value = "paper")]
@@ -162,6 +166,8 @@ pub(crate) struct Paper {
     /// No progress
     #[arg(long)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
 }
 
 /// Validate a case and print what would be solved

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::drawing::Drawing;
+use super::drawing::RangedDrawing;
 use super::generate::Generate;
 use super::preparation::Preparing;
 use super::values::{Pair, lengths, positive_length};
@@ -48,7 +48,7 @@ pub(crate) struct PlotSurface {
     #[arg(long)]
     pub(crate) overwrite: bool,
     #[command(flatten)]
-    pub(crate) drawing: Drawing,
+    pub(crate) drawing: RangedDrawing,
     #[command(flatten)]
     pub(crate) input: Input,
 }

@@ -114,6 +114,14 @@ impl Chart {
         Self { title: title.into(), x, y, right: None, series, words: Vec::new() }
     }
 
+    /// Whether every number on it is the same but for what a solver's tolerance leaves: a load that is held.
+    pub(crate) fn is_held(&self) -> bool {
+        const HELD: f64 = 1e-5;
+        let numbers = || self.series.iter().flat_map(|series| &series.points).map(|[_, y]| *y);
+        let [low, high] = extremes(numbers());
+        numbers().count() > 2 && low > 0.0 && high - low <= HELD * high
+    }
+
     /// The same chart with an axis on the right.
     pub(crate) fn with_right(self, axis: Axis) -> Self {
         Self { right: Some(axis), ..self }

@@ -1,6 +1,6 @@
 //! The colour of a value, and images of fields.
 
-use colorous::{CIVIDIS, VIRIDIS};
+use colorous::{CIVIDIS, RED_BLUE, VIRIDIS};
 use ndarray::ArrayView2;
 
 use super::image::{Image, Rgb};
@@ -16,6 +16,10 @@ const PLASTIC: Rgb = [213, 94, 0];
 pub(crate) enum Colours {
     /// Cividis, from the lowest to the highest.
     Heights,
+    /// Blue over white to red, as far below zero as above.
+    Signed,
+    /// Viridis, from the lowest to the highest.
+    Between,
     /// Viridis, from zero; cells without pressure are white.
     Pressure,
     /// Viridis over the logarithm; cells that are not positive are white.
@@ -27,6 +31,11 @@ pub(crate) enum Colours {
 }
 
 impl Colours {
+    /// Whether a value has a colour whatever its sign.
+    pub(super) fn take_any_sign(self) -> bool {
+        matches!(self, Self::Heights | Self::Signed | Self::Between)
+    }
+
     /// No contact, elastic, plastic.
     pub(crate) const CONTACT: Self = Self::Classes(&["no contact", "elastic", "plastic: p at its cap"]);
     /// No contact, elastic, of bodies that do not yield.
@@ -62,11 +71,13 @@ impl Shading {
         if !value.is_finite() {
             return Tone::Missing;
         }
-        if self.colours != Colours::Heights && value <= 0.0 {
+        if !self.colours.take_any_sign() && value <= 0.0 {
             return if self.colours == Colours::Gap && value < 0.0 { Tone::Below } else { Tone::Blank };
         }
         Tone::At(match self.colours {
-            Colours::Heights | Colours::Pressure | Colours::Gap => (value - low) / (high - low),
+            Colours::Heights | Colours::Signed | Colours::Between | Colours::Pressure | Colours::Gap => {
+                (value - low) / (high - low)
+            }
             Colours::Logarithmic => (value / low).log10() / (high / low).log10(),
             Colours::Classes(_) => value - 1.0,
         })
@@ -74,9 +85,11 @@ impl Shading {
 
     /// The colour of the share `t` of the way from the low to the high end.
     pub(super) fn colour(&self, t: f64) -> Rgb {
-        let gradient = match self.colours {
-            Colours::Heights => CIVIDIS,
-            Colours::Pressure | Colours::Logarithmic | Colours::Gap => VIRIDIS,
+        let (gradient, t) = match self.colours {
+            Colours::Heights => (CIVIDIS, t),
+            // Red stands for what is above zero.
+            Colours::Signed => (RED_BLUE, 1.0 - t),
+            Colours::Between | Colours::Pressure | Colours::Logarithmic | Colours::Gap => (VIRIDIS, t),
             Colours::Classes(_) => return mix(ELASTIC, PLASTIC, t.clamp(0.0, 1.0)),
         };
         gradient.eval_continuous(t.clamp(0.0, 1.0)).into_array()

@@ -118,10 +118,11 @@ impl<'a> Map<'a> {
         quantity: Quantity,
         colours: Colours,
     ) -> Self {
-        let shown = cells.iter().copied().filter(|v| colours == Colours::Heights || *v > 0.0);
+        let shown = cells.iter().copied().filter(|v| colours.take_any_sign() || *v > 0.0);
         let [low, high] = extremes(shown);
         let range = match colours {
-            Colours::Heights | Colours::Logarithmic => [low, high],
+            Colours::Heights | Colours::Between | Colours::Logarithmic => [low, high],
+            Colours::Signed if low <= high => [-high.max(-low), high.max(-low)],
             _ if high > 0.0 => [0.0, high],
             _ => [0.0, 1.0],
         };
@@ -154,15 +155,15 @@ impl<'a> Map<'a> {
     /// The same map with given values at the ends of the colours, SI. Maps of one sheet with the same share a bar.
     pub(crate) fn range(mut self, range: [f64; 2]) -> Self {
         // Heights that are all the same have no range.
-        if self.shading.colours == Colours::Heights && range[0] >= range[1] {
+        if self.shading.colours.take_any_sign() && range[0] >= range[1] {
             return self;
         }
         let [low, high] = extremes(self.cells.iter().copied());
         self.shading.range = widened(range);
         self.given = true;
         let slack = 1e-9 * (range[1] - range[0]);
-        let of_heights = self.shading.colours == Colours::Heights;
-        self.clipped = [of_heights && low < range[0] - slack, high > range[1] + slack];
+        let of_any_sign = self.shading.colours.take_any_sign();
+        self.clipped = [of_any_sign && low < range[0] - slack, high > range[1] + slack];
         self
     }
 
@@ -214,7 +215,7 @@ impl<'a> Map<'a> {
     /// Whether one colour is all there is to see, so that a bar tells nothing.
     pub(super) fn is_flat(&self) -> bool {
         let [low, high] = extremes(self.cells.iter().copied());
-        self.shading.colours == Colours::Heights && !self.given && low >= high
+        self.shading.colours.take_any_sign() && !self.given && low >= high
     }
 
     /// The scales of its axes for a size in points.
@@ -264,7 +265,7 @@ impl<'a> Map<'a> {
         if let Some(place) = self.mark.and_then(|(point, _)| frame.place(point)) {
             cross(scene, place);
         }
-        if self.shading.colours != Colours::Heights && !self.cells.iter().any(|v| *v > 0.0) {
+        if !self.shading.colours.take_any_sign() && !self.cells.iter().any(|v| *v > 0.0) {
             scene.words("none", at.middle(), MEDIUM, Anchor::Middle, FAINT);
         }
         let stretched = if self.is_to_scale() { "" } else { ", not to scale" };
@@ -378,13 +379,13 @@ pub(super) fn bar(scene: &mut Scene, at: Rect, map: &Map, scale: &Scale, clipped
     let none = Scale::linear([0.0, 1.0], 1.0, Unit::Number, 1);
     let frame = Frame { at, x: &none, y: scale, down: false };
     let label = scale.label(&map.quantity.name);
-    let fits = super::text::width_of(&label, MEDIUM) <= at.height + 30.0;
+    let fits = super::text::width_of(&label, MEDIUM) <= at.height + 36.0;
     frame.side(scene, scale, if fits { &label } else { &scale.symbol }, Side::Right);
 }
 
 /// The scale of a colour bar.
 pub(super) fn bar_scale(map: &Map, magnitude: f64, height: f64) -> Scale {
-    let most = (height / 26.0).clamp(2.0, 10.0) as usize;
+    let most = (height / 20.0).clamp(2.0, 10.0) as usize;
     match map.shading.colours {
         Colours::Logarithmic => Scale::logarithmic(map.shading.range, map.quantity.unit, most),
         _ => Scale::linear(map.shading.range, magnitude, map.quantity.unit, most),

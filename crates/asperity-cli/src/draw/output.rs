@@ -40,11 +40,13 @@ pub(crate) struct Paper {
     pub(crate) width: Option<f64>,
     /// Values at the ends of the colours or of the axis of y, SI; by default those that suit the figure.
     pub(crate) range: Option<[f64; 2]>,
+    /// Whether a figure has its caption above it.
+    pub(crate) titled: bool,
 }
 
 impl Default for Paper {
     fn default() -> Self {
-        Self { format: Format::Png, dpi: 300.0, width: None, range: None }
+        Self { format: Format::Png, dpi: 300.0, width: None, range: None, titled: true }
     }
 }
 
@@ -81,7 +83,7 @@ pub(crate) trait Figure {
 /// A figure under its caption.
 pub(crate) fn captioned(figure: &dyn Figure, caption: &Caption, paper: &Paper) -> Scene {
     let scene = figure.scene(paper);
-    let lines = lines(caption, &scene);
+    let lines = lines(caption, &scene, paper);
     scene.under(&lines)
 }
 
@@ -89,7 +91,7 @@ pub(crate) fn captioned(figure: &dyn Figure, caption: &Caption, paper: &Paper) -
 pub(crate) fn captioned_alike<F: Figure>(figures: &[(F, Caption)], paper: &Paper) -> Vec<Scene> {
     let all = figures.iter().map(|(figure, caption)| {
         let scene = figure.scene(paper);
-        let lines = lines(caption, &scene);
+        let lines = lines(caption, &scene, paper);
         (scene, lines)
     });
     let mut all: Vec<(Scene, Vec<Line>)> = all.collect();
@@ -106,7 +108,10 @@ pub(crate) fn captioned_alike<F: Figure>(figures: &[(F, Caption)], paper: &Paper
 type Line = (String, f64, Rgb);
 
 /// The lines of a caption over a scene.
-fn lines(caption: &Caption, scene: &Scene) -> Vec<Line> {
+fn lines(caption: &Caption, scene: &Scene, paper: &Paper) -> Vec<Line> {
+    if !paper.titled {
+        return Vec::new();
+    }
     const TITLE: f64 = 9.5;
     let room = scene.size[0] - 12.0;
     let title = wrapped(&caption.title, TITLE, room).into_iter().map(|line| (line, TITLE, INK));

@@ -32,7 +32,10 @@ pub(crate) struct Maps<'a> {
 impl<'a> Maps<'a> {
     /// Maps in as many columns as shows them largest.
     pub(crate) fn new(maps: Vec<Map<'a>>) -> Self {
-        let columns = (1..=maps.len()).filter(|columns| maps.len().is_multiple_of(*columns)).collect();
+        let count = maps.len();
+        // Three stand in two rows rather than in a column, which leaves most of the width empty.
+        let suits = |columns: &usize| if count == 3 { *columns > 1 } else { count.is_multiple_of(*columns) };
+        let columns = (1..=count).filter(suits).collect();
         Self { maps, columns, remarks: Vec::new() }
     }
 
@@ -202,9 +205,9 @@ impl<'s, 'a> Layout<'s, 'a> {
             }
         }
         if self.shared_bar() > 0.0 {
-            let height = (body - above - BELOW - GAP).min(200.0);
-            let y = above + (body - above - BELOW - GAP - height) / 2.0;
-            let at = Rect { x: left + widths.iter().sum::<f64>(), y, width: BAR, height };
+            // As high as all panels.
+            let height = body - above - BELOW - GAP;
+            let at = Rect { x: left + widths.iter().sum::<f64>() + GAP, y: above, width: BAR, height };
             // Ends are pointed where any map goes beyond them.
             let clipped = [0, 1].map(|end| maps.iter().any(|map| map.clipped[end]));
             bar(&mut scene, at, &maps[0], &self.bar_scale(0), clipped);

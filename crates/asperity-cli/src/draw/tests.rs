@@ -90,7 +90,7 @@ fn heights<'a>(title: &str, field: &'a Field, grid: &Grid) -> Map<'a> {
 }
 
 /// Enough pixels to count.
-const PAPER: Paper = Paper { format: Format::Png, dpi: 150.0, width: None, range: None };
+const PAPER: Paper = Paper { format: Format::Png, dpi: 150.0, width: None, range: None, titled: true };
 
 fn caption() -> Caption {
     Caption { title: "a figure".to_owned(), of: "case · load 2 N · pass 5".to_owned() }

@@ -99,20 +99,27 @@ fn roughness(passes: &[PassRecord], done: &[usize], sq: [f64; 2]) -> Charts {
         let first = [0.0, sq[body]];
         std::iter::once(first).chain(passes.iter().map(|p| [done[p.pass] as f64, value(p)])).collect()
     };
-    let series = vec![
-        Series::new("lower body", points(0, |p| p.sq_lower), Mark::LineAndPoints),
-        Series::new("upper body", points(1, |p| p.sq_upper), Mark::LineAndPoints),
-    ];
-    Chart::new("", Axis::linear("pass", Unit::Count), Axis::of("Sq", "sq_lower"), series).into()
+    let bodies: [(&str, usize, OfPass); 2] =
+        [("lower body", 0, |p| p.sq_lower), ("upper body", 1, |p| p.sq_upper)];
+    // A body that does not change would hide the change of the other.
+    let changes = |(_, body, value): &(&str, usize, OfPass)| {
+        passes.iter().any(|p| (value(p) - sq[*body]).abs() > 1e-6 * sq[*body])
+    };
+    let some = bodies.iter().any(changes);
+    let bodies = bodies.into_iter().filter(|body| !some || changes(body));
+    let series =
+        bodies.map(|(name, body, value)| Series::new(name, points(body, value), Mark::LineAndPoints));
+    Chart::new("", Axis::linear("pass", Unit::Count), Axis::of("Sq", "sq_lower"), series.collect()).into()
 }
 
 /// The real contact area of a pass, its mean over the positions.
 fn area(passes: &[PassRecord], done: &[usize]) -> Charts {
     let points = |value: OfPass| passes.iter().map(|p| [done[p.pass] as f64, value(p)]).collect();
-    let series = vec![
-        Series::new("whole", points(|p| p.mean_contact_area), Mark::LineAndPoints),
-        Series::new("without the rim", points(|p| p.mean_contact_area_interior), Mark::LineAndPoints),
-    ];
+    let mut series = vec![Series::new("whole", points(|p| p.mean_contact_area), Mark::LineAndPoints)];
+    if passes.iter().any(|p| p.mean_contact_area_interior != p.mean_contact_area) {
+        let inside = points(|p| p.mean_contact_area_interior);
+        series.push(Series::new("without the rim", inside, Mark::LineAndPoints));
+    }
     let y = Axis::of("mean contact area", "mean_contact_area");
     Chart::new("", Axis::linear("pass", Unit::Count), y, series).into()
 }
@@ -130,7 +137,9 @@ fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {
         ("plastic volume, lower body", (|p| p.lost("plastic")[0]) as fn(&PassRecord) -> f64),
         ("plastic volume, upper body", |p| p.lost("plastic")[1]),
     ] {
-        series.push(Series::new(name, points(value), Mark::LineAndPoints).on_the_right());
+        if passes.iter().any(|pass| value(pass) != 0.0) {
+            series.push(Series::new(name, points(value), Mark::LineAndPoints).on_the_right());
+        }
     }
     let right = Axis::of("plastic volume in the pass", "plastic_volume_lower");
     Chart::new("", x, y, series).with_right(right).into()

@@ -31,13 +31,13 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
         if let Some(stress) = &stress {
             let title = format!("residual stress along x in the {body} body");
             sheet.add(&format!("residual_stress_{body}"), &title, &section, || {
-                map(stress, "residual stress", Unit::Pressure, Colours::Heights)
+                map(stress, "residual stress", Unit::Pressure, Colours::Signed)
             })?;
         }
         if let Some(surface) = &surface {
-            let title = format!("what flow leaves of the surface of the {body} body");
+            let title = format!("change of height of the {body} body by plastic flow");
             sheet.add(&format!("residual_surface_{body}"), &title, of, || {
-                Ok(Maps::new(vec![surface.heights("")]))
+                Ok(Maps::new(vec![surface.map("", "change of height", Unit::Length, Colours::Signed)]))
             })?;
         }
     }
@@ -82,7 +82,7 @@ pub(crate) struct Flowed {
     pub(crate) strain: Field,
     /// Residual stress along x, where it is kept.
     pub(crate) stress: Option<Field>,
-    /// Heights that flow leaves of a flat surface, where they are kept.
+    /// Change of the heights by plastic flow, where it is kept.
     pub(crate) surface: Option<Stored>,
 }
 

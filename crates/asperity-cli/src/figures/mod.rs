@@ -26,7 +26,7 @@ use asperity::study::Results;
 use crate::draw::{Charts, Mark, Paper, Series};
 use crate::report::Outcome;
 
-pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper, solution as of_solution};
+pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use flow::{Flowed, flowed, of_increments as of_flowing};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
@@ -36,7 +36,7 @@ pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, Stored, in_frame_of};
 pub(crate) use subsurface::columns as stress_columns;
-pub(crate) use surfaces::{as_measured, curves as of_surfaces};
+pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
 
 /// Which figures are drawn, and how.
@@ -46,6 +46,8 @@ pub(crate) struct Wanted {
     pub(crate) paper: Paper,
     /// Names of the figures; all if there is none.
     pub(crate) only: Vec<String>,
+    /// Whether figures that are there stay, which is an error then.
+    pub(crate) keep: bool,
 }
 
 /// Charts under the name that `--only` knows them by.

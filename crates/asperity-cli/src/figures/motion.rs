@@ -71,14 +71,14 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         false => "wear since the beginning",
     };
     if worn.is_some() || film.is_some() {
-        let mut lost = vec![
-            before[0].with(&before[0].field - &after[0].field),
-            before[1].with(&after[1].field - &before[1].field),
+        // Material upwards on both sides.
+        let mut changes = vec![
+            before[0].with(&after[0].field - &before[0].field),
+            before[1].with(&before[1].field - &after[1].field),
         ];
-        lost.truncate(if is_fresh { 1 } else { 2 });
-        sheet.add("lost", "depth lost since the beginning, less what has grown", &throughout, || {
-            Ok(on_bodies(&lost, "depth"))
-        })?;
+        changes.truncate(if is_fresh { 1 } else { 2 });
+        sheet
+            .add("lost", "change of height since the beginning", &throughout, || Ok(changes_of(&changes)))?;
     }
     if cap.is_finite() {
         // What other laws have not taken, but for the rounding of the heights.
@@ -86,13 +86,13 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
             let rounding = ROUNDING * lost.iter().fold(0.0, |most: f64, depth| most.max(depth.abs()));
             let worn = worn.as_ref().map_or(lost.clone(), |worn| lost - &worn[body].field);
             let flown = film.as_ref().map_or(worn.clone(), |film| worn + &film[body].field);
-            before[body].with(flown.mapv_into(|depth| if depth.abs() < rounding { 0.0 } else { depth }))
+            before[body].with(flown.mapv_into(|depth| if depth.abs() < rounding { 0.0 } else { -depth }))
         };
-        let mut depth =
+        let mut changes =
             vec![flown(0, &before[0].field - &after[0].field), flown(1, &after[1].field - &before[1].field)];
-        depth.truncate(if is_fresh { 1 } else { 2 });
-        sheet.add("plastic", "plastic deformation since the beginning", &throughout, || {
-            Ok(on_bodies(&depth, "depth"))
+        changes.truncate(if is_fresh { 1 } else { 2 });
+        sheet.add("plastic", "change of height by plastic flow since the beginning", &throughout, || {
+            Ok(changes_of(&changes))
         })?;
     }
     for (name, title, quantity, fields) in
@@ -168,6 +168,19 @@ fn of_bodies(fields: &Fields, state: &str, bodies: &[Stored; 2]) -> Outcome<Opti
     if known { Ok(Some([read(0)?, read(1)?])) } else { Ok(None) }
 }
 
+/// Changes of height on one scale about zero, of the bodies that have changed; of the lower one where none has.
+fn changes_of(changes: &[Stored]) -> Maps<'_> {
+    let size = |stored: &Stored| stored.field.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
+    let largest = changes.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
+    let map = |(stored, body)| {
+        let map = Stored::map(stored, body, "change of height", Unit::Length, Colours::Signed);
+        map.range([-largest, largest])
+    };
+    let bodies = || changes.iter().zip(["lower body", "upper body"]);
+    let maps: Vec<_> = bodies().filter(|(stored, _)| size(stored) > 0.0).map(map).collect();
+    Maps::new(if maps.is_empty() { bodies().take(1).map(map).collect() } else { maps })
+}
+
 /// A length on each body, on one scale: a body on which there is none is then seen to have none.
 fn on_bodies<'a>(fields: &'a [Stored], quantity: &'a str) -> Maps<'a> {
     let largest = fields.iter().flat_map(|field| &field.field).copied().fold(f64::MIN_POSITIVE, f64::max);
@@ -230,9 +243,15 @@ fn pressures(
                 false => Ok(pressure.with(Field::from_elem(pressure.field.raw_dim(), f64::NAN))),
             })
             .collect::<Outcome<_>>()?;
+        let known =
+            || temperatures.iter().flat_map(|stored| &stored.field).copied().filter(|t| t.is_finite());
+        let warm = [f64::min, f64::max].map(|pick| known().fold(f64::NAN, pick));
         sheet.add("temperature", "temperature of the contact", of, || {
             let maps = temperatures.iter().zip(&shown).map(|(stored, (title, _))| {
-                stored.map(title, "temperature", Unit::Of("°C"), Colours::Pressure).missing("no contact")
+                stored
+                    .map(title, "temperature", Unit::Of("°C"), Colours::Between)
+                    .range(warm)
+                    .missing("no contact")
             });
             Ok(Maps::new(maps.collect()))
         })?;
@@ -242,7 +261,7 @@ fn pressures(
     sheet.add("contact", "contact on the lower body", of, || {
         let titled = contacts.iter().zip(&shown).map(|(contact, (title, _))| (contact, title));
         let maps = titled.map(|(contact, title)| contact.map(title, "", Unit::Number, cap.colours()));
-        Ok(Maps::new(maps.map(|map| map.missing("nothing faces it")).collect()))
+        Ok(Maps::new(maps.map(|map| map.missing("outside the overlap")).collect()))
     })?;
     let frames: Vec<Stored> =
         kept.iter().map(|step| Ok(read(step)?.framed(lower))).collect::<Outcome<_>>()?;

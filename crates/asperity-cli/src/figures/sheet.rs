@@ -133,6 +133,13 @@ impl<'a> Sheet<'a> {
             let hint = format!("there are {}", self.names.join(", "));
             return Err(Failure::usage(format!("no figure `{unknown}` of these results"), Some(&hint)));
         }
+        let existing = self.drawings.iter().map(|(path, _)| path).find(|path| path.exists());
+        if let Some(path) = existing.filter(|_| self.wanted.keep) {
+            return Err(Failure::usage(
+                format!("`{}` exists", path.display()),
+                Some("--overwrite replaces the figures that are there"),
+            ));
+        }
         let made = std::fs::create_dir_all(&self.folder);
         made.map_err(|source| asperity::Error::File { path: self.folder.clone(), source })?;
         io::sweep(&self.folder);

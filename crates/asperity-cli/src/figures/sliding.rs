@@ -35,14 +35,11 @@ pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &
         }
     }
     if given("temperature") {
-        // What is not in contact has no temperature that is known: drawn as the coldest that is.
-        let stored = Stored::read(fields, "temperature")?;
-        let known = || stored.field.iter().copied().filter(|t| t.is_finite());
-        if let Some(coldest) = known().reduce(f64::min) {
-            let shown = stored.field.mapv(|t| if t.is_finite() { t } else { coldest } - CELSIUS);
-            let shown = stored.with(shown);
+        let shown = Stored::read(fields, "temperature")?.celsius();
+        if shown.field.iter().any(|t| t.is_finite()) {
             sheet.add("temperature", "temperature of the contact", of, || {
-                Ok(Maps::new(vec![shown.map("", "temperature", Unit::Of("°C"), Colours::Pressure)]))
+                let map = shown.map("", "temperature", Unit::Of("°C"), Colours::Between);
+                Ok(Maps::new(vec![map.missing("no contact")]))
             })?;
         }
     }

@@ -50,7 +50,7 @@ impl Stored {
 
     pub(super) fn pressure(&self, title: impl Into<String>) -> Map<'_> {
         self.map(title, "pressure", Unit::Pressure, Colours::Pressure)
-            .missing("nothing faces it")
+            .missing("outside the overlap")
             .blank("no contact")
     }
 

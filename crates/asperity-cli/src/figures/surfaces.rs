@@ -23,11 +23,11 @@ pub(crate) fn as_measured([lower, upper]: &[Stored; 2]) -> Outcome<[Topography; 
 /// The chart of a body from its states with their names, and a title.
 type OfStates<'a> = &'a dyn Fn(&[(&str, &Topography)], &str) -> Chart;
 
-/// The curves of both bodies, material upwards, before and, where something became of them, after.
+/// The curves of both bodies, material upwards, before and, of a body that has changed, after.
 pub(crate) fn curves(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Vec<Curves> {
     let charts = |chart: OfStates<'_>| {
         let body = |(index, title): (usize, &str)| {
-            let now = after.map(|after| ("after", &after[index]));
+            let now = changed(before, after, index).map(|after| ("after", after));
             let before = (if now.is_some() { "before" } else { "" }, &before[index]);
             chart(&[Some(before), now].into_iter().flatten().collect::<Vec<_>>(), title)
         };
@@ -42,6 +42,15 @@ pub(crate) fn curves(before: &[Topography; 2], after: Option<&[Topography; 2]>) 
     // A plane has no spectrum.
     let has_points = |chart: &Chart| chart.series.iter().any(|series| series.points.len() > 1);
     curves.into_iter().filter(|curves| curves.charts.charts.iter().any(has_points)).collect()
+}
+
+/// A body as it is afterwards; none where it is as it was before.
+pub(crate) fn changed<'a>(
+    before: &[Topography; 2],
+    after: Option<&'a [Topography; 2]>,
+    index: usize,
+) -> Option<&'a Topography> {
+    after.map(|after| &after[index]).filter(|after| after.heights() != before[index].heights())
 }
 
 /// What is before is drawn broken, so that neither hides the other.

@@ -149,7 +149,7 @@ fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
     let passes = results.passes().unwrap();
     assert!(passes.len() < 50, "{} of 200 passes are computed", passes.len());
     let format = crate::draw::Format::Svg;
-    let wanted = Wanted { paper: Paper { format, ..Paper::default() }, only: Vec::new() };
+    let wanted = Wanted { paper: Paper { format, ..Paper::default() }, ..Wanted::default() };
     let paths = draw(&results, &wanted, &|| false).unwrap();
     let read = |name: &str| {
         let path = paths.iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)).unwrap();
@@ -190,7 +190,8 @@ fn curves_below_the_surface_are_figures_of_their_own() {
         let directory = folder.path().join("results");
         study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).unwrap();
         let format = crate::draw::Format::Svg;
-        let wanted = Wanted { paper: Paper { format, ..Paper::default() }, only: vec![name.to_owned()] };
+        let wanted =
+            Wanted { paper: Paper { format, ..Paper::default() }, only: vec![name.to_owned()], keep: false };
         let paths = draw(&Results::open(&directory).unwrap(), &wanted, &|| false).unwrap();
         let figure = std::fs::read_to_string(&paths[0]).unwrap();
         for words in words {

@@ -78,7 +78,7 @@ fn stress(fields: &Fields) -> Outcome<Shown> {
     let map = Plane {
         file: "subsurface".to_owned(),
         title: format!(
-            "von Mises stress in the {body} body, section at y = {}",
+            "Von Mises stress in the {body} body in the section y = {}.",
             format(number("section"), Dimension::Length)
         ),
         map: Packed::positive(&section, pitch),

@@ -7,10 +7,11 @@ use serde_json::{Value, json};
 
 use super::curves;
 use super::found::Found;
-use super::html::{details, escaped};
+use super::html::{details, escaped, minus};
 use super::packed::{self, Packed};
 use crate::draw::{Unit, range_of_heights};
 use crate::figures::{self, Stored};
+use crate::numbers::in_column;
 use crate::report::Outcome;
 
 /// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
@@ -40,11 +41,18 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
 
     let before = found.kept(figures::as_measured(&before))?;
     let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
-    if before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
+    // Roughness parameters of a ball or a plane say nothing.
+    let are_forms = ["lower", "upper"].iter().all(|body| is_form(&found.case[*body]["topography"]));
+    if !are_forms && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
         html += &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref()));
         html += &curves::html(figures::of_surfaces(&before, after.as_ref()), charts);
     }
     Some(html)
+}
+
+/// Whether a topography is a form alone.
+fn is_form(topography: &Value) -> bool {
+    topography["form"].is_string() && topography["plus"].is_null()
 }
 
 type Pair = Option<[Stored; 2]>;
@@ -75,20 +83,20 @@ pub(super) fn has_rest(results: &Results) -> bool {
     results.directory().join("fields.h5").exists()
 }
 
-/// One body, its heights before and the depth that it has lost since, and what is to be said of it.
+/// One body, its heights before and their change since, and what is to be said of it.
 fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Value, Vec<String>) {
     let fields: Vec<_> = std::iter::once(before).chain(after).map(|stored| &stored.field).collect();
     let (range, remark) = range_of_heights(fields).unwrap_or(([0.0, 1.0], None));
     let mut remarks: Vec<String> = remark.into_iter().map(str::to_owned).collect();
     let pitch = before.grid.pitch;
-    // Positive where material is gone, on either side.
+    // Negative where material is gone, on either side.
     let sign = if key == "lower" { 1.0 } else { -1.0 };
-    let lost = after.filter(|after| after.field.dim() == before.field.dim());
-    let lost = lost.map(|after| (&before.field - &after.field) * sign);
-    if lost.as_ref().is_some_and(|lost| lost.iter().all(|depth| *depth == 0.0)) {
-        remarks.push("The last pass leaves it as it was before the first.".to_owned());
+    let change = after.filter(|after| after.field.dim() == before.field.dim());
+    let change = change.map(|after| (&after.field - &before.field) * sign);
+    if change.as_ref().is_some_and(|change| change.iter().all(|height| *height == 0.0)) {
+        remarks.push("No pass has changed this body.".to_owned());
     }
-    let lost = lost.filter(|lost| lost.iter().any(|depth| *depth != 0.0));
+    let change = change.filter(|change| change.iter().any(|height| *height != 0.0));
     let heights = Packed::even(&before.field, pitch);
     let block = packed::block(&before.field);
     if block > 1 {
@@ -109,10 +117,10 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
         "sign": sign,
         "flat": flat,
         "before": heights,
-        "lost": lost.as_ref().map(|lost| Packed::even(lost, pitch)),
+        "change": change.as_ref().map(|change| Packed::even(change, pitch)),
         "range": range,
         "unit": curves::unit(Unit::Length, range[0].abs().max(range[1].abs())),
-        "lost_unit": lost.as_ref().map(|lost| curves::unit(Unit::Length, size(lost))),
+        "change_unit": change.as_ref().map(|change| curves::unit(Unit::Length, size(change))),
         "length": curves::unit(Unit::Length, before.grid.extent()[0].max(before.grid.extent()[1])),
     });
     (body, remarks)
@@ -123,10 +131,10 @@ fn as_it_is(found: &Found, body: &str) -> Option<String> {
     match (found.moves(), found.updates.last()) {
         (false, Some(last)) => {
             let distance = format(last.distance, Dimension::Length);
-            Some(format!("As it is after {distance} of sliding."))
+            Some(format!("Heights after {distance} of sliding."))
         }
         (false, None) if !found.case[body]["plasticity"].is_null() => {
-            Some("As plastic flow below it leaves it, without the elastic displacement.".to_owned())
+            Some("Heights after plastic flow, without the elastic displacement.".to_owned())
         }
         _ => None,
     }
@@ -143,7 +151,8 @@ fn kept(found: &mut Found, body: &str) -> Vec<Value> {
     let Some(fields) = found.kept(fields) else { return Vec::new() };
     let Some(names) = found.kept(fields.names()) else { return Vec::new() };
     let mut maps = Vec::new();
-    for (state, title, quantity) in [("wear", "depth of wear of", "depth"), ("film", "film on", "thickness")]
+    for (state, title, quantity) in
+        [("wear", "Depth of wear of", "depth"), ("film", "Thickness of the film on", "thickness")]
     {
         let name = format!("{state}_{body}");
         if !names.contains(&name) || (state == "wear" && found.moves()) {
@@ -152,7 +161,7 @@ fn kept(found: &mut Found, body: &str) -> Vec<Value> {
         if let Some(stored) = found.kept(Stored::read(&fields, &name)) {
             let map = Packed::positive(&stored.field, stored.grid.pitch);
             let unit = curves::unit(Unit::Length, map.high);
-            let title = format!("{title} the {body} body");
+            let title = format!("{title} the {body} body.");
             maps.push(
                 json!({ "name": state, "title": title, "quantity": quantity, "map": map, "unit": unit }),
             );
@@ -168,11 +177,11 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Stri
         let mut add = |when: &str, body: &Topography| {
             columns.push((format!("{title}{when}"), Parameters::of(body).rows()));
         };
-        match after {
+        match figures::changed(before, after, index) {
             None => add("", &before[index]),
             Some(after) => {
                 add(" before", &before[index]);
-                add(" after", &after[index]);
+                add(" after", after);
             }
         }
     }
@@ -183,13 +192,17 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Stri
     for (title, _) in &columns {
         html += &format!("<th scope=\"col\">{title}</th>");
     }
-    html += "<th scope=\"col\" class=\"words\">meaning</th></tr></thead><tbody>";
+    html += "<th scope=\"col\">unit</th><th scope=\"col\" class=\"words\">meaning</th></tr></thead><tbody>";
     for row in 0..columns[0].1.len() {
         let of = &columns[0].1[row];
         html += &format!("<tr><th scope=\"row\">{}</th>", escaped(of.symbol));
+        // One unit across a row.
+        let unit = of.unit.multiple(columns.iter().map(|(_, values)| values[row].value));
         for (_, values) in &columns {
-            html += &format!("<td>{}</td>", escaped(&of.unit.format(values[row].value).replace('-', "−")));
+            let number = in_column(values[row].value / unit.factor);
+            html += &format!("<td>{}</td>", escaped(&minus(&number)));
         }
+        html += &format!("<td class=\"words\">{}</td>", escaped(&unit.symbol));
         html += &format!("<td class=\"words\">{}</td></tr>", escaped(of.meaning));
     }
     html + "</tbody></table></div>"

@@ -68,6 +68,8 @@ struct Frame {
     /// How far it is displaced along y, cyclically, m.
     across: f64,
     approach: f64,
+    /// Cells in contact at the edge of the lower body's map, where a periodic map is cut.
+    seam: usize,
     fields: Vec<(&'static str, Stored)>,
 }
 
@@ -154,7 +156,7 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
         frames.extend(all_packed(read));
         groups.push(json!({
             "label": format!("pass {}", found.done[pass]),
-            "lost": found.kept(lost_before(found, pass)),
+            "changes": found.kept(changes_before(found, pass)),
             "known": !figures::has_new_upper(&found.case, pass),
         }));
     }
@@ -187,12 +189,12 @@ fn affordable(found: &Found, fields: &Fields, kept: &[usize]) -> (Vec<usize>, Ve
     // What is elastic and what is plastic takes some more, and so do words.
     let each = 1.3 * sizes.iter().sum::<usize>() as f64 / sizes.len().max(1) as f64 + 600.0;
     let last = found.passes.len();
-    let lost = lost_before(found, last).ok().flatten();
-    let lost = lost.iter().flatten().map(|lost| lost.size() as f64).sum::<f64>();
+    let changes = changes_before(found, last).ok().flatten();
+    let changes = changes.iter().flatten().map(|change| change.size() as f64).sum::<f64>();
     let least = MIN_POSITIONS.min(kept.len());
     let room = MAX_BYTES as f64;
-    let passes = last.min(MAX_PASSES).min((room / (least as f64 * each + lost)) as usize).max(1);
-    let positions = kept.len().min(((room / passes as f64 - lost) / each) as usize).max(1);
+    let passes = last.min(MAX_PASSES).min((room / (least as f64 * each + changes)) as usize).max(1);
+    let positions = kept.len().min(((room / passes as f64 - changes) / each) as usize).max(1);
     let passes = evenly(last, passes).into_iter().map(|index| index + 1).collect();
     (passes, evenly(kept.len(), positions).into_iter().map(|index| kept[index]).collect())
 }
@@ -206,6 +208,7 @@ fn read_pass(
 ) -> Outcome<Vec<Frame>> {
     let names = fields.names()?;
     let cap = Cap::read(fields)?;
+    let columns = found.results.surfaces_after(0)?[0].grid().shape[0];
     let of_pass = || found.steps.iter().filter(|step| step.pass == pass);
     let all = of_pass().count();
     let frame = |step: &StepRecord| -> Outcome<Frame> {
@@ -215,6 +218,7 @@ fn read_pass(
             false => None,
         };
         let contact = pressure.contact(own.as_ref().unwrap_or(&cap));
+        let seam = cut_by_the_edge(&pressure, columns);
         let mut maps = vec![("pressure", pressure), ("contact", contact)];
         if names.contains(&temperature_name(step.step)) {
             maps.extend(temperature(Stored::read(fields, &temperature_name(step.step))?));
@@ -226,6 +230,7 @@ fn read_pass(
             offset: step.offset,
             across: step.offset_y.unwrap_or(0.0),
             approach: step.approach,
+            seam,
             fields: maps,
         })
     };
@@ -233,6 +238,17 @@ fn read_pass(
         .filter(|step| positions.contains(&step.step) && names.contains(&pressure_name(step.step)))
         .map(frame)
         .collect()
+}
+
+/// Cells in contact in the first and the last of the lower body's columns.
+fn cut_by_the_edge(pressure: &Stored, columns: usize) -> usize {
+    let first = pressure.place.round() as usize % columns;
+    let of_column = |lower: usize| {
+        let own = (lower + columns - first) % columns;
+        let cells = pressure.field.outer_iter().nth(own);
+        cells.map_or(0, |cells| cells.iter().filter(|p| **p > 0.0).count())
+    };
+    of_column(0) + of_column(columns - 1)
 }
 
 /// The map of a temperature; none where nothing touches.
@@ -254,17 +270,17 @@ fn of_step(step: &StepRecord) -> String {
     text
 }
 
-/// What both bodies had lost before a pass; none before the first, and of a counter-body that is new in each.
-fn lost_before(found: &Found, pass: usize) -> asperity::Result<Option<[Packed; 2]>> {
+/// Change of height of both bodies before a pass, material upwards; none before the first, and of a counter-body that is new in each.
+fn changes_before(found: &Found, pass: usize) -> asperity::Result<Option<[Packed; 2]>> {
     if pass == 1 || figures::has_new_upper(&found.case, pass) {
         return Ok(None);
     }
     let [before, now] = [found.results.surfaces_after(0)?, found.results.surfaces_after(pass - 1)?];
-    let lost = |body: usize, sign: f64| {
-        let lost = sign * (before[body].heights() - now[body].heights());
-        Packed::even(&lost, before[body].grid().pitch)
+    let change = |body: usize, sign: f64| {
+        let change = sign * (now[body].heights() - before[body].heights());
+        Packed::even(&change, before[body].grid().pitch)
     };
-    Ok(Some([lost(0, 1.0), lost(1, -1.0)]))
+    Ok(Some([change(0, 1.0), change(1, -1.0)]))
 }
 
 fn of_sweep(found: &mut Found) -> Vec<Frame> {
@@ -288,6 +304,7 @@ fn of_sweep(found: &mut Found) -> Vec<Frame> {
             offset: 0.0,
             across: 0.0,
             approach: point.approach,
+            seam: 0,
             fields: maps,
         });
     }
@@ -309,6 +326,7 @@ fn of_rest(found: &mut Found) -> Option<Vec<Frame>> {
         offset: 0.0,
         across: 0.0,
         approach,
+        seam: 0,
         fields: maps,
     }])
 }
@@ -359,6 +377,7 @@ impl Frame {
             "label": self.label,
             "text": escaped(&minus(&self.text)),
             "offset": self.offset,
+            "seam": self.seam,
             "across": self.across,
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
             "together": minus(&format(self.approach, Dimension::Length)),
@@ -384,14 +403,20 @@ fn all_packed(frames: Vec<Frame>) -> Vec<Shown> {
 fn shown(frames: &[Shown], groups: Vec<Value>) -> Value {
     let mut layers = Vec::new();
     for layer in &LAYERS {
-        let maps = || {
-            let all = frames.iter().flat_map(|frame| &frame.maps);
+        let of_group = |group: Option<usize>| {
+            let frames =
+                frames.iter().filter(move |frame| group.is_none_or(|group| frame.about["group"] == group));
+            let all = frames.flat_map(|frame| &frame.maps);
             all.filter(|(name, _)| *name == layer.name).map(|(_, map)| map)
         };
+        let maps = || of_group(None);
         let begin =
             if matches!(layer.kind, Kind::Between) { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
-        let [low, high] =
-            maps().fold(begin, |[low, high]: [f64; 2], map| [low.min(map.low), high.max(map.high)]);
+        let span = |group| {
+            of_group(group).fold(begin, |[low, high]: [f64; 2], map| [low.min(map.low), high.max(map.high)])
+        };
+        let [low, high] = span(None);
+        let ranges: Vec<[f64; 2]> = (0..groups.len()).map(|group| span(Some(group))).collect();
         // A pressure that is nowhere is shown, plastic interference that is nowhere is not.
         let always = matches!(layer.name, "pressure" | "contact");
         if maps().next().is_none() || (!always && low == 0.0 && high == 0.0) {
@@ -411,7 +436,8 @@ fn shown(frames: &[Shown], groups: Vec<Value>) -> Value {
             "title": layer.title,
             "kind": kind,
             "classes": classes,
-            "range": [low, high],
+            // Each pass has its own, so that a late pass of low pressures shows them.
+            "ranges": ranges,
             "unit": curves::unit(layer.unit, high.max(-low)),
         }));
     }

@@ -1,5 +1,6 @@
 //! Curves over positions, passes, increments or points, and their tables.
 
+use asperity::motion::StepRecord;
 use serde_json::{Value, json};
 
 use super::curves;
@@ -9,11 +10,22 @@ use crate::figures;
 
 /// The section; none of a contact in one step.
 pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
-    let mut html = String::new();
+    let mut html = String::from(
+        "<p class=\"remark\">Drag across a plot to zoom along x, double-click to see all of it.</p>",
+    );
+    let without_curves = html.len();
     if !found.passes.is_empty() {
         let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
         let sq = found.kept(sq).unwrap_or([f64::NAN; 2]);
-        html += &curves::html(figures::of_motion(&found.passes, &found.steps, sq), charts);
+        let mut curves = figures::of_motion(&found.passes, &found.steps, sq);
+        // The curves over the sliding distance show them once more.
+        if curves.iter().any(|curves| curves.name == "running-in") {
+            curves.retain(|curves| !["roughness", "mean_contact_area"].contains(&curves.name));
+        }
+        if friction_follows_load(&found.steps) {
+            curves.retain(|curves| curves.name != "friction");
+        }
+        html += &curves::html(curves, charts);
         data["passes"] = of_passes(found);
     }
     if found.increments.len() > 1 {
@@ -40,7 +52,15 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
         let title = format!("positions of pass {}", found.done[last]);
         html += &details(&format!("Table: {title}"), &steps.only("pass", last as f64).html(&title, None));
     }
-    Some(html).filter(|html| !html.is_empty())
+    Some(html).filter(|html| html.len() > without_curves)
+}
+
+/// Whether the force of friction is the same share of the load at each position, so that its curve is that of the load.
+fn friction_follows_load(steps: &[StepRecord]) -> bool {
+    let loaded = steps.iter().filter(|step| step.load > 0.0);
+    let mut ratios = loaded.map(|step| step.tangential_force.abs() / step.load);
+    let first = ratios.next().unwrap_or(0.0);
+    ratios.all(|ratio| (ratio - first).abs() <= 1e-6 * first)
 }
 
 /// Rms about the mean of what is defined.
@@ -60,7 +80,7 @@ fn of_passes(found: &Found) -> Value {
     let of = |index: usize| {
         let pass = index + 1;
         let steps: Vec<_> = found.steps.iter().filter(|step| step.pass == pass).collect();
-        let values = |value: &dyn Fn(&asperity::motion::StepRecord) -> f64| -> Vec<f64> {
+        let values = |value: &dyn Fn(&StepRecord) -> f64| -> Vec<f64> {
             steps.iter().map(|step| value(step)).collect()
         };
         let over: serde_json::Map<String, Value> = figures::OVER_POSITIONS

@@ -17,15 +17,15 @@ pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
         for chart in charts.into_iter().filter(shows) {
             let title = match (several, chart.title.as_str(), title.as_str()) {
                 (false, ..) => title.clone(),
-                (true, "", _) => chart.y.label.clone(),
+                (true, "", _) => format!("{} over {}", chart.y.label, chart.x.label),
                 (true, of, "") => of.to_owned(),
                 (true, of, title) => format!("{title}, {of}"),
             };
             let _ = write!(
                 html,
-                "<figure class=\"chart\" data-chart=\"{}\"><figcaption>{}</figcaption></figure>",
+                "<figure class=\"chart\" data-chart=\"{}\"><figcaption><span>{}</span></figcaption></figure>",
                 data.len(),
-                escaped(&title)
+                escaped(&sentence(&title))
             );
             data.push(of_chart(name, &title, &chart));
         }
@@ -33,8 +33,18 @@ pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
     if html.is_empty() { html } else { format!("<div class=\"charts\">{html}</div>") }
 }
 
-/// Whether there is anything but zeros on a chart, and more than a point.
+/// A title as a caption: it begins with a capital and ends with a full stop.
+fn sentence(title: &str) -> String {
+    let mut letters = title.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+/// Whether there is anything but zeros on a chart, and more than a point. What is held is a number, no curve.
 fn shows(chart: &Chart) -> bool {
+    if chart.is_held() {
+        return false;
+    }
     let points = || chart.series.iter().flat_map(|series| &series.points);
     chart.series.iter().any(|series| series.points.len() > 1) && points().any(|[_, y]| *y != 0.0)
 }

@@ -42,7 +42,7 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
     let Flowed { body, y, extent, strain, stress, surface } = flowed;
     let mut html = format!("<h3>{body} body</h3>");
     if strain.iter().all(|strain| *strain == 0.0) {
-        return html + "<p class=\"remark\">Nothing has flowed in it.</p>";
+        return html + "<p class=\"remark\">No plastic flow in this body.</p>";
     }
     let at = asperity::units::format(y, asperity::units::Dimension::Length);
     let pitch =
@@ -58,12 +58,12 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
         shades,
         mark: None,
     };
-    let title = format!("accumulated plastic strain, section at y = {at}");
+    let title = format!("Accumulated plastic strain in the section y = {at}.");
     let map = Packed::positive(&strain, pitch(&strain));
     let mut planes =
         vec![section("plastic_strain", title, map, "plastic strain", Unit::Number, Shades::FromZero)];
     if let Some(stress) = stress {
-        let title = format!("residual stress along x, section at y = {at}");
+        let title = format!("Residual stress along x in the section y = {at}, positive in tension.");
         let map = Packed::even(&stress, pitch(&stress));
         planes.push(section(
             "residual_stress",
@@ -76,8 +76,8 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
     }
     if let Some(surface) = surface {
         let map = Packed::even(&surface.field, surface.grid.pitch);
-        let title = "what flow leaves of a flat surface".to_owned();
-        let plane = section("residual_surface", title, map, "height", Unit::Length, Shades::Heights);
+        let title = format!("Change of height of the {body} body by plastic flow.");
+        let plane = section("residual_surface", title, map, "change", Unit::Length, Shades::AroundZero);
         planes.push(Plane { down: false, ..plane });
     }
     html += &plane::html(planes, data);

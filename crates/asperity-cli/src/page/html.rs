@@ -26,6 +26,20 @@ pub(super) fn script_data(data: &serde_json::Value) -> String {
     data.to_string().replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
+/// `text` as HTML, in which what stands between backticks is code.
+pub(super) fn with_code(text: &str) -> String {
+    let parts: Vec<&str> = text.split('`').collect();
+    // A backtick without its other one stays.
+    if parts.len().is_multiple_of(2) {
+        return escaped(text);
+    }
+    let part = |(n, part): (usize, &&str)| match n % 2 {
+        0 => escaped(part),
+        _ => format!("<code>{}</code>", escaped(part)),
+    };
+    parts.iter().enumerate().map(part).collect()
+}
+
 /// Text about numbers with the sign that they have in print.
 pub(super) fn minus(text: &str) -> String {
     text.replace('-', "−")
@@ -58,6 +72,12 @@ pub(super) fn details(summary: &str, content: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn code_is_what_stands_between_backticks() {
+        assert_eq!(with_code("give `s_filter` < 1"), "give <code>s_filter</code> &lt; 1");
+        assert_eq!(with_code("a ` alone"), "a ` alone");
+    }
 
     #[test]
     fn no_markup_survives() {

@@ -5,14 +5,18 @@
 
 mod below;
 mod bodies;
+mod cards;
+mod case;
 mod contact;
 mod course;
 mod curves;
+mod explorer;
 mod flow;
 mod found;
 mod head;
 mod html;
 mod live;
+mod numbers;
 mod packed;
 mod plane;
 mod study;
@@ -20,6 +24,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod trust;
+mod verdict;
+mod words;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -33,6 +39,7 @@ use serde_json::{Value, json};
 use crate::args::Report;
 use crate::draw::{Colours, Paper, palette};
 use crate::figures;
+use crate::place;
 use crate::report::{Outcome, note, print};
 use found::Found;
 pub(crate) use live::LivePage;
@@ -43,7 +50,7 @@ const FILE: &str = "report.html";
 
 /// Writes the page of a results directory and prints its path.
 pub(crate) fn report(arguments: &Report) -> Outcome {
-    let results = Results::open(&arguments.directory)?;
+    let results = place::results(&arguments.directory, "report")?;
     let path = arguments.out.clone().unwrap_or_else(|| of(&results));
     for missing in write(&results, &path)? {
         note(&format!("warning: {missing}; the page does without it"));
@@ -86,16 +93,16 @@ fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
     let mut data = json!({ "colours": {
         "heights": palette(Colours::Heights),
         "pressure": palette(Colours::Pressure),
+        "diverging": palette(Colours::Signed),
     }});
     let mut charts = Vec::new();
-    let contact = contact::section(&mut found, &mut data, &mut charts);
     let sections: [Section; 6] = [
-        ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
-        ("contact", "Contact", contact),
-        ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
-        ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),
+        ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
-        ("trust", "Trust", Some(trust::section(&mut found, &mut charts))),
+        ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),
+        ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
+        ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
+        ("trust", "Trust", Some(trust::section(&found))),
     ];
     data["charts"] = charts.into();
     Ok((document(&found, &sections, &data), found.missing))
@@ -160,13 +167,14 @@ const CHARTS: &str = concat!(
 const CHART_STYLE: &str = include_str!("../../assets/report/uPlot.min.css");
 const STYLE: &str = include_str!("../../assets/report/page.css");
 /// The page's own programs, each after what it uses.
-const PROGRAMS: [&str; 7] = [
+const PROGRAMS: [&str; 8] = [
     include_str!("../../assets/report/data.js"),
     include_str!("../../assets/report/maps.js"),
     include_str!("../../assets/report/curves.js"),
     include_str!("../../assets/report/profile.js"),
     include_str!("../../assets/report/bodies.js"),
     include_str!("../../assets/report/scrubber.js"),
+    include_str!("../../assets/report/study.js"),
     include_str!("../../assets/report/page.js"),
 ];
 
@@ -175,7 +183,8 @@ fn pictures(results: &Results) -> String {
     let paper = Paper { dpi: 96.0, ..Paper::default() };
     let only = ["topographies", "pressure", "contact"].map(str::to_owned).to_vec();
     // What cannot be read has been told already.
-    let pictures = figures::pictures(results, &figures::Wanted { paper, only }).unwrap_or_default();
+    let pictures =
+        figures::pictures(results, &figures::Wanted { paper, only, keep: false }).unwrap_or_default();
     let mut html = String::from("<noscript>");
     for (title, picture) in pictures {
         let _ = write!(

@@ -28,9 +28,7 @@ pub(super) struct Plane {
 pub(super) enum Shades {
     /// From 0 to the highest.
     FromZero,
-    /// From the lowest to the highest, in the colours of heights.
-    Heights,
-    /// In the same, as far below 0 as above.
+    /// As far below 0 as above.
     AroundZero,
 }
 
@@ -52,7 +50,6 @@ impl Plane {
     fn data(self) -> Value {
         let [low, high] = match (self.shades, [self.map.low, self.map.high]) {
             (Shades::FromZero, [_, high]) => [0.0, high],
-            (Shades::Heights, range) => range,
             (Shades::AroundZero, [low, high]) => [-high.max(-low), high.max(-low)],
         };
         let [along, down] = self.map.extent();
@@ -64,7 +61,7 @@ impl Plane {
             "down": self.down,
             "quantity": self.quantity,
             "unit": curves::unit(self.unit, high.max(-low)),
-            "kind": if self.shades == Shades::FromZero { "positive" } else { "heights" },
+            "kind": if self.shades == Shades::FromZero { "positive" } else { "diverging" },
             "range": [low, high],
             "mark": self.mark.map(|(at, what)| json!({ "at": at, "what": what })),
             "map": self.map,

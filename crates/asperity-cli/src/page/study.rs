@@ -1,60 +1,53 @@
-//! The page of a study: a row per case, and curves over each axis.
+//! The page of a study: a chart whose quantity, axis and colours are chosen on the page, and a row per case.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
 use asperity::io;
-use asperity::study::many::{Row, Study, Table};
+use asperity::study::column;
+use asperity::study::many::{Axis, Row, Study, Table};
 use asperity::units::format_time;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::html::{escaped, facts, minus};
+use super::explorer::{self, Quantity};
+use super::html::{escaped, facts, minus, with_code};
 use super::table::Measure;
-use super::{Section, curves, framed};
-use crate::draw::{self, Chart, Mark, Series, Unit};
-use crate::figures::Curves;
+use super::{Section, framed, words};
 
 /// Cases that have a row on the page, at most.
 const MAX_ROWS: usize = 20_000;
-/// Quantities that have a curve over each axis, at most.
-const MAX_CURVES: usize = 6;
-/// Curves on a chart, at most.
-const MAX_SERIES: usize = 7;
-/// From such a ratio of the largest to the least on numbers are drawn by their logarithm.
-const DECADE: f64 = 10.0;
 
-/// Columns of a study's table that the page shows, the most telling ones first, and whether they have curves.
-const SHOWN: [(&str, bool); 29] = [
-    ("load", false),
-    ("mean_load", false),
-    ("contact_area", true),
-    ("mean_contact_area", true),
-    ("approach", true),
-    ("mean_gap", true),
-    ("max_pressure", true),
-    ("friction_coefficient", true),
-    ("force_ratio", true),
-    ("creepage_x", true),
-    ("stiffness", true),
-    ("sq_lower", true),
-    ("sq_upper", true),
-    ("plastic_volume", true),
-    ("plastic_volume_lower", true),
-    ("plastic_volume_upper", true),
-    ("wear_volume_lower", true),
-    ("wear_volume_upper", true),
-    ("max_flash_temperature", true),
-    ("max_plastic_strain", true),
-    ("plastic_work", true),
-    ("residual_displacement", true),
-    ("max_residual_tension", true),
-    ("strain_per_pass", true),
-    ("subsurface_max_von_mises", true),
-    ("elastic_energy", true),
-    ("max_shear", true),
-    ("convolutions", false),
-    ("residual", false),
+/// Columns of a study's table that the page shows, the most telling ones first.
+const SHOWN: [&str; 29] = [
+    "contact_area",
+    "mean_contact_area",
+    "approach",
+    "mean_gap",
+    "max_pressure",
+    "friction_coefficient",
+    "force_ratio",
+    "creepage_x",
+    "stiffness",
+    "sq_lower",
+    "sq_upper",
+    "plastic_volume",
+    "plastic_volume_lower",
+    "plastic_volume_upper",
+    "wear_volume_lower",
+    "wear_volume_upper",
+    "max_flash_temperature",
+    "max_plastic_strain",
+    "plastic_work",
+    "residual_displacement",
+    "max_residual_tension",
+    "strain_per_pass",
+    "subsurface_max_von_mises",
+    "elastic_energy",
+    "max_shear",
+    "load",
+    "mean_load",
+    "convolutions",
+    "residual",
 ];
 
 /// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there stays.
@@ -64,12 +57,13 @@ pub(crate) fn write_study(study: &Study, table: &Table, path: &Path) -> asperity
 }
 
 fn page(study: &Study, table: &Table, directory: &Path) -> String {
-    let mut charts = Vec::new();
+    let quantities = explorer::quantities(table, &SHOWN);
+    let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
     let sections: [Section; 2] = [
-        ("curves", "Curves", over_axes(table, &mut charts)),
-        ("cases", "Cases", Some(rows(table, directory))),
+        ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
+        ("cases", "Cases", Some(rows(table, &quantities, directory))),
     ];
-    let data = json!({ "colours": {}, "charts": Value::from(charts) });
+    let data = json!({ "colours": {}, "charts": [], "study": explorer::data(table, &quantities, directory) });
     framed(study.title(), &head(study, table), &sections, &data)
 }
 
@@ -87,7 +81,7 @@ fn head(study: &Study, table: &Table) -> String {
         html += "<div class=\"warning\"><h2>Failures</h2><ul>";
         for row in failures.iter().take(MAX_TOLD) {
             let message = row.failure.as_deref().unwrap_or_default();
-            let _ = write!(html, "<li>case {:04}: {}</li>", row.case, escaped(message));
+            let _ = write!(html, "<li>case {:04}: {}</li>", row.case, with_code(message));
         }
         if failures.len() > MAX_TOLD {
             let _ = write!(html, "<li>and {} more: see the rows below</li>", failures.len() - MAX_TOLD);
@@ -101,7 +95,7 @@ fn head(study: &Study, table: &Table) -> String {
         } else {
             format!("{} values, {first} to {last}", axis.len())
         };
-        (axis.key().to_owned(), escaped(&values))
+        (words::of_key(axis.key()), escaped(&values))
     });
     let time: f64 = table.rows().iter().map(|row| row.wall_time).sum();
     let warned = table.rows().iter().filter(|row| row.warnings > 0).count();
@@ -116,41 +110,55 @@ fn head(study: &Study, table: &Table) -> String {
     html + &facts(axes.chain(rest))
 }
 
-/// A row per case: its values, its main numbers, each column in one unit. It leads to the case's own page where that was made,
-/// else to its folder.
-fn rows(table: &Table, directory: &Path) -> String {
-    let shown = shown(table);
-    let columns: Vec<(usize, Measure)> =
-        shown.iter().map(|(column, _)| (*column, measure(table, *column))).collect();
+/// A row per case: its values, its main numbers, each column in one unit. The number of a case leads to its page where that was made.
+fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
+    let columns: Vec<Measure> =
+        quantities.iter().map(|quantity| Measure::of(&quantity.name, largest(&quantity.values))).collect();
+    let axes: Vec<Option<Measure>> = table.axes().iter().map(measure).collect();
     let mut html = String::from(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table of cases\"><table><thead><tr><th scope=\"col\">case</th>",
+        "<p class=\"remark\">A click on the head of a column sorts by it, a click on a row opens the case.</p>\
+         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table of cases\"><table><thead><tr><th scope=\"col\">case</th>",
     );
-    for axis in table.axes() {
-        let _ = write!(html, "<th scope=\"col\">{}</th>", escaped(axis.key()));
+    for (axis, measure) in table.axes().iter().zip(&axes) {
+        let words = escaped(&words::of_key(axis.key()));
+        html += &match measure {
+            Some(measure) => measure.headed(&words, None),
+            None => format!("<th scope=\"col\">{words}</th>"),
+        };
     }
-    for (column, measure) in &columns {
-        html += &measure.head(&table.columns()[*column]);
+    for (quantity, measure) in quantities.iter().zip(&columns) {
+        let about = column(&quantity.name).map(|column| column.text);
+        html += &measure.headed(&escaped(&words::of_column(&quantity.name)), about);
     }
     html += "<th scope=\"col\">warnings</th></tr></thead><tbody>";
     let listed = super::table::evenly(table.rows().len(), MAX_ROWS);
-    for row in listed.iter().map(|n| &table.rows()[*n]) {
-        let case = format!("cases/{:04}/", row.case);
-        let own = if directory.join(&case).join(super::FILE).exists() { super::FILE } else { "" };
-        let _ = write!(html, "<tr><th scope=\"row\"><a href=\"{case}{own}\">{:04}</a></th>", row.case);
-        for (axis, index) in table.axes().iter().zip(&row.indices) {
-            let _ = write!(html, "<td>{}</td>", escaped(&minus(axis.text(*index as usize))));
+    for n in &listed {
+        let row = &table.rows()[*n];
+        let page = format!("cases/{:04}/{}", row.case, super::FILE);
+        let name = match directory.join(&page).exists() {
+            true => format!("<a href=\"{page}\">{:04}</a>", row.case),
+            false => format!("{:04}", row.case),
+        };
+        let _ = write!(html, "<tr><th scope=\"row\">{name}</th>");
+        for ((axis, measure), index) in table.axes().iter().zip(&axes).zip(&row.indices) {
+            let index = *index as usize;
+            let text = match (measure, axis.numbers()) {
+                (Some(measure), Some(numbers)) => measure.plain(numbers[index]),
+                _ => minus(axis.text(index)),
+            };
+            let _ = write!(html, "<td>{}</td>", escaped(&text));
         }
         if let Some(message) = &row.failure {
             let _ = write!(
                 html,
                 "<td class=\"words\" colspan=\"{}\">{}</td></tr>",
                 columns.len() + 1,
-                escaped(message)
+                with_code(message)
             );
             continue;
         }
-        for (column, measure) in &columns {
-            let _ = write!(html, "<td>{}</td>", measure.text(row.numbers[*column]));
+        for (quantity, measure) in quantities.iter().zip(&columns) {
+            let _ = write!(html, "<td>{}</td>", measure.text(quantity.values[*n]));
         }
         let _ = write!(html, "<td>{}</td></tr>", row.warnings);
     }
@@ -166,105 +174,14 @@ fn rows(table: &Table, directory: &Path) -> String {
     html
 }
 
-/// Columns that say something, and whether they have curves.
-fn shown(table: &Table) -> Vec<(usize, bool)> {
-    let column = |name: &str| table.columns().iter().position(|column| column == name);
-    let tells = |column: &usize| table.rows().iter().any(|row| row.numbers[*column].abs() > 0.0);
-    SHOWN.iter().filter_map(|(name, curve)| Some((column(name).filter(tells)?, *curve))).collect()
+/// How the numbers of an axis are shown, in the unit that suits the largest; none for seeds and for what is no number.
+fn measure(axis: &Axis) -> Option<Measure> {
+    let numbers = axis.numbers().filter(|_| !axis.is_seed())?;
+    Some(Measure::of_dimension(axis.dimension(), largest(numbers)))
 }
 
-/// How the numbers of a column are shown: in the unit that suits the largest.
-fn measure(table: &Table, column: usize) -> Measure {
-    let sizes = table.rows().iter().map(|row| row.numbers[column].abs());
-    let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    Measure::of(&table.columns()[column], largest)
-}
-
-/// Curves over each axis of numbers that are no seeds; nothing where there is none.
-fn over_axes(table: &Table, charts: &mut Vec<Value>) -> Option<String> {
-    let mut html = String::new();
-    for (n, axis) in table.axes().iter().enumerate() {
-        if axis.numbers().is_none() || axis.is_seed() || axis.len() < 2 {
-            continue;
-        }
-        let by = by(table, n);
-        let varies = |column: &usize| {
-            let numbers =
-                || table.rows().iter().map(|row| row.numbers[*column]).filter(|number| number.is_finite());
-            let [least, most] = [f64::min, f64::max].map(|pick| numbers().fold(f64::NAN, pick));
-            least < most
-        };
-        let columns = shown(table).into_iter().filter(|(column, curve)| *curve && varies(column));
-        let drawn: Vec<Curves> =
-            columns.take(MAX_CURVES).map(|(column, _)| chart(table, n, by, column)).collect();
-        let made = curves::html(drawn, charts);
-        if !made.is_empty() {
-            let _ = write!(html, "<h3>over {}</h3>{made}", escaped(axis.key()));
-        }
-    }
-    Some(html).filter(|html| !html.is_empty())
-}
-
-/// The axis whose values have a curve each: of those with few values the one with the fewest.
-fn by(table: &Table, x: usize) -> Option<usize> {
-    let few = |n: &usize| {
-        let axis = &table.axes()[*n];
-        *n != x && !axis.is_seed() && (2..=MAX_SERIES).contains(&axis.len())
-    };
-    (0..table.axes().len()).filter(few).min_by_key(|n| table.axes()[*n].len())
-}
-
-/// A quantity over an axis: means over all that the curves do not tell apart, and where there are not many all cases.
-fn chart(table: &Table, x: usize, by: Option<usize>, column: usize) -> Curves {
-    const MANY: usize = 2000;
-    let axis = &table.axes()[x];
-    let numbers = axis.numbers().expect("it is an axis of numbers");
-    let name = table.columns()[column].replace('_', " ");
-    let mut means: BTreeMap<u32, BTreeMap<u32, (f64, usize)>> = BTreeMap::new();
-    let mut all = Vec::new();
-    for row in table.rows().iter().filter(|row| row.failure.is_none() && row.numbers[column].is_finite()) {
-        let curve = by.map_or(0, |by| row.indices[by]);
-        let mean = means.entry(curve).or_default().entry(row.indices[x]).or_default();
-        *mean = (mean.0 + row.numbers[column], mean.1 + 1);
-        all.push([numbers[row.indices[x] as usize], row.numbers[column]]);
-    }
-    let samples = means.values().flat_map(BTreeMap::values).any(|(_, count)| *count > 1);
-    let what = if samples { "mean" } else { "" };
-    let mut series: Vec<Series> = means
-        .iter()
-        .map(|(curve, points)| {
-            let mut points: Vec<[f64; 2]> = points
-                .iter()
-                .map(|(index, (sum, count))| [numbers[*index as usize], sum / *count as f64])
-                .collect();
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let name = by.map_or(what.to_owned(), |by| table.axes()[by].text(*curve as usize).to_owned());
-            Series::new(name, points, Mark::LineAndPoints)
-        })
-        .collect();
-    if samples && by.is_none() && all.len() <= MANY {
-        series.push(Series::new("each case", all.clone(), Mark::Points));
-    }
-    let of_all = |axis: usize| all.iter().map(|point| point[axis]).collect::<Vec<f64>>();
-    let horizontal = drawn(axis.key(), axis.dimension().map_or(Unit::Number, Unit::from), &of_all(0));
-    let vertical = drawn(&name, Unit::of_column(&table.columns()[column]), &of_all(1));
-    let of = match (by.map(|by| table.axes()[by].key()), samples) {
-        (Some(key), true) => format!(", means, by {key}"),
-        (Some(key), false) => format!(", by {key}"),
-        (None, _) => String::new(),
-    };
-    let title = format!("{name} over {}{of}", axis.key());
-    Curves { name: "study", title, charts: Chart::new("", horizontal, vertical, series).into() }
-}
-
-/// An axis, by the logarithm where its numbers are above 0 and some decades wide.
-fn drawn(label: &str, unit: Unit, numbers: &[f64]) -> draw::Axis {
-    let [least, most] = [f64::min, f64::max].map(|pick| numbers.iter().copied().fold(f64::NAN, pick));
-    if least > 0.0 && most >= DECADE * least {
-        draw::Axis::log(label, unit)
-    } else {
-        draw::Axis::linear(label, unit)
-    }
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|number| number.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -273,7 +190,7 @@ mod tests {
 
     #[test]
     fn columns_that_are_shown_are_columns_of_records() {
-        for (name, _) in SHOWN {
+        for name in SHOWN {
             assert!(asperity::study::column(name).is_some(), "{name}");
         }
     }

@@ -4,10 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use asperity::io;
-use asperity::study::{dimension_of_column, unit_of_column};
+use asperity::study::{column, dimension_of_column, unit_of_column};
 use asperity::units::{CELSIUS, Dimension, Multiple, format, format_number};
 
 use super::html::escaped;
+use crate::numbers::in_column;
 
 /// Share of the largest number of a column, or of its vector, below which a number is what rounding has left.
 const ROUNDING: f64 = 1e-8;
@@ -111,6 +112,11 @@ impl Table {
     }
 }
 
+/// A unit without multiples.
+fn only(symbol: &str) -> Multiple {
+    Multiple { factor: 1.0, symbol: symbol.to_owned() }
+}
+
 /// How the numbers of a column are shown.
 pub(super) struct Measure {
     kind: Kind,
@@ -121,7 +127,6 @@ impl Measure {
     /// That of a column, in the unit that suits its `largest` number.
     pub(super) fn of(column: &str, largest: f64) -> Self {
         let kind = kind(column);
-        let only = |symbol: &str| Multiple { factor: 1.0, symbol: symbol.to_owned() };
         let unit = match kind {
             Kind::Of(dimension) => dimension.multiple(largest),
             Kind::Celsius => only("°C"),
@@ -131,19 +136,46 @@ impl Measure {
         Self { kind, unit }
     }
 
-    /// The head of the column: its name, its unit.
-    pub(super) fn head(&self, column: &str) -> String {
+    /// That of numbers of a dimension, in the unit that suits the largest of them.
+    pub(super) fn of_dimension(dimension: Option<Dimension>, largest: f64) -> Self {
+        match dimension {
+            Some(Dimension::Temperature) => Self { kind: Kind::Celsius, unit: only("°C") },
+            Some(dimension) => Self { kind: Kind::Of(dimension), unit: dimension.multiple(largest) },
+            None => Self { kind: Kind::Number, unit: only("") },
+        }
+    }
+
+    /// The head of the column of a table of results: its name, its unit.
+    pub(super) fn head(&self, name: &str) -> String {
+        self.headed(&escaped(&name.replace('_', " ")), column(name).map(|column| column.text))
+    }
+
+    /// The head of a column: its words, which are HTML, its unit, and what it is about for who points at it.
+    pub(super) fn headed(&self, words: &str, about: Option<&str>) -> String {
         let unit =
             if self.unit.symbol.is_empty() { String::new() } else { format!("<br>{}", self.unit.symbol) };
-        format!("<th scope=\"col\">{}{unit}</th>", escaped(&column.replace('_', " ")))
+        let about = about.map_or(String::new(), |about| format!(" title=\"{}\"", escaped(about)));
+        format!("<th scope=\"col\"{about}>{words}{unit}</th>")
+    }
+
+    /// A number that is prescribed, SI: without the zeros behind its last digit.
+    pub(super) fn plain(&self, value: f64) -> String {
+        match self.kind {
+            Kind::Celsius => format_number(value - CELSIUS),
+            _ => format_number(value / self.unit.factor),
+        }
+        .replace('-', "−")
     }
 
     /// A number of the column, SI.
     pub(super) fn text(&self, value: f64) -> String {
         match self.kind {
             _ if !value.is_finite() => "–".to_owned(),
-            Kind::Celsius => format_number(value - CELSIUS),
-            Kind::Of(_) | Kind::Number | Kind::In(_) => format_number(value / self.unit.factor),
+            Kind::Celsius => in_column(value - CELSIUS),
+            Kind::Of(_) | Kind::In(_) => in_column(value / self.unit.factor),
+            // A count has no digits behind its point.
+            Kind::Number if value.fract() == 0.0 => format_number(value),
+            Kind::Number => in_column(value),
         }
         .replace('-', "−")
     }
@@ -195,8 +227,11 @@ mod tests {
         let path = folder.path().join("t.csv");
         std::fs::write(&path, "tangential_force_x,tangential_force_y\n0.18,-3e-20\n0.09,1e-3\n").unwrap();
         let html = Table::read(&path).unwrap().html("rows", None);
-        assert!(html.contains("tangential force y<br>mN</th>"), "{html}");
-        assert!(html.contains("<td>180</td><td>0</td>") && html.contains("<td>90</td><td>1</td>"), "{html}");
+        assert!(html.contains(">tangential force y<br>mN</th>"), "{html}");
+        assert!(
+            html.contains("<td>180.0</td><td>0</td>") && html.contains("<td>90.00</td><td>1.000</td>"),
+            "{html}"
+        );
     }
 
     #[test]
@@ -207,8 +242,8 @@ mod tests {
         let table = Table::read(&path).unwrap();
         assert_eq!(table.len(), 2);
         let html = table.html("rows", Some("passes"));
-        assert!(html.contains("<th scope=\"col\">load<br>mN</th>"), "{html}");
-        assert!(html.contains("<data data-key=\"passes.1.load\" value=\"0.25\">250</data>"), "{html}");
+        assert!(html.contains(">load<br>mN</th>"), "{html}");
+        assert!(html.contains("<data data-key=\"passes.1.load\" value=\"0.25\">250.0</data>"), "{html}");
         assert!(html.contains("<td>–</td>"), "{html}");
         assert_eq!(table.only("pass", 2.0).len(), 1);
         assert_eq!(evenly(5, 3), [0, 2, 4]);

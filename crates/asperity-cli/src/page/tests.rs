@@ -110,7 +110,7 @@ fn the_case_on_a_page_of_an_example_is_that_case() {
         let case = Case::load(&folder.join("case.toml")).unwrap();
         let resolved = |case: &Case| study::resolved(case, &study::bodies(case, Given::default()).unwrap());
         let before = resolved(&case);
-        let toml = toml::to_string(&head::written(&before)).unwrap();
+        let toml = toml::to_string(&case::written(&before)).unwrap();
         let again = Case::parse(&toml, Path::new("case.toml"), Path::new(""))
             .unwrap_or_else(|e| panic!("{e} in\n{toml}"));
         assert_eq!(resolved(&again)["identity"], before["identity"], "{}", folder.display());
@@ -145,10 +145,19 @@ fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
     let moving = Computed::of(MOVING);
     let page = moving.page();
     assert!(section(&page, "contact") && section(&page, "curves") && !section(&page, "below"));
+    let place = |id: &str| page.find(&format!("<section id=\"{id}\" ")).unwrap();
+    assert!(
+        place("contact") < place("bodies")
+            && place("bodies") < place("curves")
+            && place("curves") < place("trust")
+    );
+    assert!(
+        page.contains("<dl class=\"cards\">") && page.contains("After 2 passes under a mean load of 5 mN")
+    );
     assert!(page.contains("Table: passes") && page.contains("Table: positions of pass 2"));
     let data = moving.data();
     assert_eq!(data["contact"]["frames"].as_array().unwrap().len(), 14, "all positions of both passes");
-    assert_eq!(data["contact"]["groups"][1]["lost"].as_array().unwrap().len(), 2);
+    assert_eq!(data["contact"]["groups"][1]["changes"].as_array().unwrap().len(), 2);
     let names = |data: &Value, of: &str, key: &str| -> Vec<String> {
         data.pointer(of)
             .unwrap()
@@ -159,9 +168,7 @@ fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
             .collect()
     };
     assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact"]);
-    for chart in
-        ["load", "contact_area", "max_pressure", "roughness", "approach", "pressure_histogram", "solution"]
-    {
+    for chart in ["load", "contact_area", "max_pressure", "roughness", "approach", "pressure_histogram"] {
         assert!(names(&data, "/charts", "name").iter().any(|name| name == chart), "{chart}");
     }
 
@@ -173,16 +180,25 @@ fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
     let data = rest.data();
     assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact", "gap"]);
     assert_eq!(data["contact"]["layers"][1]["classes"], serde_json::json!(["no contact", "elastic"]));
-    for chart in ["profile", "stress_columns", "material_ratio"] {
-        assert_eq!(
-            names(&data, "/charts", "name").iter().any(|name| name == chart),
-            chart != "none",
-            "{chart}"
-        );
+    for (chart, is_there) in [("profile", true), ("stress_columns", true), ("material_ratio", false)] {
+        assert_eq!(names(&data, "/charts", "name").iter().any(|name| name == chart), is_there, "{chart}");
     }
 
     let none = Computed::of(&MOVING.replace("pressure_every = 1", "pressure_every = 0"));
     assert!(none.page().contains("<code>pressure_every = 0</code>") && none.data()["contact"].is_null());
+}
+
+#[test]
+fn a_load_that_is_held_is_not_drawn_and_a_body_that_keeps_its_shape_has_no_change() {
+    let held = MOVING.replace("passes = 2", "passes = 2, control = \"step-load\"");
+    let data = Computed::of(&held).data();
+    let charts: Vec<&str> =
+        data["charts"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
+    assert!(!charts.contains(&"load") && charts.contains(&"contact_area"), "{charts:?}");
+    // The upper body is the harder one.
+    assert!(!data["bodies"][0]["change"].is_null() && data["bodies"][1]["change"].is_null());
+    let change = &data["bodies"][0]["change"];
+    assert!(change["low"].as_f64().unwrap() < 0.0 && change["high"].as_f64().unwrap() <= 0.0);
 }
 
 #[test]
@@ -191,7 +207,7 @@ fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
     let (page, data, summary) = (computed.page(), computed.data(), computed.summary());
     assert!(page.contains("<section id=\"flow\" ") && page.contains("<th scope=\"col\">unloaded</th>"));
     assert!(page.contains("unloaded: plastic work") && page.contains("<td>yields</td>"));
-    assert_eq!(page.matches("As plastic flow below it leaves it").count(), 1, "the upper body does not flow");
+    assert_eq!(page.matches("Heights after plastic flow").count(), 1, "the upper body does not flow");
     let planes = data["planes"].as_array().unwrap();
     let files: Vec<&str> = planes.iter().map(|plane| plane["file"].as_str().unwrap()).collect();
     assert_eq!(files, ["plastic_strain_lower", "residual_stress_lower", "residual_surface_lower"]);
@@ -212,7 +228,7 @@ fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
     let page = computed.page();
     assert!(page.contains("Not on this page") && page.contains("plasticity.h5"), "nothing is missed");
     let elastic = Computed::of(&FLOWING.replace("yield_stress = 1e9", "yield_stress = 1e12"));
-    assert!(elastic.page().contains("Nothing has flowed in it."));
+    assert!(elastic.page().contains("No plastic flow in this body."));
 }
 
 #[test]

@@ -1,17 +1,17 @@
-//! Why one may trust the numbers: residuals, what was reached of what was wanted, files, how to cite.
+//! Why one may trust the numbers, and what they come from: residuals, the load reached, cost, all numbers, the case, files.
 
 use std::path::Path;
 
-use asperity::units::{Dimension, bytes, format};
+use asperity::study::Outcome;
+use asperity::units::{Dimension, bytes, format, format_time};
 use serde_json::Value;
 
-use super::curves;
 use super::found::Found;
-use super::html::{details, escaped, facts};
-use crate::figures;
+use super::html::{details, escaped, facts, number};
+use super::{case, numbers};
 
 /// The section.
-pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
+pub(super) fn section(found: &Found) -> String {
     let mut rows = Vec::new();
     let residuals = || {
         let steps = found.steps.iter().map(|step| step.residual);
@@ -19,7 +19,7 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
         steps.chain(increments).chain(found.points.iter().map(|point| point.residual))
     };
     let at_rest = found.summary.as_ref().and_then(|summary| match &summary.outcome {
-        asperity::study::Outcome::Static(record) => Some(record),
+        Outcome::Static(record) => Some(record),
         _ => None,
     });
     let largest = residuals().chain(at_rest.map(|record| record.residual)).fold(0.0, f64::max);
@@ -32,9 +32,11 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
     if let (Some(wanted), Some(reached)) = (found.case["contact"]["load"].as_f64(), reached) {
         let off = (reached - wanted).abs() / wanted;
         let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));
-        let off = if off > 0.0 { format!("{off:.0e} of it off") } else { "to the last digit".to_owned() };
-        let text = format!("{reached} of {wanted} wanted, {off}");
-        rows.push(("load reached".to_owned(), escaped(&text)));
+        let text = match off {
+            0.0 => format!("{reached}, exactly the prescribed load"),
+            off => format!("{reached}; the prescribed load is {wanted}, relative difference {off:.0e}"),
+        };
+        rows.push(("load".to_owned(), escaped(&text)));
     }
     if let Some(asperity::study::RunningIn { computed, represented, error_bound, .. }) =
         found.summary.as_ref().and_then(|summary| summary.running_in.as_ref())
@@ -44,11 +46,46 @@ pub(super) fn section(found: &mut Found, charts: &mut Vec<Value>) -> String {
     if let Some(identity) = found.case["identity"].as_str() {
         rows.push(("identity".to_owned(), format!("<code>{}</code>", escaped(identity))));
     }
+    rows.extend(cost(found));
     let mut html = facts(rows);
-    html += &curves::html(figures::of_solution(&found.steps, &found.increments, &found.done), charts);
+    if let Some(record) = at_rest
+        && let Ok(Value::Object(record)) = serde_json::to_value(record)
+    {
+        html += &details("All numbers of the contact", &facts(numbers::of("static", &record)));
+    }
+    html += &details("The case with all its defaults", &case::html(&found.case));
     html += &details("Files", &files(found.directory()));
     html += &details("How to cite", CITATION);
     html
+}
+
+/// Program, date, time and effort.
+fn cost(found: &Found) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    let mut add = |name: &str, value: String| rows.push((name.to_owned(), value));
+    let version = found.summary.as_ref().map_or(env!("CARGO_PKG_VERSION"), |summary| &summary.version);
+    add("computed by", format!("asperity {}", escaped(version)));
+    let files = ["summary.json", "passes.csv", "sweep.csv", "updates.csv", "increments.csv", "case.json"];
+    let written =
+        |file: &&str| std::fs::metadata(found.directory().join(file)).and_then(|m| m.modified()).ok();
+    if let Some(date) = files.iter().find_map(written) {
+        add("date of the files", escaped(&httpdate::fmt_http_date(date)));
+    }
+    if let Some(summary) = &found.summary {
+        let time = escaped(&format_time(summary.wall_time_s));
+        add("computing time", number("wall_time_s", &summary.wall_time_s.into(), &time));
+    }
+    let convolutions: f64 = found.passes.iter().map(|pass| pass.convolutions).sum::<f64>()
+        + found.increments.iter().map(|increment| increment.convolutions).sum::<f64>()
+        + found.points.iter().map(|point| point.convolutions).sum::<f64>();
+    let contacts = found.steps.len() + found.increments.len() + found.points.len();
+    if convolutions > 0.0 && contacts > 1 {
+        add(
+            "effort",
+            format!("{:.1} convolutions for each of {contacts} contacts", convolutions / contacts as f64),
+        );
+    }
+    rows
 }
 
 /// How many passes were computed, and the error of the extrapolation over the others, if there are any.

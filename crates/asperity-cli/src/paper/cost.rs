@@ -187,7 +187,7 @@ impl Costs {
         text
     }
 
-    pub(super) fn draw(&self, path: &Path) -> draw::Result<()> {
+    pub(super) fn draw(&self, path: &Path, sheet: &Paper) -> draw::Result<()> {
         let series = |work: Work, strategy: usize, name: &str| {
             let costs = self.0.iter().filter(|cost| cost.work == work);
             let points = costs.map(|cost| [cost.side as f64, cost.time(strategy)]).collect();
@@ -198,10 +198,10 @@ impl Costs {
         let chart =
             Chart::new("", x, Axis::log("time", Unit::Time), Work::ALL.into_iter().flat_map(all).collect());
         let caption = Caption {
-            title: "Time of a position, mean over a pass".to_owned(),
+            title: "Mean time of a position over a pass".to_owned(),
             of: format!("median of {TURNS} turns, one thread, elastic, one approach"),
         };
-        draw::save(path, &Charts::from(chart), &caption, &Paper::default())
+        draw::save(path, &Charts::from(chart), &caption, sheet)
     }
 }
 

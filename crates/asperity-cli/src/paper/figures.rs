@@ -37,10 +37,11 @@ pub(super) const NAMES: [&str; 7] =
     ["figure-1", "figure-2", "figure-8", "figure-9", "figure-10", "two-surfaces", "plastic-depth"];
 
 /// Draws all of [`NAMES`] into `folder`.
-pub(super) fn draw(folder: &Path, bar: &ProgressBar) -> Outcome {
+pub(super) fn draw(folder: &Path, sheet: &Sheet, bar: &ProgressBar) -> Outcome {
     let save = |name: &str, title: &str, of: String, figure: &dyn Figure| -> Outcome {
         let caption = Caption { title: title.to_owned(), of };
-        Ok(draw::save(&folder.join(name).with_extension("png"), figure, &caption, &Sheet::default())?)
+        let path = folder.join(name).with_extension(sheet.format.extension());
+        Ok(draw::save(&path, figure, &caption, sheet)?)
     };
     bar.set_message("figures 1, 2, 8, 9");
     let pair = pair(SIDE)?;
@@ -106,7 +107,7 @@ fn displacement(pair: &Pair, save: &Save) -> Outcome {
     let relief =
         Relief { quantity: Quantity::new("displacement", Unit::Length), ..Relief::of_heights(&field, &grid) };
     let of = format!(
-        "{side} × {side} cells of 1 µm, {} on the central one; positive into the body",
+        "{side} × {side} cells of 1 µm, {} on the central one; displacement into the body, drawn upwards",
         format(PRESSURE, Dimension::Pressure)
     );
     save("figure-9", "Figure 9. Displacement of the surface under a load on its central cell", of, &relief)
@@ -174,14 +175,14 @@ fn pressures(pair: &Pair, pass: &Pass, save: &Save) -> Outcome {
         .zip(&fields)
         .map(|((letter, contact), field)| {
             let stage = match contact.position.offset {
-                0.0 => "full in",
+                0.0 => "fully overlapping",
                 offset if offset < 0.0 => "entering",
                 _ => "leaving",
             };
             let title = format!("({letter}) {stage}, {}", format(contact.load, Dimension::Force));
             map(&title, field, &grid, "pressure", Unit::Pressure, Colours::Pressure)
                 .range([0.0, largest])
-                .missing("nothing opposite")
+                .missing("outside the overlap")
         })
         .collect();
     let of = format!("one approach for all positions; mean load {}", format(LOAD, Dimension::Force));
@@ -195,19 +196,26 @@ fn plastic_depths(initial: &Pair, passes: &[Pass], save: &Save) -> Outcome {
         .flat_map(|pass| {
             let pair = &passes[pass].pair;
             [
-                (format!("lower surface, pass {}", pass + 1), &initial.lower.heights - &pair.lower.heights),
-                (format!("upper surface, pass {}", pass + 1), &pair.upper.heights - &initial.upper.heights),
+                (format!("lower surface, pass {}", pass + 1), &pair.lower.heights - &initial.lower.heights),
+                (format!("upper surface, pass {}", pass + 1), &initial.upper.heights - &pair.upper.heights),
             ]
         })
         .collect();
-    let largest = depths.iter().flat_map(|(_, d)| d.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
+    let sizes = depths.iter().flat_map(|(_, change)| change.iter()).map(|change| change.abs());
+    let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
     let maps = depths
         .iter()
-        .map(|(title, depth)| {
-            map(title, depth, &grid, "plastic depth", Unit::Length, Colours::Pressure).range([0.0, largest])
+        .map(|(title, change)| {
+            let map = map(title, change, &grid, "change of height", Unit::Length, Colours::Signed);
+            map.range([-largest, largest])
         })
         .collect();
-    save("plastic-depth", "Plastic deformation of both surfaces", String::new(), &Maps::new(maps))
+    save(
+        "plastic-depth",
+        "Change of height by plastic flow, material upwards",
+        String::new(),
+        &Maps::new(maps),
+    )
 }
 
 /// How the influence matrix grows and shrinks over a pass.
@@ -234,7 +242,7 @@ mod tests {
     #[test]
     fn every_figure_is_drawn_under_its_number() {
         let folder = tempfile::tempdir().unwrap();
-        draw(folder.path(), &ProgressBar::hidden()).unwrap();
+        draw(folder.path(), &Sheet::default(), &ProgressBar::hidden()).unwrap();
         for name in NAMES {
             assert!(folder.path().join(format!("{name}.png")).is_file(), "{name}");
         }

@@ -17,6 +17,7 @@ use asperity::{Grid, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Paper;
+use crate::draw::Format;
 use crate::report::{Failure, Outcome, note, print};
 use cost::Costs;
 
@@ -36,15 +37,16 @@ const HARDNESS: Pascal = 3e9;
 /// Draws the paper's figures, and measures what its strategy costs.
 pub(crate) fn paper(arguments: &Paper) -> Outcome {
     let folder = &arguments.out;
-    refuse_existing(folder, arguments.overwrite)?;
+    let sheet = arguments.drawing.paper();
+    refuse_existing(folder, sheet.format, arguments.overwrite)?;
     std::fs::create_dir_all(folder)
         .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
     io::sweep(folder);
     let bar = progress(arguments.quiet);
-    figures::draw(folder, &bar)?;
+    figures::draw(folder, &sheet, &bar)?;
     let costs = Costs::measure(arguments.largest.into(), &bar)?;
     bar.finish_and_clear();
-    costs.draw(&folder.join("cost.png"))?;
+    costs.draw(&folder.join("cost").with_extension(sheet.format.extension()), &sheet)?;
     io::replace(&folder.join("cost.csv"), costs.csv().as_bytes())?;
     print(&format!("{}\n{}\n{}", figures::matrix_sizes(), costs.table(), costs.verdict()))?;
     note(&format!("figures and cost.csv in {}", folder.display()));
@@ -52,9 +54,10 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
 }
 
 /// An error if files that would be written are there.
-fn refuse_existing(folder: &Path, overwrite: bool) -> Outcome {
-    let files = figures::NAMES.iter().map(|name| format!("{name}.png"));
-    let mut files = files.chain(["cost.png".to_owned(), "cost.csv".to_owned()]).map(|file| folder.join(file));
+fn refuse_existing(folder: &Path, format: Format, overwrite: bool) -> Outcome {
+    let names = figures::NAMES.into_iter().chain(["cost"]);
+    let files = names.map(|name| format!("{name}.{}", format.extension()));
+    let mut files = files.chain(["cost.csv".to_owned()]).map(|file| folder.join(file));
     match files.find(|path| path.exists()).filter(|_| !overwrite) {
         Some(path) => {
             let hint = "--overwrite replaces the figures, --out names another folder";

@@ -51,6 +51,11 @@ impl Cell {
         }
     }
 
+    /// The head of its column.
+    pub(super) fn head(&self) -> &'static str {
+        self.head
+    }
+
     fn unit(&self) -> Multiple {
         let of = |factor, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
         match self.kind {
@@ -62,10 +67,7 @@ impl Cell {
                     Dimension::Pressure => 1e6,
                     _ => 0.0,
                 });
-                // Four digits have room: 104.2 nm rather than 0.104 µm.
-                let [unit, finer] = [value, 0.1 * value].map(|value| dimension.multiple(value));
-                let fits = (1.0..999.5).contains(&(value.abs() / finer.factor));
-                if value.abs() < unit.factor && fits { finer } else { unit }
+                dimension.multiple(value)
             }
             Kind::Share => of(0.01, "%"),
             Kind::Number => of(1.0, ""),
@@ -113,15 +115,18 @@ impl Columns {
     }
 }
 
-/// Four significant digits, the point in the place that all share; a power of ten where they would leave the column.
+/// Four significant digits, the point in the place that all share; two digits and a power of ten where they would leave the column, or
+/// hardly any would be left in it.
 fn aligned(value: f64) -> String {
+    /// Below this two digits have no room before the end of the column.
+    const LEAST: f64 = 9.95e-3;
     let size = value.abs();
     if value == 0.0 {
         return format!("{:>1$}{2:PART$}", "0", WIDTH - PART, "");
     }
     // A sign takes the place of a digit.
     let most = if value < 0.0 { 999.5 } else { 9999.5 };
-    if !(1e-3..most).contains(&size) {
+    if !(LEAST..most).contains(&size) {
         return format!("{:>WIDTH$}", format!("{value:.1e}"));
     }
     let decimals = (3.0 - size.log10().floor()).clamp(0.0, PART as f64 - 1.0) as usize;

@@ -17,7 +17,7 @@ use crate::args::Run;
 use crate::machine;
 use crate::report::{self, Failure, clipped, note, print};
 use crate::signals::Stop;
-use crate::{example, figures, page};
+use crate::{example, figures, page, place};
 use display::Display;
 pub use record::text;
 
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         }
         (None, None) => unreachable!("the parser asks for one of them"),
     };
-    let case = Case::load(&file)?;
+    let case = place::case(&file, "run")?;
     machine::demand(&case)?;
     let existing = match (arguments.resume, arguments.overwrite) {
         (true, _) => Existing::Resume,

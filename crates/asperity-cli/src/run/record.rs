@@ -46,24 +46,41 @@ fn stress_line(record: &SubsurfaceRecord) -> String {
     )
 }
 
+/// Load over the area in contact.
+fn mean_pressure(record: &StaticRecord) -> String {
+    match record.contact_area {
+        0.0 => "–".to_owned(),
+        area => format!("{} over the contact", format(record.load / area, Dimension::Pressure)),
+    }
+}
+
 fn static_table(record: &StaticRecord, planes: &str) -> String {
     let share = 100.0 * record.contact_area / record.apparent_area;
     let mut rows = vec![
         ("load", format(record.load, Dimension::Force)),
-        ("mean pressure", format(record.load / record.apparent_area, Dimension::Pressure)),
+        ("nominal pressure", format(record.load / record.apparent_area, Dimension::Pressure)),
         match record.approach {
             approach if approach < 0.0 => (planes, format!("{} apart", format(-approach, Dimension::Length))),
             approach => ("approach", format(approach, Dimension::Length)),
         },
-        ("contact area", format!("{} ({share:.3} %)", format(record.contact_area, Dimension::Area))),
+        (
+            "contact area",
+            format!(
+                "{} ({} % of the grid)",
+                format(record.contact_area, Dimension::Area),
+                format_number(share)
+            ),
+        ),
+        ("mean pressure", mean_pressure(record)),
         ("largest pressure", format(record.max_pressure, Dimension::Pressure)),
         ("mean gap", format(record.mean_gap, Dimension::Length)),
         ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
-        ("plastic cells", record.plastic_cells.to_string()),
-        ("plastic volume", format(record.plastic_volume, Dimension::Volume)),
-        ("residual", format!("{:.1e}", record.residual)),
-        ("convolutions", format!("{:.1}", record.convolutions)),
     ];
+    if record.plastic_cells > 0 {
+        rows.push(("plastic cells", record.plastic_cells.to_string()));
+        rows.push(("plastic volume", format(record.plastic_volume, Dimension::Volume)));
+    }
+    rows.push(("residual", format!("{:.1e}", record.residual)));
     if let Some(shear) = &record.shear {
         let both = |[x, y]: [f64; 2], scale: f64, dimension| {
             // What rounding leaves of a component that is not there is not worth reading.
@@ -74,7 +91,7 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
         rows.extend([
             ("tangential force", both(shear.tangential_force, record.load, Dimension::Force)),
             ("displacement", both(shear.tangential_displacement, 0.0, Dimension::Length)),
-            ("force ratio", format_number(shear.force_ratio)),
+            ("traction coeff.", format_number(shear.force_ratio)),
             ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
             ("largest shear", format(shear.max_shear, Dimension::Pressure)),
             ("dissipation", format(shear.dissipation, Dimension::Energy)),

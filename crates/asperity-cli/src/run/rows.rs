@@ -1,7 +1,7 @@
 //! The rows of passes and of points.
 
 use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
-use asperity::study::case::{Case, ControlKind, Source};
+use asperity::study::case::{Case, Source};
 
 use super::columns::{Cell, Columns};
 
@@ -19,8 +19,6 @@ pub(super) struct Rows {
     wears: bool,
     grows: bool,
     flows: bool,
-    /// Whether the passes have the approach given.
-    at_approach: bool,
     /// Passes of the motion that are done, and the wear of both bodies in them, m³.
     done: usize,
     wear: f64,
@@ -41,7 +39,6 @@ impl Rows {
             wears: bodies.iter().any(|body| body.wear.is_some()),
             flows: bodies.iter().any(|body| body.plasticity.is_some()),
             grows: bodies.iter().any(|body| body.film.is_some()),
-            at_approach: motion.is_some_and(|motion| motion.control == ControlKind::Approach),
             done: 0,
             wear: 0.0,
         }
@@ -49,67 +46,69 @@ impl Rows {
 
     /// The row of a pass, the first below the heads of the columns and what they are.
     ///
-    /// Where bodies run in, what was prescribed and the largest pressure make room for wear, film and temperature.
+    /// Load, largest pressure and contact area stand in every table. Columns beyond the width of a terminal are left out by their rank.
     pub(super) fn pass(&mut self, pass: &PassRecord) -> String {
         self.done += pass.represents();
-        let running = pass.running.as_ref();
-        let approach = self.approach(pass.pass == 1, pass.approach);
-        let load = Cell::of("load", "mean_load", pass.mean_load);
-        let mut cells = match running {
-            None => vec![approach, load, Cell::of("p max", "max_pressure", pass.max_pressure)],
-            Some(_) => vec![if self.at_approach { load } else { approach }],
-        };
-        cells.push(Cell::of("area", "mean_contact_area_interior", pass.mean_contact_area_interior));
+        let mut ranked = vec![
+            (Rank::Always, Cell::of("load", "mean_load", pass.mean_load)),
+            (Rank::Always, Cell::of("p max", "max_pressure", pass.max_pressure)),
+            (Rank::Always, Cell::of("area", "mean_contact_area", pass.mean_contact_area)),
+        ];
+        ranked.insert(0, (Rank::Approach, self.approach(pass.pass == 1, pass.approach)));
+        if self.rim > 0.0 {
+            let inside = pass.mean_contact_area_interior;
+            ranked.push((Rank::Always, Cell::of("inside", "mean_contact_area_interior", inside)));
+        }
         if self.yields {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
-            cells.push(Cell::of("plastic", "plastic_volume_lower_interior", plastic));
+            ranked.push((Rank::Plastic, Cell::of("plastic", "plastic_volume_lower_interior", plastic)));
         }
         if let Some(flow) = &pass.flow {
             let work = flow.plastic_work_lower + flow.plastic_work_upper;
-            cells.push(Cell::of("work", "plastic_work_lower", work));
+            ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
         }
-        cells.push(Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior));
-        cells.push(Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior));
-        match running {
-            Some(running) => cells.extend(self.running(pass, running)),
+        ranked.push((Rank::Roughness, Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
+        ranked
+            .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
+        match &pass.running {
+            Some(running) => ranked.extend(self.running(pass, running)),
             None if self.slides => {
-                cells.push(Cell::of("friction", "friction_coefficient", pass.friction_coefficient))
+                let friction = Cell::of("friction", "friction_coefficient", pass.friction_coefficient);
+                ranked.push((Rank::Friction, friction));
             }
             None => {}
         }
-        let above = if pass.pass == 1 { self.above(running) } else { String::new() };
+        let (cells, left_out) = within_a_terminal(ranked);
+        let above = if pass.pass == 1 { self.above(&left_out) } else { String::new() };
         above + &self.columns.row("pass", self.done, &cells)
     }
 
-    /// What wear, films and friction's heat add to the row of a pass.
-    fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<Cell> {
+    /// The cells that wear, films and heat of friction add to the row of a pass.
+    fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<(Rank, Cell)> {
         let mut cells = Vec::new();
         if self.wears {
             self.wear += pass.lost_inside("wear")[0] + pass.lost_inside("wear")[1];
-            cells.push(Cell::growing("wear", "wear_volume_lower_interior", 1e-18, self.wear));
+            cells.push((Rank::Always, Cell::growing("wear", "wear_volume_lower_interior", 1e-18, self.wear)));
         }
         if self.grows {
             let film = running.mean_film_lower.max(running.mean_film_upper);
-            cells.push(Cell::growing("film", "mean_film_lower", 1e-9, film));
+            cells.push((Rank::Always, Cell::growing("film", "mean_film_lower", 1e-9, film)));
         }
         if running.max_flash_temperature.is_finite() {
-            cells.push(Cell::of("T max", "max_flash_temperature", running.max_flash_temperature));
+            let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
+            cells.push((Rank::Always, temperature));
         }
         cells
     }
 
-    /// What the columns of passes are.
-    fn above(&self, running: Option<&RunningRecord>) -> String {
-        let means = match running {
-            Some(_) if !self.at_approach => "area: mean over the pass",
-            _ => "load and area: means over the pass",
-        };
-        let mut above = means.to_owned();
-        if self.apart && (running.is_none() || !self.at_approach) {
-            above += &format!("; apart: between the {}", self.planes);
+    /// The lines above the heads of the columns of passes.
+    fn above(&self, left_out: &[&str]) -> String {
+        let mut above = "load, area: means over the pass".to_owned();
+        if self.apart && !left_out.contains(&"apart") {
+            above += &format!("; apart: distance of the {}", self.planes);
         }
         if self.wears {
-            above += "; wear: of both bodies so far";
+            above += "; wear: both bodies, so far";
         }
         if self.grows {
             above += "; film: mean of the thicker";
@@ -119,10 +118,18 @@ impl Rows {
         }
         above += "\n";
         if self.rim > 0.0 {
-            let of = [("area", true), ("plastic volume", self.yields), ("Sq", true), ("wear", self.wears)];
-            let of: Vec<&str> = of.into_iter().filter(|(_, shown)| *shown).map(|(name, _)| name).collect();
-            above +=
-                &format!("{}: without the rim, {} of the length at free ends\n", of.join(", "), self.rim);
+            let of =
+                [("Sq lower", "Sq", true), ("plastic", "plastic", self.yields), ("wear", "wear", self.wears)];
+            let of = of.into_iter().filter(|(head, _, shown)| *shown && !left_out.contains(head));
+            let of: Vec<&str> = of.map(|(_, name, _)| name).collect();
+            above += &format!(
+                "inside: without the rim, {} of the length at free ends; {} too\n",
+                self.rim,
+                of.join(", ")
+            );
+        }
+        if !left_out.is_empty() {
+            above += &format!("not in this table: {}, see passes.csv\n", left_out.join(", "));
         }
         above
     }
@@ -135,11 +142,12 @@ impl Rows {
         if self.slides {
             // What rounding leaves of a force that is not there.
             let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
+            let [x, y] = [point.tangential_force_x, point.tangential_force_y].map(force);
             cells.extend([
                 Cell::of("creep x", "creepage_x", point.creepage_x),
                 Cell::of("creep y", "creepage_y", point.creepage_y),
-                Cell::of("force x", "tangential_force_x", force(point.tangential_force_x)),
-                Cell::of("force y", "tangential_force_y", force(point.tangential_force_y)),
+                Cell::of("T/W x", "friction_coefficient", x / point.load),
+                Cell::of("T/W y", "friction_coefficient", y / point.load),
                 Cell::of("shear", "max_shear", point.max_shear),
                 Cell::share("stick", point.stick_area / point.contact_area),
                 Cell::share("area", point.contact_fraction),
@@ -157,9 +165,12 @@ impl Rows {
             }
             cells.push(Cell::of("stiff", "stiffness", point.stiffness));
         }
-        let above = match first && self.apart && !self.slides {
-            true => format!("gap: mean; apart: between the {}\n", self.planes),
-            false => String::new(),
+        let above = match (first, self.slides) {
+            (true, true) => {
+                "T/W: traction coefficient, tangential force over load; area: of the grid\n".to_owned()
+            }
+            (true, false) if self.apart => format!("gap: mean; apart: distance of the {}\n", self.planes),
+            _ => String::new(),
         };
         above + &self.columns.row("point", point.point, &cells)
     }
@@ -174,6 +185,32 @@ impl Rows {
             false => Cell::of("approach", "approach", approach),
         }
     }
+}
+
+/// How soon a column makes room for others, the last one first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Always,
+    Roughness,
+    Friction,
+    Plastic,
+    Approach,
+    UpperRoughness,
+}
+
+/// The cells that a terminal of 80 characters has room for, in their order, and the heads of the others.
+fn within_a_terminal(mut ranked: Vec<(Rank, Cell)>) -> (Vec<Cell>, Vec<&'static str>) {
+    const ROOM: usize = 8;
+    let mut left_out = Vec::new();
+    while ranked.len() > ROOM {
+        let last =
+            (0..ranked.len()).max_by_key(|at| ranked[*at].0).expect("there are more than a row has room for");
+        if ranked[last].0 == Rank::Always {
+            break;
+        }
+        left_out.push(ranked.remove(last).1.head());
+    }
+    (ranked.into_iter().map(|(_, cell)| cell).collect(), left_out)
 }
 
 /// The planes whose distance is −approach: z = 0 of both bodies, which is the mean of a levelled or generated surface.

@@ -1,13 +1,13 @@
 //! `asperity surface info`.
 
 use asperity::study::exact_pitch;
-use asperity::surface::{GreenwoodWilliamson, LengthUnit, Parameter, Unit};
-use asperity::units::Multiple;
+use asperity::surface::{Axis, GreenwoodWilliamson, LengthUnit, Parameter, Unit};
+use asperity::units::{self, Metre, Multiple};
 use serde_json::{Value, json};
 
 use super::description::{Description, Law, Profiles, Statistics};
 use super::table::Table;
-use super::{Read, read_prepared, suggest_level, without_pitch};
+use super::{Read, line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::Info;
 use crate::report::{Outcome, print};
 
@@ -18,7 +18,8 @@ pub(super) fn info(arguments: &Info) -> Outcome {
         return Err(without_pitch(message));
     }
     suggest_level(&file.topography);
-    let description = Description::of(&file, arguments.cutoff)?;
+    let cutoff = arguments.cutoff.or_else(|| cutoff_of_a_line(&file));
+    let description = Description::of(&file, cutoff)?;
     if arguments.json {
         print(&format!("{:#}\n", json(&file, &description)))
     } else {
@@ -49,7 +50,9 @@ fn json(file: &Read, description: &Description) -> Value {
 fn text(file: &Read, description: &Description) -> String {
     let mut table = Table::default();
     about_file(&mut table, file);
-    let parameters = description.parameters.rows();
+    let is_line = line_of(&file.topography).is_some();
+    // A line has no areal parameters.
+    let parameters = if is_line { Vec::new() } else { description.parameters.rows() };
     for family in parameters.chunk_by(|a, b| a.family == b.family) {
         table.title(format!("{} parameters, ISO 25178-2", family[0].family));
         for row in family {
@@ -58,13 +61,24 @@ fn text(file: &Read, description: &Description) -> String {
             table.numbers(row.symbol, [row.value], &multiple, row.meaning);
         }
     }
-    if let Some(statistics) = &description.statistics {
+    if let Some(statistics) = description.statistics.as_ref().filter(|_| !is_line) {
         about_statistics(&mut table, statistics);
     }
     if let Some(profiles) = &description.profiles {
-        about_profiles(&mut table, profiles);
+        about_profiles(&mut table, profiles, line_of(&file.topography));
     }
     table.text()
+}
+
+/// The cut-off for a line where none is given: the longest of ISO 21920-3 of which the line has five, else a fifth of the line.
+fn cutoff_of_a_line(file: &Read) -> Option<Metre> {
+    const CUTOFFS: [Metre; 5] = [8e-3, 2.5e-3, 0.8e-3, 0.25e-3, 0.08e-3];
+    file.pitch?;
+    let axis = line_of(&file.topography)?;
+    let grid = file.topography.grid();
+    let [fifth, pitch] = [grid.extent()[axis as usize] / 5.0, grid.pitch[axis as usize]];
+    let cutoff = CUTOFFS.into_iter().find(|cutoff| *cutoff <= fifth).unwrap_or(fifth);
+    Some(cutoff).filter(|cutoff| *cutoff >= 2.0 * pitch)
 }
 
 /// Whether two parameters are told in one unit: heights with heights, lengths along the surface with such.
@@ -78,7 +92,7 @@ fn about_file(table: &mut Table, file: &Read) {
     let grid = file.topography.grid();
     let [low, high] = extremes(file);
     let undefined = file.topography.undefined();
-    let share = 100.0 * undefined as f64 / grid.cells() as f64;
+    let share = units::format_number(100.0 * undefined as f64 / grid.cells() as f64);
     table.words("format", file.scan.format, "");
     let side = if file.scan.is_underside() { "an underside: as [upper] it is mounted as it is" } else { "" };
     table.words("channel", &file.scan.channel, side);
@@ -93,7 +107,9 @@ fn about_file(table: &mut Table, file: &Read) {
     if file.scan.unit != LengthUnit::Known {
         table.words("unit", "m (the file has none: --unit)", "");
     }
-    table.words("undefined", format!("{undefined} ({share:.2} %)"), "");
+    if undefined > 0 {
+        table.words("undefined", format!("{undefined} ({share} %)"), "samples without a height");
+    }
     let mean = file.topography.mean();
     // What rounding leaves of a mean that was subtracted.
     let mean = if mean.abs() < 1e-9 * (high - low) { 0.0 } else { mean };
@@ -136,16 +152,25 @@ fn about_statistics(table: &mut Table, statistics: &Statistics) {
     }
 }
 
-fn about_profiles(table: &mut Table, profiles: &Profiles) {
+/// The parameters along both axes, or along the only one of a line.
+fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
     let cutoff = Unit::Length.format(profiles.cutoff);
-    table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: along x | along y"));
+    let along_which = match line {
+        Some(axis) => format!("along {}", ["x", "y"][axis as usize]),
+        None => "along x | along y".to_owned(),
+    };
+    table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: {along_which}"));
     let rows: Vec<_> = profiles.x.rows().into_iter().zip(profiles.y.rows()).collect();
     // These lengths lie along the surface, the others are heights.
     let along = |row: &Parameter| ["Rsm", "Rdl"].contains(&row.symbol);
     for (x, y) in &rows {
         let alike = rows.iter().filter(|(other, _)| x.unit == other.unit && along(x) == along(other));
-        let multiple = x.unit.multiple(alike.flat_map(|(x, y)| [x.value, y.value]));
-        table.numbers(x.symbol, [x.value, y.value], &multiple, x.meaning);
+        let shown = |x: &Parameter, y: &Parameter| match line {
+            Some(axis) => vec![[x.value, y.value][axis as usize]],
+            None => vec![x.value, y.value],
+        };
+        let multiple = x.unit.multiple(alike.flat_map(|(x, y)| shown(x, y)));
+        table.numbers(x.symbol, shown(x, y), &multiple, x.meaning);
     }
 }
 

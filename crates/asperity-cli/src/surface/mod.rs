@@ -13,7 +13,7 @@ pub(crate) use description::RINGS;
 use std::path::Path;
 
 use asperity::grid::Grid;
-use asperity::surface::{Findings, Level, ReadOptions, Scan, Topography};
+use asperity::surface::{Axis, Findings, LengthUnit, Level, ReadOptions, Scan, Topography};
 use asperity::units::{self, Dimension, Metre};
 
 use crate::args::{Input, Reading, Surface};
@@ -40,9 +40,11 @@ fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
     let mut options = ReadOptions::default();
     options.channel.clone_from(&reading.channel);
     options.unit = reading.unit;
-    options.pitch = reading.pitch.map(|pitch| pitch.0);
     let mut scan = options.scan(path)?;
-    let pitch = scan.pitch;
+    if let (Some(own), Some(_)) = (scan.pitch, &reading.pitch) {
+        return Err(has_pitch(path, own, &scan));
+    }
+    let pitch = scan.pitch.or(reading.pitch.map(|pitch| pitch.0));
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;
     Ok(Read { topography: Topography::new(grid, heights)?, pitch, scan })
@@ -58,6 +60,28 @@ fn read_prepared(input: &Input) -> Outcome<Read> {
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
     report(&findings, &topography);
     Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
+}
+
+/// The axis along which a single line of heights runs; none of a field of several lines.
+fn line_of(topography: &Topography) -> Option<Axis> {
+    match topography.grid().shape {
+        [nx, 1] if nx > 1 => Some(Axis::X),
+        [1, ny] if ny > 1 => Some(Axis::Y),
+        _ => None,
+    }
+}
+
+/// The failure of a pitch for a file that has its own.
+fn has_pitch(path: &Path, [x, y]: [Metre; 2], scan: &Scan) -> Failure {
+    let [x, y] = [x, y].map(|pitch| units::format(pitch, Dimension::Length));
+    let hint = match scan.unit {
+        LengthUnit::Known => "--resample brings it onto another pitch",
+        _ => "its lengths have no unit and are taken as metres; give the unit: --unit um",
+    };
+    Failure::usage(
+        format!("`{}` has a pitch of its own, {x} × {y}: --pitch would be ignored", path.display()),
+        Some(hint),
+    )
 }
 
 /// The failure of what needs a pitch, where neither the file nor an argument gives one.

@@ -13,7 +13,7 @@ use asperity::units::Metre;
 use serde_json::{Value, json};
 
 use super::description::{Law, RINGS};
-use super::{read_prepared, suggest_level, without_pitch};
+use super::{line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::PlotSurface;
 use crate::draw::{
     self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper, Quantity, Relief, Series,
@@ -47,6 +47,12 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     let name = arguments.input.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sheet =
         Sheet { folder: out.clone(), topography: &file.topography, name, paper: arguments.drawing.paper() };
+    if let Some(axis) = line_of(&file.topography) {
+        let curves = json!({ "profile": sheet.profile(axis)?, "spectrum": sheet.spectrum_along(axis)?, "bearing": sheet.bearing()? });
+        io::replace(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
+        note(&format!("figures of the profile and curves.json in {}", out.display()));
+        return Ok(());
+    }
     let curves = json!({
         "bearing": sheet.bearing()?,
         "distributions": sheet.distributions()?,
@@ -70,6 +76,34 @@ struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
+    /// The heights of a single line as a curve.
+    fn profile(&self, axis: Direction) -> Outcome<Value> {
+        let profile = self.topography.profile(axis, 0)?;
+        let place = |(k, z): (usize, &f64)| [(k as f64 + 0.5) * profile.pitch(), *z];
+        let points: Vec<[f64; 2]> = profile.heights().iter().enumerate().map(place).collect();
+        let x = Axis::linear(["x", "y"][axis as usize], Unit::Length);
+        let series = vec![Series::new("", points.clone(), Mark::Line)];
+        self.chart("profile", "profile", x, Axis::linear("height", Unit::Length), series)?;
+        Ok(json!(points))
+    }
+
+    /// The spectrum along the only axis of a line.
+    fn spectrum_along(&self, axis: Direction) -> Outcome<Value> {
+        let along = Spectrum::of(self.topography, Window::Hann).along(axis);
+        let shown = along.iter().filter(|p| p.wave_number > 0.0 && p.density > 0.0);
+        let points = shown.map(|p| [p.wave_number, p.density]).collect();
+        let x = Axis::log("wave number", Unit::Wavenumber);
+        let series = vec![Series::new("", points, Mark::Line)];
+        self.chart(
+            "spectrum",
+            "power spectral density along the profile",
+            x,
+            Axis::log("C", Unit::Of("m³")),
+            series,
+        )?;
+        Ok(json!(along))
+    }
+
     fn heights(&self) -> Outcome {
         let (heights, grid) = (self.topography.heights(), self.topography.grid());
         self.save("heights", "heights", &draw::heights(heights, grid))?;
@@ -92,7 +126,7 @@ impl Sheet<'_> {
             }
         }
         let map = draw::heights(&heights, self.topography.grid());
-        self.save("hills", "hills, pruned at 5 % of Sz", &map.remark("grey: their borders"))
+        self.save("hills", "hills (segments above 5 % of Sz)", &map.remark("grey: borders between hills"))
     }
 
     fn save(&self, name: &str, title: &str, figure: &dyn Figure) -> Outcome {

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use asperity::units::Multiple;
 
+use crate::numbers::in_column;
+
 /// Rows in sections: a name, one or two numbers aligned at their points, the unit, a remark.
 #[derive(Default)]
 pub(super) struct Table {
@@ -39,7 +41,7 @@ impl Table {
         unit: &Multiple,
         remark: impl Into<String>,
     ) {
-        let numbers = values.into_iter().map(|value| number(value / unit.factor)).collect();
+        let numbers = values.into_iter().map(|value| in_column(value / unit.factor)).collect();
         let (name, unit, remark) = (name.into(), unit.symbol.clone(), remark.into());
         self.rows.push(Row::Numbers { name, numbers, unit, remark });
     }
@@ -114,39 +116,9 @@ fn point(number: &str) -> (&str, &str) {
     number.split_at(number.find(['.', 'e']).unwrap_or(number.len()))
 }
 
-/// Four significant digits; `–` for NaN.
-fn number(value: f64) -> String {
-    match value.abs() {
-        size if size.is_nan() => "–".to_owned(),
-        0.0 => "0".to_owned(),
-        size if (1e-4..1e7).contains(&size) => {
-            let exponent =
-                format!("{size:.3e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
-            format!("{value:.*}", usize::try_from(3i32 - exponent).unwrap_or(0))
-        }
-        _ => format!("{value:.3e}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_have_four_digits() {
-        for (value, text) in [
-            (0.0, "0"),
-            (1.0, "1.000"),
-            (-14.67, "-14.67"),
-            (9.9996, "10.00"),
-            (65_795.0, "65795"),
-            (0.002_356, "0.002356"),
-            (2.758e-6, "2.758e-6"),
-            (f64::NAN, "–"),
-        ] {
-            assert_eq!(number(value), text);
-        }
-    }
 
     #[test]
     fn points_stand_below_each_other_and_units_too() {

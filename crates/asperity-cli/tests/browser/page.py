@@ -325,43 +325,49 @@ def rows_are_the_table(tab, table):
     number = lambda text: float(text.replace("−", "-"))
     for cells, row in zip(rows, table):
         assert sum(span for _, span in cells) == len(heads) and cells[0][0] == row["case"]
-        for [text, _], key, unit in zip(cells[1:4], ("contact.load", "lower.topography.sq", "lower.topography.seed"), (" (N)", " (m)", "")):
-            said, _, symbol = text.partition(" ")
-            assert np.isclose(number(said) * units.get(symbol, 1), float(row[key + unit]), rtol=6e-3), (text, row[key + unit])
-            assert len(said.lstrip("0.").replace(".", "")) <= 4, said
+        for [text, _], [_, *unit], key in zip(cells[1:4], heads[1:4], ("contact.load (N)", "lower.topography.sq (m)", "lower.topography.seed")):
+            assert np.isclose(number(text) * (units[unit[0]] if unit else 1), float(row[key]), rtol=6e-3), (text, row[key])
+            assert len(text.lstrip("0.").replace(".", "")) <= 4, text
         if row["state"] == "failed":
             assert cells[4][0] == row["message"] and "exceeds the plastic limit" in row["message"]
             continue
         for [text, _], [name, *unit] in zip(cells[4:-1], heads[4:-1]):
-            shown, expected = number(text) * units[unit[0]] if unit else number(text), float(row[name.replace(" ", "_")])
+            column = {"real area of contact": "contact_area", "largest pressure": "max_pressure"}.get(name, name.replace(" ", "_"))
+            expected = float(row["contact_area"]) / float(row["apparent_area"]) if column == "contact_fraction" else float(row[column])
+            shown = number(text) * units[unit[0]] if unit else number(text)
             assert np.isclose(shown, expected, rtol=6e-4, atol=0), (name, text, expected)
         assert cells[-1][0] == row["warnings"]
 
 
-def curves_are_means_of_the_table(tab, data, table):
-    """A curve for each value of the other axis; the mean over the samples at each point, to the last digit in the CSV."""
+def curves_are_means_of_the_table(tab, table):
+    """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, between the least and the largest."""
     done = [row for row in table if row["state"] == "done"]
     keys = {"contact.load": "contact.load (N)", "lower.topography.sq": "lower.topography.sq (m)"}
-    for key, column in keys.items():
-        [other] = [of for each, of in keys.items() if each != key]
-        chart = next(chart for chart in data["charts"] if chart["title"].startswith(f"contact area over {key}, means"))
-        assert len(chart["series"]) == len({row[other] for row in done})
-        assert len({series["name"] for series in chart["series"]}) == len(chart["series"])
-        assert all(len(series["name"]) < 10 for series in chart["series"]), [series["name"] for series in chart["series"]]
-        text = tab.evaluate("title => charts.find((view) => view.chart.title === title).csv()", chart["title"])
-        rows = list(csv.reader(text.splitlines()))
-        assert rows[0][0] == column
-        for n, value in enumerate(sorted({float(row[other]) for row in done}), 1):
-            of_curve = [row for row in done if float(row[other]) == value]
-            for k, x in enumerate(sorted({float(row[column]) for row in of_curve}), 1):
-                areas = [float(row["contact_area"]) for row in of_curve if float(row[column]) == x]
-                assert len(areas) == 2 and float(rows[k][0]) == x
-                assert np.isclose(float(rows[k][n]), np.mean(areas), rtol=1e-15), (key, rows[k], areas)
+    selects = tab.locator("#explorer select")
+    for place, (key, column) in enumerate(keys.items()):
+        [other_key, other] = next((each, of) for each, of in keys.items() if each != key)
+        selects.nth(1).select_option(str(place))
+        assert selects.nth(2).input_value() == other_key
+        for quantity, name in enumerate(tab.evaluate("explorer.quantities.map((q) => q.name)")):
+            if name == "contact_fraction":
+                continue
+            selects.nth(0).select_option(str(quantity))
+            rows = list(csv.reader(tab.evaluate("explorer.view.csv()").splitlines()))
+            values = sorted({float(row[other]) for row in done})
+            assert sum("least" in head for head in rows[0]) == len(values), rows[0]
+            first = [n for n, head in enumerate(rows[0]) if "least" in head]
+            for n, value in zip(first, values):
+                of_curve = [row for row in done if float(row[other]) == value]
+                for k, at in enumerate(sorted({float(row[column]) for row in of_curve}), 1):
+                    numbers = [float(row[name]) for row in of_curve if float(row[column]) == at]
+                    least, largest, mean = (float(rows[k][n + j]) for j in range(3))
+                    assert len(numbers) == 2 and (least, largest) == (min(numbers), max(numbers)), (key, name, rows[k], numbers)
+                    assert np.isclose(mean, np.mean(numbers), rtol=1e-15)
+    selects.nth(2).select_option("")
+    assert tab.evaluate("explorer.chart().series.filter((s) => s.mark === 'points').length") == 1
     # All ticks of an axis are said in one way.
     said = tab.evaluate("[[0, 1, 2], [-4, -3, -2, -1, 0, 1], [-7, Math.log10(2e-7)]].map((all) => labels(all, true))")
     assert said == [["1", "10", "100"], ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"], ["10⁻⁷", "2·10⁻⁷"]], said
-    titles = [heading.inner_text() for heading in tab.locator("#curves h3").all()]
-    assert titles == [f"over {key}" for key in keys], titles
 
 
 def keys_reach_the_cases(tab):
@@ -375,9 +381,29 @@ def keys_reach_the_cases(tab):
             break
         assert at[2], f"nothing shows that {at} has the focus"
         seen.append(at[:2])
-    assert ["A", "cases/0003/report.html"] in seen and ["A", "cases/0001/"] in seen and ["DIV", "table of cases"] in seen, seen
-    assert sum(name.startswith("CSV of") for _, name in seen) == tab.locator("[data-chart]").count()
+    assert ["A", "cases/0003/report.html"] in seen and ["BUTTON", "0001"] in seen and ["DIV", "table of cases"] in seen, seen
+    assert sum(name.startswith("CSV of") for _, name in seen) == tab.locator("[data-chart], #explorer").count()
     assert len({name for _, name in seen}) == len(seen), "two of one name"
+
+
+def clicks_sort_and_open(tab, table):
+    """A click on a head sorts, a second one turns the order round; a click on a row tells of its case."""
+    cases = lambda: [cell.inner_text() for cell in tab.locator("#cases tbody tr th").all()]
+    before = cases()
+    head = tab.locator("#cases thead button").first
+    head.click()
+    assert cases() == before and tab.locator("#cases thead th[aria-sort=ascending]").count() == 1
+    head.click()
+    assert cases() == before[::-1]
+    head.click()
+    tab.locator("#cases tbody tr", has_text="0001").first.locator("td").first.click()
+    panel = tab.locator("#panel")
+    assert panel.locator("h3").inner_text() == "Case 0001" and "asperity report" in panel.inner_text()
+    failed = next(row for row in table if row["state"] == "failed")
+    tab.locator("#cases tbody tr button", has_text=failed["case"]).first.click()
+    assert failed["message"] in panel.inner_text()
+    panel.locator("button", has_text="close").click()
+    assert panel.inner_text() == ""
 
 
 def heads_stay(tab):
@@ -393,7 +419,6 @@ def heads_stay(tab):
 def look_at_study(browser, directory, folder, axe):
     path = directory / "study.html"
     table = list(csv.DictReader(open(directory / "table.csv")))
-    data = Data(path.read_text()).json
     context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
     tab = context.new_page()
     wrong = []
@@ -408,7 +433,8 @@ def look_at_study(browser, directory, folder, axe):
     assert told == [f"case {row['case']}: {row['message']}" for row in failed]
     keys_reach_the_cases(tab)
     rows_are_the_table(tab, table)
-    curves_are_means_of_the_table(tab, data, table)
+    curves_are_means_of_the_table(tab, table)
+    clicks_sort_and_open(tab, table)
     nothing_is_empty(tab)
     downloads(tab, folder)
     for width in (1280, 400):

@@ -206,7 +206,7 @@ fn a_surface_survives_every_format_that_holds_it() {
     assert!((info["parameters"]["Sq"].as_f64().unwrap() / 0.2e-6 - 1.0).abs() < 1e-9);
 
     let text = ok(&at("surface info z.x3p"));
-    for part in ["64 × 48", "0.5 µm × 1 µm", "32 µm × 48 µm", "0.2000   µm", "Sdq", "Sdr", "Smrk1", "Vvv"]
+    for part in ["64 × 48", "500 nm × 1 µm", "32 µm × 48 µm", "200.0      nm", "Sdq", "Sdr", "Smrk1", "Vvv"]
     {
         assert!(text.contains(part), "{part}: {text}");
     }
@@ -493,7 +493,7 @@ fn surfaces_that_do_not_fit_are_told_how_to() {
     ok(&at("example measured --out m"));
     change(&folder.path().join("m/case.toml"), "pitch = \"1 um\"", "pitch = \"0.5 um\"");
     let error = refused(&at("check m/case.toml"));
-    assert!(error.contains("different pitches: lower 1 µm × 1 µm, upper 0.5 µm × 0.5 µm"), "{error}");
+    assert!(error.contains("different pitches: lower 1 µm × 1 µm, upper 500 nm × 500 nm"), "{error}");
     assert!(error.contains("`pitch = \"1 um\"` in [upper.topography]"), "{error}");
     assert!(error.contains("m/case.toml:27"), "{error}");
 

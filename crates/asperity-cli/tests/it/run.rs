@@ -33,10 +33,13 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
     );
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
     assert!(
-        table.starts_with("load and area: means over the pass; apart: between the mean planes\n"),
+        table.starts_with("load, area: means over the pass; apart: distance of the mean planes\n"),
         "{table}"
     );
-    assert!(table.contains("without the rim, 0.1 of the length at free ends\n"), "{table}");
+    assert!(
+        table.contains("inside: without the rim, 0.1 of the length at free ends; Sq, plastic too\n"),
+        "{table}"
+    );
     assert!(table.lines().skip(4).all(|line| line.contains("   20.00  ")), "{table}");
     let said = stderr(&output);
     let (warnings, end) = said.trim_end().rsplit_once('\n').unwrap();
@@ -83,7 +86,7 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
     let folder = folder_with("ball.toml", BALL);
     let output = run(&folder, "ball.toml --out results/of/ball");
     let table = ok(&output);
-    assert!(table.starts_with("load              20 mN\nmean pressure     19.53 MPa\napproach  "), "{table}");
+    assert!(table.starts_with("load              20 mN\nnominal pressure  19.53 MPa\napproach  "), "{table}");
     let figures = [
         "contact",
         "gap",
@@ -359,7 +362,7 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     let table = ok(&run(&folder, "ball.toml --out out"));
     assert!(
         table.contains("tangential force  3 mN, ")
-            && table.contains("force ratio       0.15\n")
+            && table.contains("traction coeff.   0.15\n")
             && !table.contains("friction coeff."),
         "{table}"
     );
@@ -569,8 +572,8 @@ fn a_motion_with_friction_bears_its_coefficient_and_less_under_a_film() {
     let rubbing = |friction: &str| format!("{}friction = {{ coefficient = 0.2{friction} }}\n", moving(2, 4));
     let folder = folder_with("case.toml", &rubbing(""));
     let table = ok(&run(&folder, "case.toml --out out"));
-    assert!(table.lines().nth(2).unwrap().ends_with(" friction"), "{table}");
-    assert!(table.lines().nth(4).unwrap().ends_with("      0.2"), "{table}");
+    assert!(table.lines().nth(3).unwrap().ends_with(" friction"), "{table}");
+    assert!(table.lines().nth(5).unwrap().ends_with("      0.2"), "{table}");
     let out = folder.path().join("out");
     assert!(files(&out).contains("figures/friction.png"));
     for row in table_of(&out.join("steps.csv"), &STEP_COLUMNS) {
@@ -841,8 +844,10 @@ fn an_animation_is_an_mp4_where_there_is_ffmpeg() {
     let bytes: usize = fs::read_to_string(folder.path().join("bytes")).unwrap().trim().parse().unwrap();
     assert!(bytes > frame && bytes.is_multiple_of(frame), "{bytes} bytes in frames of {frame}");
 
+    assert!(refused(&plot(&programs)).contains("--overwrite replaces the figures that are there"));
     put("#!/bin/sh\ncat > /dev/null; echo no codec >&2; exit 3\n");
-    let output = plot(&programs);
+    let again = "plot out --only pressure.mp4 --overwrite";
+    let output = command(&folder, again).env("PATH", &programs).output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("no codec") && fs::read(&drawn).unwrap() == b"film");
 }
@@ -872,7 +877,7 @@ fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
     ok(&run(&folder, "case.toml --out out --resume"));
     let map = fs::read(out.join("figures/topographies.png")).unwrap();
     let before = files(&out);
-    let error = limited(16, "plot out");
+    let error = limited(16, "plot out --overwrite");
     assert_eq!(error, "error: cannot draw `out/figures/topographies.png`: File too large (os error 27)\n");
     assert!(fs::read(out.join("figures/topographies.png")).unwrap() == map, "the older figure is whole");
     assert_eq!(files(&out), before);

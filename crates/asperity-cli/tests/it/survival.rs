@@ -285,7 +285,7 @@ fn ctrl_c_counts_while_figures_are_drawn() {
     send("INT", &child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-    let told = "error: interrupted before all figures were drawn\nhint: the results are whole; `asperity plot out` draws";
+    let told = "error: interrupted before all figures were drawn\nhint: the results are whole; `asperity plot out --overwrite` draws";
     assert!(stderr(&output).contains(told), "{}", stderr(&output));
     assert!(out.join("summary.json").exists() && !out.join("figures/approach.png").exists());
     ok(&asperity(&folder, "plot out"));

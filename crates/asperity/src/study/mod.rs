@@ -29,6 +29,7 @@ mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 pub use case::Case;
 pub use case::rules::rules;
 pub use case::schema::keys;
+pub use case::schema::tables::dimension as dimension_of_key;
 pub use closed_form::{ClosedForm, ClosedFormRecord, Theory};
 pub use columns::{
     INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,

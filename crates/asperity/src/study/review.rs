@@ -224,8 +224,23 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
     let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
-    let all = flows.into_iter().chain(wears).chain(too_few_cells(largest));
+    let all = contact_in_the_rim(passes).into_iter().chain(flows).chain(wears).chain(too_few_cells(largest));
     all.chain(films_of_passes(passes)).chain(all_computed(case, passes)).chain(settled(passes)).collect()
+}
+
+/// Warns if most of the contact of the last pass lies in the rim, which the numbers of the interior leave out.
+fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
+    /// Largest share of the contact in the rim without a warning. Equal bodies in partial overlap have more than half there.
+    const MOST: f64 = 0.9;
+    let last = passes.last()?;
+    let share = 1.0 - last.mean_contact_area_interior / last.mean_contact_area;
+    (share > MOST).then(|| {
+        format!(
+            "{:.1} % of the contact area lies in the rim of the bodies: the columns of the interior leave most of it out; \
+             remove tilt and form by `level`, or `taper` the ends",
+            100.0 * share
+        )
+    })
 }
 
 /// Warns if in some pass a film is thicker than the roughness it covers.

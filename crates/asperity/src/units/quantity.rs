@@ -116,7 +116,7 @@ pub const CELSIUS: f64 = 273.15;
 
 /// Writes a quantity with four significant digits and a suitable prefix: `2.4 GPa`, `0.25 µm`, `12.3 mN`.
 ///
-/// [`parse`] reads it back. Lengths from 0.1 µm up stay in micrometres, the unit of roughness. Angles are in degrees.
+/// [`parse`] reads it back. The number is from 1 to 1000, of areas from 0.01 and of volumes from 0.001. Angles are in degrees.
 pub fn format(value: f64, dimension: Dimension) -> String {
     format_digits(value, dimension, 4)
 }
@@ -379,7 +379,6 @@ impl Dimension {
     /// The smallest number written with the prefix 10^`exponent`.
     fn smallest(self, exponent: i32) -> f64 {
         match (self, exponent) {
-            (Self::Length, -6) => 0.1,
             (Self::Area, _) => 1e-2,
             (Self::Volume, _) => 1e-3,
             _ => 1.0,
@@ -614,10 +613,10 @@ mod tests {
     #[test]
     fn as_many_digits_are_written_as_it_takes() {
         let written = |value| format_within(value, Length, 1e-9);
-        assert_eq!(written(0.5e-6), "0.5 µm");
-        assert_eq!(written(0.81234e-6), "0.81234 µm");
-        assert_eq!(written(0.123456789123e-6), "0.123456789 µm");
-        assert_eq!(written(1e-6 / 6.0), "0.1666666667 µm");
+        assert_eq!(written(0.5e-6), "500 nm");
+        assert_eq!(written(0.81234e-6), "812.34 nm");
+        assert_eq!(written(0.123456789123e-6), "123.456789 nm");
+        assert_eq!(written(1e-6 / 6.0), "166.6666667 nm");
         assert_eq!(written(0.0), "0 m");
         arbtest::arbtest(|u| {
             let value = f64::from(u.int_in_range(1..=i32::MAX)?) * 10f64.powi(u.int_in_range(-20..=-3)?);
@@ -712,7 +711,7 @@ mod tests {
         for (value, dimension, text) in [
             (2.4e9, Pressure, "2.4 GPa"),
             (210e9, Pressure, "210 GPa"),
-            (0.25e-6, Length, "0.25 µm"),
+            (0.25e-6, Length, "250 nm"),
             (0.05e-6, Length, "50 nm"),
             (1.234567e-3, Length, "1.235 mm"),
             (-3e-6, Length, "-3 µm"),
@@ -731,7 +730,7 @@ mod tests {
         ] {
             assert_eq!(format(value, dimension), text);
         }
-        assert_eq!(format_digits(0.123_456_7e-6, Length, 6), "0.123457 µm");
+        assert_eq!(format_digits(0.123_456_7e-6, Length, 6), "123.457 nm");
     }
 
     #[test]

@@ -131,7 +131,7 @@ mod tests {
             (low_pass(f64::NAN, [8e-6; 2]), "sq is NaN"),
             (low_pass(1e-7, [8e-6, 1.9e-6]), "cutoff is 1.9 µm"),
             (low_pass(1e-7, [8e-6, 33e-6]), "cutoff is 33 µm"),
-            (exponential([0.5e-6, 8e-6]), "correlation_length is 0.5 µm"),
+            (exponential([0.5e-6, 8e-6]), "correlation_length is 500 nm"),
             (exponential([8e-6, f64::INFINITY]), "correlation_length is inf"),
             (self_affine(1.1, None, None, sq), "hurst is 1.1"),
             (self_affine(0.8, None, Some(1e-6), sq), "shortest is 1 µm"),

@@ -63,15 +63,12 @@ impl Unit {
         sizes.sort_unstable_by(f64::total_cmp);
         let typical = sizes.get(sizes.len() / 3).copied().unwrap_or(0.0);
         let of = |factor: f64, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
-        let length = || Dimension::Length.multiple(typical);
         match self {
             Self::Number => of(1.0, ""),
             Self::Share => of(0.01, "%"),
-            Self::Length => length(),
-            Self::VolumePerArea => {
-                let Multiple { factor, symbol } = length();
-                Multiple { factor, symbol: format!("{symbol}³/{symbol}²") }
-            }
+            Self::Length => Dimension::Length.multiple(typical),
+            // As ISO 25178 and instruments have it, which is ml/m².
+            Self::VolumePerArea => of(1e-6, "µm³/µm²"),
             Self::Area => Dimension::Area.multiple(typical),
             Self::Volume => Dimension::Volume.multiple(typical),
             Self::PerLength => of(1e3, "/mm"),
@@ -151,8 +148,8 @@ mod tests {
         for (unit, value, text) in [
             (Unit::Number, 0.123_46, "0.1235"),
             (Unit::Share, 0.0931, "9.31 %"),
-            (Unit::Length, 2e-7, "0.2 µm"),
-            (Unit::VolumePerArea, 3e-8, "30 nm³/nm²"),
+            (Unit::Length, 2e-7, "200 nm"),
+            (Unit::VolumePerArea, 3e-8, "0.03 µm³/µm²"),
             (Unit::PerLength, 12_500.0, "12.5 /mm"),
             (Unit::Angle, std::f64::consts::FRAC_PI_4, "45°"),
             (Unit::Length, f64::NAN, "–"),
@@ -165,7 +162,7 @@ mod tests {
     fn values_side_by_side_have_the_unit_of_the_smaller() {
         let multiple = |unit: Unit, values: &[f64]| unit.multiple(values.iter().copied()).symbol;
         assert_eq!(multiple(Unit::Length, &[f64::NAN, -1.2e-6, 3e-9, 8e-9, 0.0]), "nm");
-        assert_eq!(multiple(Unit::VolumePerArea, &[3e-9, 4e-9]), "nm³/nm²");
+        assert_eq!(multiple(Unit::VolumePerArea, &[3e-9, 4e-9]), "µm³/µm²");
         assert_eq!(multiple(Unit::Length, &[0.0]), "m");
     }
 }

@@ -41,8 +41,8 @@ fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     })
 }
 
-/// What a dotted key of a case measures: `contact.load` a force; none of pure numbers and of what is no number.
-pub(in crate::study) fn dimension(key: &str) -> Option<Dimension> {
+/// Returns what a dotted key of a case measures: `contact.load` a force; none for pure numbers and for what is no number.
+pub fn dimension(key: &str) -> Option<Dimension> {
     let (table, name) = key.rsplit_once('.')?;
     let mut keys = sections(table).flat_map(|section| section.keys);
     keys.find(|key| key.name == name).and_then(|key: &Key| key.kind.dimension())

@@ -1,0 +1,50 @@
+//! Numbers as tables, page and figures write them: four digits, and one unit for those that stand together.
+
+use asperity::units::{Dimension, Multiple};
+
+/// Writes a number with four significant digits and their zeros, as numbers below each other have them; `–` for NaN.
+pub(crate) fn in_column(value: f64) -> String {
+    match value.abs() {
+        size if size.is_nan() => "–".to_owned(),
+        0.0 => "0".to_owned(),
+        size if (1e-4..1e7).contains(&size) => {
+            let exponent =
+                format!("{size:.3e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+            format!("{value:.*}", usize::try_from(3i32 - exponent).unwrap_or(0))
+        }
+        _ => format!("{value:.3e}"),
+    }
+}
+
+/// Writes two quantities, SI, in the unit that suits the larger of them: `33.80 → 31.25 nm` of `from` and `to`.
+pub(crate) fn change([from, to]: [f64; 2], dimension: Dimension) -> String {
+    let Multiple { factor, symbol } = dimension.multiple(from.abs().max(to.abs()));
+    format!("{} → {} {symbol}", in_column(from / factor), in_column(to / factor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1.000"),
+            (-14.67, "-14.67"),
+            (9.9996, "10.00"),
+            (65_795.0, "65795"),
+            (0.002_356, "0.002356"),
+            (2.758e-6, "2.758e-6"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(in_column(value), text);
+        }
+    }
+
+    #[test]
+    fn a_change_has_one_unit() {
+        assert_eq!(change([35e-9, 31.736e-9], Dimension::Length), "35.00 → 31.74 nm");
+        assert_eq!(change([9.5e-7, 1.2e-6], Dimension::Length), "0.9500 → 1.200 µm");
+    }
+}

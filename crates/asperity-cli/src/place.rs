@@ -1,0 +1,50 @@
+//! What a path names: a case file, a study file, results, or a folder that holds one of them.
+
+use std::path::{Path, PathBuf};
+
+use asperity::Error;
+use asperity::study::{Case, Results};
+
+use crate::report::{Failure, Outcome};
+
+/// Loads a case file for the command of that name. A study file or a folder in its place is named as what it is.
+pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
+    Case::load(path).map_err(|error| match instead_of_a_case(path, command) {
+        Some((message, hint)) => Failure::usage(message, hint.as_deref()),
+        None => error.into(),
+    })
+}
+
+/// Opens a results directory for the command of that name. The hint names the results within a folder that holds some.
+pub(crate) fn results(path: &Path, command: &str) -> Outcome<Results> {
+    Results::open(path).map_err(|error| {
+        let inner = path.join("results");
+        match (&error, Results::open(&inner)) {
+            (Error::NoResults { .. }, Ok(_)) => {
+                let hint = format!("the results are in `{0}`: asperity {command} {0}", inner.display());
+                Failure::usage(error.to_string(), Some(&hint))
+            }
+            _ => error.into(),
+        }
+    })
+}
+
+/// What a path is that no case can be loaded from, and what to do.
+fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<String>)> {
+    if path.is_dir() {
+        let inner = ["case.toml", "case/case.toml"].map(|inner| path.join(inner));
+        let inner: Option<PathBuf> = inner.into_iter().find(|inner| inner.is_file());
+        let hint =
+            inner.map(|inner| format!("the case file is `{0}`: asperity {command} {0}", inner.display()));
+        return Some((format!("`{}` is a folder, expected a case file", path.display()), hint));
+    }
+    let text = std::fs::read_to_string(path).ok()?;
+    let table: toml::Table = toml::from_str(&text).ok()?;
+    let is_study = table.contains_key("base") && !table.contains_key("lower");
+    let path = path.display();
+    is_study.then(|| {
+        let hint =
+            format!("`asperity study {path}` computes its cases, `asperity study {path} --list` prints them");
+        (format!("`{path}` is a study, expected a case file"), Some(hint))
+    })
+}
