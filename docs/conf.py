@@ -41,7 +41,7 @@ html_theme_options = {
     "pygments_light_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
-html_sidebars = {"index": [], "gallery": []}
+html_sidebars = {"index": [], "start": [], "gallery": []}
 
 # Formulas are MathML, which browsers draw themselves: no script is fetched.
 html_math_renderer = "mathml"
@@ -75,6 +75,11 @@ def links_out_of_the_documents(app, name, source):
     source[0] = re.sub(r"(?<!!)\[([^\]\n]+)\]\((\.\./[^)#\s]+)(?:#[^)\s]*)?\)", text_alone, source[0])
 
 
+def without_fetched_icons(app, page, template, context, doctree):
+    """Takes the icons of an animation's buttons from the theme, not from the network."""
+    context["body"] = re.sub(r'<link rel="stylesheet"\s+href="https://[^"]*font-awesome[^"]*">', "", context.get("body", ""))
+
+
 def without_aliases(app, what, name, member, skip, options):
     """Skips the fields of named tuples, which their classes explain."""
     return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
@@ -86,7 +91,7 @@ def inline_formula(self, node):
 
 
 def displayed_formula(self, node):
-    self.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    self.body.append(f'<div class="formula">{convert(node.astext(), display="block")}</div>')
     raise SkipNode
 
 
@@ -94,4 +99,5 @@ def setup(app):
     app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     app.connect("autodoc-skip-member", without_aliases)
     app.connect("source-read", links_out_of_the_documents)
+    app.connect("html-page-context", without_fetched_icons)
     return {"parallel_read_safe": True}

@@ -110,6 +110,15 @@ fn every_key_of_a_summary_is_explained() {
     assert!(missing.is_empty(), "docs/results.md explains none of {missing:?}");
 }
 
+#[test]
+fn the_cases_of_the_gallery_are_valid() {
+    let files = fs::read_dir(path("gallery")).unwrap().map(|entry| entry.unwrap().path());
+    let cases = files.filter(|file| file.extension().is_some_and(|end| end == "toml"));
+    let loaded =
+        cases.map(|file| Case::load(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display())));
+    assert!(loaded.count() > 0);
+}
+
 /// Collects the keys of an object and of nested objects, without the case.
 fn keys(value: &Value, names: &mut Vec<String>) {
     match value {
