@@ -47,7 +47,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         // The results are incomplete: no wish for quiet hides that.
         note(&format!(
             "{} of {} cases are done, {} have failed, {} are running, {} are left; \
-             who finishes the last makes the tables, as --collect does",
+             the process that finishes the last case writes the tables, and so does --collect",
             tally.done,
             tally.all(),
             tally.failed,

@@ -42,9 +42,9 @@ class Explorer {
   offerColours() {
     const x = this.over[this.chosen.x];
     const others = this.study.axes.filter((axis) => axis !== x && !axis.seed && axis.texts.length > 1);
-    const before = this.colours.value;
+    const before = this.colours.options.length ? this.colours.value : null;
     this.colours.replaceChildren(...[...others.map((axis) => [axis.key, axis.label]), ["", "none"]].map(([key, label]) => element("option", { value: key }, label)));
-    if (others.some((axis) => axis.key === before)) this.colours.value = before;
+    if (before === "" || others.some((axis) => axis.key === before)) this.colours.value = before;
   }
 
   show() {

@@ -40,6 +40,7 @@ pub(crate) struct Map<'a> {
     /// Whether values lie beyond the range, below and above.
     pub(super) clipped: [bool; 2],
     outline: Option<(&'a Field, &'static str)>,
+    contours: Option<&'a Field>,
     arrows: Option<([&'a Field; 2], &'static str)>,
     mark: Option<([f64; 2], &'static str)>,
     block: Option<(f64, String)>,
@@ -146,6 +147,7 @@ impl<'a> Map<'a> {
             blank: "none",
             clipped: [false; 2],
             outline: None,
+            contours: None,
             arrows: None,
             mark: None,
             block: None,
@@ -180,6 +182,11 @@ impl<'a> Map<'a> {
     /// The same map with a line around the cells where `field` is above 0.
     pub(crate) fn outlined(self, field: &'a Field, name: &'static str) -> Self {
         Self { outline: Some((field, name)), ..self }
+    }
+
+    /// The same map with a line at each number of its colour bar; the field is that of the map.
+    pub(crate) fn with_contours(self, field: &'a Field) -> Self {
+        Self { contours: Some(field), ..self }
     }
 
     /// The same map with arrows along a vector of each cell, on a thinned grid.
@@ -252,6 +259,12 @@ impl<'a> Map<'a> {
         if let Some((field, _)) = self.outline {
             scene.clipped(at, |scene| scene.lines(outline(field, &frame, self.ends), OUTLINE));
         }
+        if let Some(field) = self.contours {
+            scene.clipped(at, |scene| {
+                self.levels(at.height)
+                    .for_each(|level| scene.lines(contour(field, level, &frame, self.ends), CONTOUR));
+            });
+        }
         if let Some((vector, _)) = self.arrows {
             scene.clipped(at, |scene| arrows(scene, vector, &frame, self.ends));
         }
@@ -277,6 +290,18 @@ impl<'a> Map<'a> {
         }
     }
 
+    /// The numbers at a bar of a height beside the map, SI, without those at its ends.
+    fn levels(&self, height: f64) -> impl Iterator<Item = f64> {
+        let [low, high] = self.shading.range;
+        let scale = bar_scale(self, low.abs().max(high.abs()), height);
+        let inside = scale
+            .ticks
+            .into_iter()
+            .map(|(share, _)| share)
+            .filter(|share| *share > 1e-9 && *share < 1.0 - 1e-9);
+        inside.map(move |share| low + share * (high - low))
+    }
+
     /// A pixel for a cell, where so many fit.
     fn image(&self, fits: [usize; 2]) -> Image {
         let cells = [self.cells.nrows(), self.cells.ncols()];
@@ -285,6 +310,7 @@ impl<'a> Map<'a> {
 }
 
 const OUTLINE: Stroke = Stroke { colour: [230, 60, 40], width: 0.5, dashed: false };
+const CONTOUR: Stroke = Stroke { colour: PAPER, width: 0.5, dashed: false };
 const BLOCK: Stroke = Stroke { colour: [213, 94, 0], width: 1.2, dashed: false };
 
 /// Places along an axis, from its beginning in steps of cells.
@@ -324,6 +350,19 @@ fn outline(field: &Field, frame: &Frame, ends: [[f64; 2]; 2]) -> Vec<Vec<Point>>
         }
     }
     lines
+}
+
+/// The line at a level of a field whose cells lie between the ends of the axes.
+fn contour(field: &Field, level: f64, frame: &Frame, ends: [[f64; 2]; 2]) -> Vec<Vec<Point>> {
+    let cells = [field.nrows(), field.ncols()];
+    let place = |at: [f64; 2]| {
+        let along = |axis: usize| {
+            let [begin, end] = ends[axis];
+            begin + (end - begin) * (at[axis] + 0.5) / cells[axis] as f64
+        };
+        frame.place([along(0), along(1)])
+    };
+    super::contour::line(field, level, place)
 }
 
 /// Means of a vector over blocks of cells, as arrows from the blocks' middles on; the longest is as long as a block.

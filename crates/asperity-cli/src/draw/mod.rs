@@ -9,6 +9,7 @@ mod animation;
 mod axis;
 mod chart;
 mod colour;
+mod contour;
 mod frame;
 mod image;
 mod legend;

@@ -46,6 +46,7 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
             Quantity::new("von Mises stress", Unit::Pressure),
             Colours::Pressure,
         );
+        let map = map.with_contours(&field);
         let on_it = at[1] == y;
         let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
         Ok(Maps::new(vec![map]))

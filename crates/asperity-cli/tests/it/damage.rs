@@ -63,7 +63,7 @@ fn whatever_is_damaged_of_results_is_named_and_nothing_panics() {
                     None => fs::remove_file(&path).unwrap(),
                     Some(content) => fs::write(&path, content).unwrap(),
                 }
-                for command in ["report out", "plot out --dpi 20"] {
+                for command in ["report out", "plot out --dpi 20 --overwrite"] {
                     let output = asperity(&folder, command);
                     let told = stderr(&output);
                     let at = format!("{command} of {kind}, {name} {how}: {:?}, {told}", output.status.code());
