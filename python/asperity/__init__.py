@@ -19,6 +19,7 @@ from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
 from ._study import Study, study
+from ._table import Table
 from .body import Body
 from .describe import (
     BearingCurve,
@@ -75,6 +76,7 @@ __all__ = [
     "SubsurfaceStress",
     "Summits",
     "Surface",
+    "Table",
     "Verification",
     "__version__",
     "channels",

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _case, _core, fields
+from . import _case, _core
 from ._keywords import MotionKeywords, takes
 from ._progress import Teller
 from ._run import Run
+from ._table import Table, records
 from ._temporary import Temporary
 from ._units import path
 from .body import Body, Handed, bodies, heights_like
@@ -134,9 +135,9 @@ class Pass(_Moving):
         return Contacts(*self._core.contacts(self.number))
 
     @cached_property
-    def steps(self) -> NDArray[np.void]:
+    def steps(self) -> Table:
         """A record for each position, with the columns of `steps.csv`."""
-        return fields.table(self._core.steps(self.number), _core.STEP_COLUMNS)
+        return records(self._core.steps(self.number), _core.STEP_COLUMNS)
 
     def on_bodies(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What comes to each cell of the lower and of the upper body in the whole pass.
