@@ -98,3 +98,7 @@ __all__ = [
     "verification_cases",
     "verify",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -167,8 +167,11 @@ class MotionKeywords(Common, Motion, Output, Execution, total=False):
     """Keywords of :func:`asperity.simulate` and :class:`asperity.Simulation`."""
 
 
+LOADS = ("load", "mean_pressure", "approach", "loads", "mean_pressures", "approaches")
+"""Keywords that prescribe the load; each call has exactly one of them."""
+
 _FLAGS = {"resume": False, "overwrite": False, "retry": False, "progress": True}
-"""What keywords default to that are not `None` by default."""
+"""Defaults of the keywords that are not `None` by default."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -20,6 +20,25 @@ from ._same import Comparable, same
 from ._units import Quantity, number, quantity, whole
 from .errors import bad_input
 
+__all__ = [
+    "Axis",
+    "BearingCurve",
+    "Core",
+    "Correlation",
+    "Distribution",
+    "GreenwoodWilliamson",
+    "Parameter",
+    "Parameters",
+    "Profile",
+    "Segmentation",
+    "SelfAffinity",
+    "SpectralMoments",
+    "Spectrum",
+    "Summits",
+    "WOLF_PRUNING",
+    "Window",
+]
+
 Axis = Literal["x", "y"]
 """A direction in the plane of the surface."""
 
@@ -806,3 +825,7 @@ def _range(key: str, value: Any) -> list[float]:
     if not 0.0 <= low < high:
         raise bad_input(key, f"'{key}' is {value!r}, expected two numbers that ascend")
     return [low, high]
+
+
+def __dir__() -> list[str]:
+    return __all__

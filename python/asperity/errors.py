@@ -12,6 +12,59 @@ import sys
 import warnings
 from typing import Any
 
+__all__ = [
+    "AsperityError",
+    "AtIncrement",
+    "AtPass",
+    "AtPoint",
+    "AtPosition",
+    "AtUpdate",
+    "BadInput",
+    "BeyondFriction",
+    "BeyondPass",
+    "BeyondPlasticLimit",
+    "CaseError",
+    "CorruptTopography",
+    "Failed",
+    "FailedCases",
+    "File",
+    "FileProblem",
+    "FlowNotConverged",
+    "GridMismatch",
+    "InUse",
+    "InternalError",
+    "Interrupted",
+    "LoadNotReached",
+    "Memory",
+    "MissingFile",
+    "ModelWarning",
+    "NoChannel",
+    "NoField",
+    "NoFormat",
+    "NoPitch",
+    "NoResults",
+    "NotATopography",
+    "NotConverged",
+    "NotFinite",
+    "NotResumable",
+    "NotThisStudy",
+    "NothingDefined",
+    "OtherCase",
+    "OtherRows",
+    "OutOfRange",
+    "OwnUnit",
+    "PeriodicFullContact",
+    "RanksDiffer",
+    "ResultsExist",
+    "SurfaceChanged",
+    "Threads",
+    "TooManyRanks",
+    "UndefinedSamples",
+    "Unsupported",
+    "WindowOutside",
+    "WithinResults",
+]
+
 
 class AsperityError(Exception):
     """Base of all exceptions of asperity."""
@@ -313,3 +366,7 @@ def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None)
         # From Python 3.11 on tracebacks show them.
         error.__dict__["__notes__"] = [f"hint: {hint}"]
     return error
+
+
+def __dir__() -> list[str]:
+    return __all__

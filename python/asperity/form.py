@@ -8,6 +8,8 @@ from typing import Literal
 from ._units import Pair, Quantity
 from .surface import Surface
 
+__all__ = ["cone", "cylinder", "ellipsoid", "flat", "grooves", "sinusoid", "sphere"]
+
 
 def sphere(radius: Quantity, shape: Sequence[int] | None = None, pitch: Pair | None = None) -> Surface:
     """A sphere of this radius, m, by its paraboloid, its apex in the middle at height 0."""
@@ -60,3 +62,7 @@ def grooves(
 ) -> Surface:
     """Grooves of this period and depth, m, ``"parabolic"`` or ``"triangular"``, their `lay` turned from x, rad."""
     return Surface._made_as("form", "grooves", locals())
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from ._units import Pair, Quantity
 from .surface import Surface
 
+__all__ = ["autocorrelation", "low_pass", "self_affine"]
+
 
 def low_pass(
     shape: Sequence[int] | None = None,
@@ -112,3 +114,7 @@ def self_affine(
         Seed of the random numbers, at least 0.
     """
     return Surface._made_as("generate", "self-affine", locals())
+
+
+def __dir__() -> list[str]:
+    return __all__

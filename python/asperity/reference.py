@@ -879,3 +879,6 @@ def light_contact_fraction_2d(mean_pressure: ArrayLike, full_contact_pressure: A
     """
     return _answer("light_contact_fraction_2d", [], mean_pressure, full_contact_pressure)
 
+
+def __dir__() -> list[str]:
+    return __all__

@@ -29,7 +29,7 @@ from .describe import (
     Summits,
     Window,
 )
-from .errors import _make, bad_input
+from .errors import AsperityError, _make, bad_input
 from .fields import Field
 
 _STEPS = (
@@ -161,10 +161,20 @@ class Surface(Comparable):
         return np.array(self.heights, dtype=dtype) if copy or dtype else self.heights
 
     def __repr__(self) -> str:
-        source = next(iter(self._table.items()))
-        steps = [key for key in self._table if key in _STEPS]
-        what = "heights" if source[0] == "given" else f"{source[0]} {source[1]!r}"
-        return f"<Surface: {what}{''.join(f', {step}' for step in steps)}>"
+        key, value = next(iter(self._table.items()))
+        source = "" if key == "given" else f"from {os.path.basename(value)}" if key == "file" else f"{key} {value!r}"
+        parts = [source, *(step for step in self._table if step in _STEPS)]
+        try:
+            nx, ny, missing = *self.shape, self.undefined
+            size = " × ".join(dict.fromkeys(_core.format(step, "length") for step in self.pitch))
+            # Heights of 1e300 have no square.
+            with np.errstate(over="ignore", invalid="ignore"):
+                sq = "" if missing == nx * ny else f", Sq {_core.format(float(np.nanstd(self.heights)), 'length')}"
+            holes = f", {missing} missing" if missing else ""
+            parts.insert(0, f"{nx} × {ny} cells of {size}{sq}{holes}")
+        except AsperityError:
+            parts.append("on the grid of the other body")
+        return f"<Surface: {', '.join(part for part in parts if part)}>"
 
     def _repr_html_(self) -> str:
         from ._html import surface
@@ -293,8 +303,35 @@ class Surface(Comparable):
         return self.heights, self.pitch
 
     def parameters(self) -> Parameters:
-        """All parameters of ISO 25178: heights, spatial, hybrid, functional, features; ``.Sq`` is a value, SI."""
-        return describe.parameters(self._grid)
+        """Return all parameters of ISO 25178: height, spatial, hybrid, functional and feature parameters.
+
+        ``.Sq`` is a value, SI. The parameters are computed once.
+        """
+        made = self._all()
+        if "parameters" not in made:
+            made["parameters"] = describe.parameters(self._grid)
+        found: Parameters = made["parameters"]
+        return found
+
+    @property
+    def sa(self) -> float:
+        """Arithmetical mean height Sa, m, one of :meth:`parameters`."""
+        return self.parameters().Sa
+
+    @property
+    def sq(self) -> float:
+        """Root mean square height Sq, m, one of :meth:`parameters`."""
+        return self.parameters().Sq
+
+    @property
+    def sz(self) -> float:
+        """Maximum height Sz, from the deepest pit to the highest peak, m, one of :meth:`parameters`."""
+        return self.parameters().Sz
+
+    @property
+    def sdq(self) -> float:
+        """Root mean square gradient Sdq, one of :meth:`parameters`."""
+        return self.parameters().Sdq
 
     def feature_parameters(self, pruning: float = WOLF_PRUNING) -> Parameters:
         """The feature parameters of ISO 25178, from hills and dales pruned at this share of Sz, 0 to 1."""
