@@ -11,7 +11,7 @@ looks below the surface.
 :mod:`asperity.reference` holds closed forms, and :func:`verify` holds the program against them.
 """
 
-from . import errors, form, generate, reference
+from . import errors, form, generate, keys, reference
 from ._core import __version__
 from ._contact import Contact, contact, slide
 from ._flow import Flow
@@ -86,6 +86,7 @@ __all__ = [
     "errors",
     "form",
     "generate",
+    "keys",
     "open",
     "read",
     "reference",

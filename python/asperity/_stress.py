@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
 from ._contact import Contact
+from ._keywords import Boundary
 from ._optional import need
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
 from .errors import bad_input
 from .material import Material, _poisson
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 """The components, in the order in which they are stored."""
@@ -193,27 +197,28 @@ class SubsurfaceStress(Stress):
         """The largest shear stress on any plane, and where it is, looked for as :attr:`most_stressed`."""
         return self._extremes[1]
 
-    def to_xarray(self) -> Any:
-        """The components, von Mises' stress and the largest shear as a Dataset of xarray over z, x and y, m."""
+    def to_xarray(self) -> Dataset:
+        """Return the components, the von Mises stress and the largest shear as an xarray Dataset over z, x and y, m."""
         xarray = need("xarray", "to_xarray()")
         _, nx, ny = self.shape
         x, y = (self.pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
         coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", self.depths), ("x", x), ("y", y))}
         arrays: Mapping[str, Any] = {**{name: self[name] for name in COMPONENTS}, "von_mises": self.von_mises}
         arrays = {**arrays, "max_shear": self.max_shear}
-        return xarray.Dataset(
+        dataset: Dataset = xarray.Dataset(
             {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
         )
+        return dataset
 
 
 def stress(
     source: Contact | ArrayLike,
     depths: Quantity | Sequence[Quantity] | NDArray[np.float64],
     *,
-    body: str = "lower",
+    body: Literal["lower", "upper"] = "lower",
     poisson: float | None = None,
     material: Material | None = None,
-    boundary: str | None = None,
+    boundary: Boundary | None = None,
     shear: Sequence[ArrayLike | None] | None = None,
     pitch: Pair | None = None,
     threads: int | None = None,

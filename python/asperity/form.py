@@ -57,7 +57,7 @@ def grooves(
     shape: Sequence[int] | None = None,
     pitch: Pair | None = None,
     *,
-    profile: str | None = None,
+    profile: Literal["parabolic", "triangular"] | None = None,
     lay: Quantity | None = None,
 ) -> Surface:
     """Grooves of this period and depth, m, ``"parabolic"`` or ``"triangular"``, their `lay` turned from x, rad."""

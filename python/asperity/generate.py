@@ -7,6 +7,7 @@ the same heights on every machine.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal
 
 from ._units import Pair, Quantity
 from .surface import Surface
@@ -20,7 +21,7 @@ def low_pass(
     *,
     sq: Quantity,
     cutoff: Pair,
-    band: str | None = None,
+    band: Literal["elliptic", "rectangular"] | None = None,
     ssk: float | None = None,
     sku: float | None = None,
     seed: int = 0,
@@ -57,7 +58,7 @@ def autocorrelation(
     *,
     sq: Quantity,
     correlation_length: Pair,
-    decay: str | None = None,
+    decay: Literal["exponential", "gaussian"] | None = None,
     lay: Quantity | None = None,
     ssk: float | None = None,
     sku: float | None = None,

@@ -40,6 +40,9 @@ _STEPS = (
 
 _MADE = ("generate", "form")
 
+Filter = Literal["gaussian", "robust"]
+"""Kind of an S-filter or an L-filter."""
+
 
 class Surface(Comparable):
     """The heights of one body on a regular grid, its material below them.
@@ -256,16 +259,20 @@ class Surface(Comparable):
         """Turn by an angle, rad or text such as ``"30 deg"``, from x to y."""
         return self._with(rotate=rotate)
 
-    def s_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
+    def s_filter(self, nesting_index: Quantity, filter: Filter | None = None) -> Surface:
         """Take waves shorter than `nesting_index` away, m; `filter` is ``"gaussian"`` or ``"robust"``."""
         return self._with(s_filter=nesting_index, filter=filter)
 
-    def l_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
+    def l_filter(self, nesting_index: Quantity, filter: Filter | None = None) -> Surface:
         """Take waves longer than `nesting_index` away, m."""
         return self._with(l_filter=nesting_index, filter=filter)
 
     def resample(
-        self, shape: Sequence[int] | None = None, *, pitch: Pair | None = None, interpolate: str | None = None
+        self,
+        shape: Sequence[int] | None = None,
+        *,
+        pitch: Pair | None = None,
+        interpolate: Literal["linear", "spline"] | None = None,
     ) -> Surface:
         """Bring it to a number of cells on the same extent, or to cells of another `pitch`, m."""
         if (shape is None) == (pitch is None):
